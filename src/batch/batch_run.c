@@ -35,7 +35,7 @@ static void check_row(const batch_run *run, batch_job *job)
 static void add_task(batch_run *run, pool_task *task)
 {
     batch_job *const job = &task->job;
-    file_stamp stamp; /* of the mesh, whose path is the first word */
+    file_stamp stamp; /* of the mesh */
     run->tasks[run->count++] = task;
     task->number = run->jobs++;
     check_row(run, job);
@@ -44,7 +44,7 @@ static void add_task(batch_run *run, pool_task *task)
         return;
     }
     task->mesh = ffd_hash(job->input, strlen(job->input));
-    task->is_large = ffd_file_stamp(job->words.data, &stamp) && stamp.size > MOST_SHARED;
+    task->is_large = ffd_file_stamp(job->desc.input.path, &stamp) && stamp.size > MOST_SHARED;
     task->has_mesh_name = !job->target || ffd_format_from_name(job->target) != FFD_FORMAT_AUTO;
     task->state = TASK_ORDERED;
     run->waiting++;
@@ -167,7 +167,7 @@ static ffd_status open_journal(batch_run *run, ffd_error *error)
     char *const path = desc->journal ? ffd_text_copy(desc->journal)
                                      : ffd_journal_default_path(origin, jobs->shard, jobs->shards);
     ffd_error reason;
-    if (path && desc->pool.dry && !(desc->pool.resume && ffd_file_exists(path))) {
+    if (path && desc->pool.wishes.dry && !(desc->pool.wishes.resume && ffd_file_exists(path))) {
         ffd_free(path); /* a dry run writes nothing, not even a journal */
         return FFD_OK;
     }
@@ -178,7 +178,7 @@ static ffd_status open_journal(batch_run *run, ffd_error *error)
     if (!status)
         return FFD_OK;
     if (!desc->journal) { /* the default journal is optional: it only saves time */
-        if (desc->pool.resume)
+        if (desc->pool.wishes.resume)
             ffd_run_log_error(run, &reason);
         return FFD_OK;
     }
@@ -223,7 +223,7 @@ static ffd_status open_view(batch_run *run, ffd_error *error)
                                 .shard = desc->jobs.shard,
                                 .shards = desc->jobs.shards,
                                 .force = desc->force || desc->jobs.resume,
-                                .dry = desc->pool.dry};
+                                .dry = desc->pool.wishes.dry};
     return ffd_run_view_create(&view, &run->view, error);
 }
 
@@ -247,8 +247,8 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
     /* Until workers exist, a signal may end the program in the default way. */
     if (desc->shared_box) {
         ffd_interrupt_watch();
-        status = ffd_batch_measure(&desc->jobs, &pool, desc->depfile && !pool.dry, &run->box, &run->box_files,
-                                   error);
+        status = ffd_batch_measure(&desc->jobs, &pool, desc->depfile && !pool.wishes.dry, &run->box,
+                                   &run->box_files, error);
     }
     if (!status && desc->positions) {
         ffd_interrupt_watch();
@@ -259,7 +259,7 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
     if (!status)
         status = open_journal(run, error);
     ffd_interrupt_watch();
-    if (!status && desc->depfile && !pool.dry)
+    if (!status && desc->depfile && !pool.wishes.dry)
         status = ffd_depfile_create(desc->depfile, &run->depfile, error);
     if (!status && desc->view)
         status = open_view(run, error);
@@ -269,17 +269,17 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
     if (!status)
         status = ffd_run_expect(run, replaces_files(run), error);
     if (!status && desc->report)
-        status = ffd_report_create(desc->report, pool.stable, NULL, &run->report, error);
+        status = ffd_report_create(desc->report, pool.wishes.stable, NULL, &run->report, error);
     if (!status && desc->positions)
         status = ffd_run_rows_place(&run->rows, desc, error);
-    pool.report = run->report || run->view || run->rows.report;
-    pool.quality = run->report || run->view;
+    pool.wishes.report = run->report || run->view || run->rows.report;
+    pool.wishes.quality = run->report || run->view;
     pool.draws = run->view != NULL;
     pool.rows = desc->positions ? &run->rows.array : NULL;
-    pool.depfile = run->depfile != NULL;
-    pool.records = run->journal != NULL;
+    pool.wishes.depfile = run->depfile != NULL;
+    pool.wishes.records = run->journal != NULL;
     pool.box = desc->shared_box ? &run->box : NULL;
-    pool.tells = run->files.comes_once;
+    pool.wishes.tells = run->files.comes_once;
     pool.origin = status ? NULL : ffd_jobs_name(run->source);
     return status ? status : ffd_pool_create(&pool, &run->pool, error);
 }
@@ -313,7 +313,7 @@ static void log_counts(batch_run *run)
              ffd_plural(counts.workers, "worker", "workers"), counts.jobs.reads,
              ffd_plural(counts.jobs.reads, "time", "times"), counts.jobs.searches,
              ffd_plural(counts.jobs.searches, "time", "times"));
-    if (run->desc->pool.verbose)
+    if (run->desc->pool.wishes.verbose)
         ffd_progress_print(&run->progress, line);
 }
 
@@ -391,7 +391,7 @@ ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)
         }
         log_counts(&run);
         if (!status)
-            ffd_progress_end(&run.progress, &run.counts, desc->pool.dry ? "to do" : "done",
+            ffd_progress_end(&run.progress, &run.counts, desc->pool.wishes.dry ? "to do" : "done",
                              SPELLED(remark_of(&run)));
     }
     *failed = run.counts.failed > 0 || run.dropped;

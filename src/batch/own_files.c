@@ -48,11 +48,11 @@ static ffd_status check_reads(const own_file *file, const job_source_desc *jobs,
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < sizeof reads / sizeof *reads && !status; i++)
         status = check_read(file, &reads[i], error);
-    for (size_t i = 0; i < jobs->lattice_count && !status; i++)
-        status = check_read(file, &(own_file){"a lattice", jobs->lattices[i].path}, error);
-    for (size_t i = 0; i < jobs->default_count && !status; i++)
-        if (strcmp(jobs->defaults[i].name, "embedding") == 0)
-            status = check_read(file, &(own_file){"the embedding", jobs->defaults[i].value}, error);
+    const ffd_deform_desc *const defaults = jobs->defaults;
+    for (size_t i = 0; defaults && i < defaults->lattice_count && !status; i++)
+        status = check_read(file, &(own_file){"a lattice", defaults->lattices[i].path}, error);
+    if (!status && defaults && defaults->embedding)
+        status = check_read(file, &(own_file){"the embedding", defaults->embedding}, error);
     return status;
 }
 

@@ -5,7 +5,7 @@
 #include "base/system/clock.h"
 #include "base/system/processors.h"
 #include "base/text/words.h"
-#include "batch/manifest/job_memory.h"
+#include "job/input/settings.h"
 #include <ffd/job.h>
 #include <stdio.h>
 #include <string.h>
@@ -81,50 +81,26 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
     wire_task head;
     memset(&head, 0, sizeof head); /* also clears padding, which is sent */
     ffd_buffer_append(&text, &head, sizeof head);
-    ffd_buffer_append(&text, job->words.data, job->words.size);
-    ffd_buffer_append(&text, job->content.data, job->content.size);
+    ffd_settings_write(&job->desc, SETTINGS_ALL, &text);
+    append_word(&text, job->desc.input.path);
     append_word(&text, pool->desc.origin);
     append_word(&text, job->input);
     append_word(&text, ffd_job_output_name(job) ? ffd_job_output_name(job) : "");
     append_word(&text, task->picture ? task->picture : "");
     append_word(&text, desc->rows ? desc->rows->path : "");
     ffd_buffer_append(&text, task->passed.data, task->passed.size);
-    head.line = job->line;
     head.text_size = text.size - sizeof head;
-    head.word_count = (uint32_t)job->word_count;
-    head.content_words = count_words(&job->content);
+    head.line = job->line;
+    head.row = job->row;
+    head.content = job->content;
+    head.wishes = desc->wishes;
+    head.order = task->order;
     head.passed_count = count_words(&task->passed) / 2;
     head.threads = threads;
-    head.record = task->record;
-    head.has_record = task->has_record;
-    head.drawn = task->drawn;
-    head.has_drawn = task->has_drawn;
-    head.records = desc->records;
-    head.resume = desc->resume;
-    head.dry = desc->dry;
-    head.dry_run_job = desc->dry && !pool->dry_run_done;
-    head.depfile = desc->depfile;
-    head.report = desc->report;
-    head.quality = desc->quality;
-    head.stable = desc->stable;
-    head.quiet = desc->quiet;
-    head.verbose = desc->verbose;
-    head.measure = desc->measure;
-    head.count = desc->count;
+    head.dry_run_job = desc->wishes.dry && !pool->dry_run_done;
     head.has_row = desc->rows != NULL;
-    if (desc->rows) {
-        head.row = job->row;
-        head.rows = desc->rows->rows;
-        head.vertices = desc->rows->vertices;
-        head.is_double = desc->rows->is_double;
-    }
-    head.scan = task->scans;
-    head.scan_mesh = task->needs.mesh;
-    head.scan_lattices = task->needs.lattices;
-    head.scan_only = task->only_scans;
-    head.survey = task->scans && task->surveys;
-    head.tells = desc->tells;
-    head.is_unsurveyed = task->is_unsurveyed;
+    if (desc->rows)
+        head.rows = *desc->rows;
     head.has_box = desc->box != NULL;
     if (desc->box)
         head.box = *desc->box;
@@ -262,8 +238,8 @@ static void begin_task(const worker_pool *pool, pool_worker *worker, pool_task *
     worker->has_mesh = true;
     worker->timed_out = worker->stopped = worker->is_ending = worker->is_unheard = false;
     worker->deadline = pool->desc.timeout > 0 ? ffd_clock_seconds() + pool->desc.timeout : 0;
-    task->scans = task->state == TASK_NEW;
-    task->took_row = pool->desc.rows != NULL;
+    task->order.scans = task->state == TASK_NEW;
+    task->end.took_row = pool->desc.rows != NULL;
     task->state = TASK_RUNS;
 }
 
@@ -297,10 +273,10 @@ ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t co
 
 /* Ends */
 
-static void end_task(pool_worker *worker, wire_outcome outcome)
+static void end_task(pool_worker *worker, task_outcome outcome)
 {
     worker->task->state = TASK_ENDED;
-    worker->task->outcome = outcome;
+    worker->task->end.outcome = outcome;
     worker->task = NULL;
     worker->deadline = 0;
 }
@@ -310,7 +286,7 @@ static void take_scan(pool_worker *worker, const wire_answer *head, const char *
 {
     pool_task *const task = worker->task;
     ffd_buffer_append(&task->found, found, head->rule_size);
-    task->beside = (size_t)head->beside;
+    task->end.beside = (size_t)head->end.beside;
     task->has_scanned = true;
     task->was_returned = false;
     worker->retires = head->retires;
@@ -332,7 +308,7 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
     if (bytes->size < sizeof head)
         return true;
     memcpy(&head, bytes->data, sizeof head);
-    if (!worker->task || ((head.scanned || head.goes_on) && !worker->task->scans) ||
+    if (!worker->task || ((head.scanned || head.goes_on) && !worker->task->order.scans) ||
         head.log_size > WIRE_MOST || head.entry_size > WIRE_MOST || head.rule_size > WIRE_MOST ||
         head.figures_size > WIRE_MOST)
         return false;
@@ -340,7 +316,7 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
         return true;
     pool_task *const task = worker->task;
     if (head.goes_on) { /* the rest of the answer may be here already */
-        task->scans = false;
+        task->order.scans = false;
         task->scanned_in_vain = true;
         bytes->size -= sizeof head;
         memmove(bytes->data, bytes->data + sizeof head, bytes->size);
@@ -353,33 +329,23 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
         bytes->size = 0;
         return true;
     }
-    task->scanned_in_vain = task->scanned_in_vain || task->scans;
+    task->scanned_in_vain = task->scanned_in_vain || task->order.scans;
     ffd_buffer_append(&task->log, log, head.log_size);
     ffd_buffer_append(&task->entry, entry, head.entry_size);
     ffd_buffer_append(&task->rule, rule, head.rule_size);
-    if (head.outcome != OUTCOME_SKIPPED)
+    if (head.end.outcome != OUTCOME_SKIPPED)
         task->figures.size = 0;
     ffd_buffer_append(&task->figures, figures, head.figures_size);
     const bool lost = task->log.failed || task->entry.failed || task->rule.failed || task->figures.failed;
     if (head.out_of_memory || lost)
         ffd_fail_file(&task->failure, FFD_E_MEMORY, task->job.input, "out of memory");
-    task->record = head.record;
-    task->box = head.box;
-    task->vertices = head.vertices;
-    task->mesh_state = head.state;
-    task->has_mesh_state = head.has_state;
-    pool->counts.jobs.reads += head.counts.reads;
-    pool->counts.jobs.searches += head.counts.searches;
-    task->has_record = head.has_record;
-    task->drawn = head.drawn;
-    task->has_drawn = head.has_drawn;
-    task->has_picture = head.has_picture;
-    task->took_row = head.took_row;
-    task->own_box = head.own_box;
+    task->end = head.end;
+    pool->counts.jobs.reads += head.end.counts.reads;
+    pool->counts.jobs.searches += head.end.counts.searches;
     worker->retires = head.retires;
-    pool->dry_run_done = pool->dry_run_done || head.dry_run_done;
+    pool->dry_run_done = pool->dry_run_done || head.end.dry_run_done;
     bytes->size = 0;
-    end_task(worker, lost ? OUTCOME_FAILED : (wire_outcome)head.outcome);
+    end_task(worker, lost ? OUTCOME_FAILED : head.end.outcome);
     return true;
 }
 
@@ -415,7 +381,7 @@ static void end_worker(const worker_pool *pool, pool_worker *worker)
     pool_task *const task = worker->task;
     if (!worker->was_logged &&
         !task->was_returned) { /* the worker had ended before: give the task to another one, once */
-        task->state = task->scans ? TASK_NEW : TASK_WAITS;
+        task->state = task->order.scans ? TASK_NEW : TASK_WAITS;
         task->was_returned = true;
         worker->task = NULL;
         return;
@@ -531,7 +497,7 @@ bool ffd_task_is_pending(const pool_task *task)
 
 bool ffd_task_is_settled(const pool_task *task)
 {
-    return task->state == TASK_WAITS || (task->state == TASK_RUNS && !task->scans) ||
+    return task->state == TASK_WAITS || (task->state == TASK_RUNS && !task->order.scans) ||
            task->state == TASK_ENDED || task->state == TASK_DROPPED;
 }
 

@@ -52,9 +52,9 @@ static ffd_status make_array(run_rows *rows, const batch_desc *desc, ffd_error *
         return FFD_OK;
     const bool force = desc->force || is_shared;
     status = is_there && rows->replaces ? ffd_rows_check_replaced(&rows->array, error) : FFD_OK;
-    if (!status && (is_there || desc->pool.dry)) /* report all refusals before any work */
+    if (!status && (is_there || desc->pool.wishes.dry)) /* report all refusals before any work */
         status = ffd_output_check(rows->array.path, force, error);
-    if (status || desc->pool.dry)
+    if (status || desc->pool.wishes.dry)
         return status;
     return ffd_rows_make(&rows->array, rows->replaces, &rows->made, error);
 }
@@ -74,9 +74,10 @@ ffd_status ffd_run_rows_open(run_rows *rows, const batch_desc *desc, ffd_error *
 ffd_status ffd_run_rows_place(run_rows *rows, const batch_desc *desc, ffd_error *error)
 {
     /* An interrupted run ends without jobs; it must not replace what an earlier run has made. */
-    if (desc->pool.dry || ffd_interrupt_requested())
+    if (desc->pool.wishes.dry || ffd_interrupt_requested())
         return FFD_OK;
-    const ffd_status status = ffd_report_create(rows->list, desc->pool.stable, NULL, &rows->report, error);
+    const ffd_status status =
+        ffd_report_create(rows->list, desc->pool.wishes.stable, NULL, &rows->report, error);
     return status ? status : ffd_rows_place(&rows->array, rows->replaces, &rows->made, error);
 }
 

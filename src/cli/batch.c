@@ -15,13 +15,7 @@ typedef struct settings {
     uint64_t shard, shards;
     double timeout;
     bool resume, stop, keep_going, dry;
-    batch_default *defaults; /* the options given */
-    size_t default_count;
 } settings;
-
-/* Options that a job can have too, but that have a meaning of their own for the batch. */
-static const char *const common[] = {"lattice", "out-dir", "report",  "report-stable", "threads", "quiet",
-                                     "verbose", "help",    "depfile", "shared-box",    "morph",   NULL};
 
 static bool set_shard(void *context, const cli_option *option, const char *value)
 {
@@ -71,33 +65,6 @@ static const cli_option own_options[] = {
      type_names},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
-
-static bool is_own(const char *name)
-{
-    for (int i = 0; common[i]; i++)
-        if (strcmp(common[i], name) == 0)
-            return true;
-    for (int i = 0; own_options[i].name; i++)
-        if (strcmp(own_options[i].name, name) == 0)
-            return true;
-    return false;
-}
-
-/* Records an option that applies to all jobs. */
-static bool note_default(void *context, const cli_option *option, const char *value)
-{
-    settings *s = context;
-    if (is_own(option->name))
-        return true;
-    batch_default *grown = realloc(s->defaults, (s->default_count + 1) * sizeof *grown);
-    if (!grown) {
-        cli_complain("out of memory");
-        return false;
-    }
-    s->defaults = grown;
-    s->defaults[s->default_count++] = (batch_default){option->name, value};
-    return true;
-}
 
 /* Returns what is wrong with the options for the array of positions, or NULL. */
 static const char *wrong_positions(const settings *s, const cli_words *words)
@@ -162,12 +129,9 @@ static int run_batch(const settings *s, const cli_words *words)
                                       .table = s->table,
                                       .ignored = s->ignored,
                                       .pattern = s->pattern,
-                                      .lattices = job->desc.lattices,
-                                      .lattice_count = job->desc.lattice_count,
-                                      .morphs = job->desc.morphs,
                                       .out_dir = s->jobs.out_dir,
-                                      .defaults = s->defaults,
-                                      .default_count = s->default_count,
+                                      .defaults = &job->desc,
+                                      .ending = s->jobs.output_ending,
                                       .resume = s->resume,
                                       .pictures = s->view != NULL,
                                       .positions = s->positions != NULL,
@@ -177,11 +141,11 @@ static int run_batch(const settings *s, const cli_words *words)
                              .pool = {.workers = s->at_once,
                                       .threads = job->desc.threads,
                                       .timeout = s->timeout,
-                                      .resume = s->resume,
-                                      .dry = s->dry,
-                                      .stable = job->stable,
-                                      .quiet = job->logging.quiet,
-                                      .verbose = job->logging.verbose && !job->logging.quiet},
+                                      .wishes = {.resume = s->resume,
+                                                 .dry = s->dry,
+                                                 .stable = job->stable,
+                                                 .quiet = job->logging.quiet,
+                                                 .verbose = job->logging.verbose && !job->logging.quiet}},
                              .report = job->report,
                              .depfile = s->jobs.depfile_path,
                              .journal = s->journal,
@@ -209,9 +173,7 @@ static int act(const cli_command *command, void *context, const cli_words *words
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {.type = -1};
-    const int code = cli_job_run(command, &s.jobs.job, count, arguments, act);
-    free(s.defaults);
-    return code;
+    return cli_job_run(command, &s.jobs.job, count, arguments, act);
 }
 
 static const cli_example examples[] = {
@@ -232,7 +194,7 @@ const cli_command cli_batch = {
     "       MANIFEST: a job a line, as {\"in\": \"a.glb\", \"lattice\": \"x.json\",\n"
     "       \"out\": \"o/a.glb\", \"options\": {\"normals\": \"keep\"}}; - is standard input\n"
     "       exit 1: a job failed\n",
-    {own_options, cli_job_options, cli_deform_options, note_default},
+    {own_options, cli_job_options, cli_deform_options},
     run,
     "MANIFEST",
     examples};

@@ -1,4 +1,4 @@
-/* deform.c - ffd deform: one mesh to a file, or many to a folder; and single jobs of a batch. */
+/* deform.c - ffd deform: one mesh to a file, or many to a folder. */
 #include "cli/deform.h"
 #include "base/file/folder.h"
 #include "base/file/path.h"
@@ -210,7 +210,7 @@ static bool has_many(const settings *s)
 
 static const char *wrong_words(const settings *s, const cli_words *words)
 {
-    if (has_many(s) || s->no_output)
+    if (has_many(s))
         return words->count < 1 ? "needs at least one IN" : NULL;
     if (words->count < 2)
         return words->count ? "needs an OUT (or --out-dir, --in-place)" : "needs IN and OUT";
@@ -334,45 +334,3 @@ const cli_command cli_deform = {
     run,
     "MESH",
     examples};
-
-/* A job of a batch. */
-typedef struct batch_opened {
-    settings settings;
-    cli_words words;
-} batch_opened;
-
-void *cli_deform_open(int count, char **words, bool has_output, ffd_deform_desc *desc, ffd_error *error)
-{
-    char complaint[512] = "out of memory";
-    batch_opened *opened = calloc(1, sizeof *opened);
-    int code = ffd_status_exit_code(FFD_E_MEMORY);
-    settings *s = opened ? &opened->settings : NULL;
-    cli_capture(complaint, sizeof complaint);
-    const bool begun = s && cli_job_begin(&cli_deform, &s->job, count, words, &opened->words, &code);
-    if (begun) {
-        s->no_output = !has_output;
-        code = refuse(&cli_deform, s, &opened->words, 1);
-    }
-    cli_capture(NULL, 0);
-    if (!begun || code) {
-        if (begun)
-            cli_job_end(&s->job, &opened->words);
-        free(opened);
-        *error = (ffd_error){.status = code == EXIT_USAGE ? FFD_E_ARGUMENT : FFD_E_MEMORY};
-        snprintf(error->message, sizeof error->message, "%s", complaint);
-        return NULL;
-    }
-    if (describe(s, opened->words.words[0], s->output, desc))
-        return opened;
-    cli_deform_close(opened);
-    *error = (ffd_error){.status = FFD_E_MEMORY};
-    snprintf(error->message, sizeof error->message, "out of memory");
-    return NULL;
-}
-
-void cli_deform_close(void *context)
-{
-    batch_opened *opened = context;
-    cli_job_end(&opened->settings.job, &opened->words);
-    free(opened);
-}

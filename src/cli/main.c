@@ -2,7 +2,6 @@
 #include "base/text/words.h"
 #include "batch/worker.h"
 #include "cli/commands.h"
-#include "cli/deform.h"
 #include "cli/member.h"
 #include <errno.h>
 #include <ffd/program.h>
@@ -176,10 +175,9 @@ int main(int argc, char **argv)
     ignore_size_signal();
     ffd_cleanup_on_signals();
     ffd_spell_members(cli_spell);
-    static const worker_program program = {cli_deform_open, cli_deform_close};
     int code;
     if (argc == 1 && ffd_worker_is(argv[0])) {
-        code = ffd_worker_run(&program);
+        code = ffd_worker_run();
     } else {
         ffd_guard_inputs();
         code = run(argc - 1, argv + 1);

@@ -8,16 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Buffer for complaints instead of standard error; or NULL. */
-static char *captured;
-static size_t captured_capacity;
-
-void cli_capture(char *text, size_t capacity)
-{
-    captured = text;
-    captured_capacity = capacity;
-}
-
 void cli_complain(const char *format, ...)
 {
     char line[2048];
@@ -27,10 +17,7 @@ void cli_complain(const char *format, ...)
     va_end(arguments);
     /* Control characters from the command line are replaced, so that it stays one line. */
     ffd_make_one_line(line, strlen(line));
-    if (captured)
-        snprintf(captured, captured_capacity, "%s", line);
-    else
-        fprintf(stderr, "ffd: %s\n", line);
+    fprintf(stderr, "ffd: %s\n", line);
 }
 
 bool cli_set_flag(void *settings, const cli_option *option, const char *value)
@@ -174,11 +161,6 @@ static const cli_option *by_letter(const cli_table *options, char letter)
     return NULL;
 }
 
-static bool set(const cli_table *options, void *settings, const cli_option *option, const char *value)
-{
-    return option->set(settings, option, value) && (!options->note || options->note(settings, option, value));
-}
-
 /* Parses --name, --name=value or --name value. *next: the following argument. */
 static bool parse_long(const cli_table *options, void *settings, const char *text, char ***next, char **end)
 {
@@ -189,8 +171,7 @@ static bool parse_long(const cli_table *options, void *settings, const char *tex
         return unknown_option(options, text, length);
     const char *value = equals ? equals + 1 : NULL;
     if (!option->value && value) {
-        cli_complain(captured ? "--%s takes no value: true or false is wanted" : "--%s takes no value",
-                     option->name);
+        cli_complain("--%s takes no value", option->name);
         return false;
     }
     if (option->value && !value) {
@@ -200,7 +181,7 @@ static bool parse_long(const cli_table *options, void *settings, const char *tex
         }
         value = *(*next)++;
     }
-    return set(options, settings, option, value);
+    return option->set(settings, option, value);
 }
 
 /* Parses -q, -lFILE or -l FILE. Letters without values may be combined. */
@@ -212,7 +193,7 @@ static bool parse_letters(const cli_table *options, void *settings, const char *
         if (!option)
             return unknown_letter(options, *text);
         if (!option->value) {
-            if (!set(options, settings, option, NULL))
+            if (!option->set(settings, option, NULL))
                 return false;
             continue;
         }
@@ -224,7 +205,7 @@ static bool parse_letters(const cli_table *options, void *settings, const char *
             }
             value = *(*next)++;
         }
-        return set(options, settings, option, value);
+        return option->set(settings, option, value);
     }
     return true;
 }

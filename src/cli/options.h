@@ -47,8 +47,6 @@ struct cli_option {
    or letter, the first one counts. */
 typedef struct cli_table {
     const cli_option *first, *more, *base; /* more and base may be NULL */
-    /* Called for each option that was set; or NULL. */
-    bool (*note)(void *settings, const cli_option *option, const char *value);
 } cli_table;
 
 /* Position in a walk over a table. */
@@ -110,11 +108,8 @@ bool cli_parse(const cli_table *options, void *settings, const bool *help, int c
 #ifdef __GNUC__
 __attribute__((__format__(__printf__, 1, 2)))
 #endif
-/* Prints one line "ffd: ..." to stderr, or to the buffer of cli_capture. */
+/* Prints one line "ffd: ..." to stderr. */
 void cli_complain(const char *format, ...);
-
-/* Redirects complaints to text, without "ffd: "; NULL: back to stderr. */
-void cli_capture(char *text, size_t capacity);
 
 /* Prints the options and their help, one a line. */
 void cli_print_options(const cli_table *options);

@@ -54,26 +54,14 @@ static ffd_status read_manifest_line(job_source *source, batch_job *job)
 
 /* Tables */
 
-/* Returns the ending that --output-format gives to outputs; NULL: none. */
-static const char *ending_of(const job_source_desc *desc)
-{
-    const char *ending = NULL;
-    for (size_t i = 0; i < desc->default_count; i++)
-        if (strcmp(desc->defaults[i].name, "output-format") == 0)
-            ending = desc->defaults[i].value;
-    return ending;
-}
-
 static job_commons list_commons(const job_source *source)
 {
     const job_source_desc *const desc = &source->desc;
     return (job_commons){.folder = source->folder,
                          .out_dir = desc->out_dir,
-                         .ending = ending_of(desc),
+                         .ending = desc->ending,
                          .input = desc->pattern,
-                         .lattices = desc->lattices,
-                         .lattice_count = desc->lattice_count,
-                         .morphs = desc->morphs,
+                         .defaults = desc->defaults,
                          .skipped = source->table.skipped,
                          .decimal_comma = source->table.separator != ',',
                          .points = source->table.points};
@@ -251,9 +239,8 @@ ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_e
         return ffd_fail_memory(error);
     (*source)->desc = *desc;
     (*source)->table.flaws.strict = desc->strict;
-    (*source)->frame =
-        (batch_frame){desc->pattern,  "", desc->defaults, desc->default_count, desc->resume, desc->pictures,
-                      desc->positions};
+    (*source)->frame = (batch_frame){
+        desc->pattern, "", desc->defaults, desc->ending, desc->resume, desc->pictures, desc->positions};
     ffd_status status;
     if (desc->manifest)
         status = open_text(*source, desc->manifest, error);
