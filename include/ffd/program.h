@@ -4,6 +4,7 @@
 #define FFD_PROGRAM_H
 
 #include <ffd/export.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 #ifdef __cplusplus
@@ -30,6 +31,10 @@ typedef void (*ffd_spell_function)(const char *member, const char *value, char *
    program's function; "falloff needs outside = extend" by default, and again after NULL. To be called
    before all other functions. */
 FFD_API void ffd_spell_members(ffd_spell_function spell);
+
+/* Does the work of this process if ffd_batch_run has started it (ffd/batch.h), and sets *exit_code. Returns
+   false otherwise. The program `ffd` calls it with the arguments of main, after ffd_cleanup_on_signals. */
+FFD_API bool ffd_worker_main(int argc, char **argv, int *exit_code);
 
 #ifdef __cplusplus
 }

@@ -14,7 +14,7 @@
 const char *ffd_run_manifest(const batch_run *run)
 {
     const job_source_desc *const jobs = &run->desc->jobs;
-    return jobs->manifest || jobs->table ? ffd_jobs_name(run->source) : NULL;
+    return jobs->manifest || jobs->next || jobs->table ? ffd_jobs_name(run->source) : NULL;
 }
 
 void ffd_run_log_error(batch_run *run, const ffd_error *error)
@@ -143,7 +143,7 @@ static ffd_status note_state(file_table *states, pool_task *task, ffd_error *err
 
 static const row_array *rows_of(const batch_run *run)
 {
-    return run->desc->positions ? &run->rows.array : NULL;
+    return run->desc->given->positions ? &run->rows.array : NULL;
 }
 
 /* rows: of positions, or NULL. */
@@ -185,8 +185,10 @@ static ffd_status log_task(batch_run *run, const pool_task *task, ffd_error *err
     append_lines(task, ffd_run_manifest(run), &lines);
     ffd_buffer_append(&lines, "", 1);
     const ffd_status status = lines.failed ? ffd_fail_memory(error) : FFD_OK;
-    if (!status)
+    if (!status) {
         ffd_progress_print(&run->progress, lines.data);
+        ffd_run_call_ended(run, task, lines.data);
+    }
     ffd_buffer_free(&lines);
     return status;
 }
@@ -196,7 +198,7 @@ static void clear_row(const batch_run *run, const pool_task *task)
 {
     const batch_desc *const desc = run->desc;
     const bool replaces = run->rows.goes_on && (desc->force || desc->jobs.resume);
-    if (desc->positions && !desc->pool.wishes.dry && (task->end.took_row || replaces) &&
+    if (desc->given->positions && !desc->pool.wishes.dry && (task->end.took_row || replaces) &&
         task->job.row < run->rows.array.rows)
         ffd_row_clear(&run->rows.array, task->job.row);
 }
@@ -226,7 +228,7 @@ static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
     uint32_t index;
     if (!status && task->end.own_box && !ffd_intern(&run->boxed, &task->mesh, sizeof task->mesh, &index))
         status = ffd_fail_memory(error);
-    if (task->end.outcome == OUTCOME_FAILED && run->desc->stop)
+    if (task->end.outcome == OUTCOME_FAILED && run->desc->given->stop)
         run->ending = true;
     if (run->journal && task->end.outcome == OUTCOME_DONE && task->end.has_record)
         put_records(run, task);
@@ -260,7 +262,7 @@ ffd_status ffd_run_note_ends(batch_run *run, ffd_error *error)
 /* Does what must happen in the order of the jobs. */
 static ffd_status emit_task(batch_run *run, pool_task *task, ffd_error *error)
 {
-    if (run->desc->pool.wishes.dry && task->end.outcome != OUTCOME_FAILED)
+    if (run->desc->given->is_program && run->desc->pool.wishes.dry && task->end.outcome != OUTCOME_FAILED)
         print_plan(task, rows_of(run));
     if (run->depfile && task->rule.size) {
         ffd_depfile_add(run->depfile, &task->rule);

@@ -5,8 +5,10 @@
 #include "base/system/clock.h"
 #include "base/system/processors.h"
 #include "base/text/words.h"
+#include "batch/worker.h"
 #include "job/input/settings.h"
 #include <ffd/job.h>
+#include <ffd/version.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -32,6 +34,7 @@ struct worker_pool {
     int processors;             /* shared by the workers */
     pool_worker *workers;       /* desc.workers entries */
     worker_process **processes; /* the same processes, as an array to wait for */
+    ffd_error refusal;          /* the workers are of another build */
     bool dry_run_done;          /* dry run: a job was tried, all but writing */
     uint64_t memory;            /* bytes that all workers together may take; UINT64_MAX: no limit */
     pool_shortage shortage;     /* if needed > 0 */
@@ -243,9 +246,21 @@ static void begin_task(const worker_pool *pool, pool_worker *worker, pool_task *
     task->state = TASK_RUNS;
 }
 
+static ffd_status start_worker(const worker_pool *pool, pool_worker *worker, ffd_error *error)
+{
+    char build[WORKER_BUILD];
+    ffd_worker_build(build);
+    return ffd_process_start(pool->desc.program, WORKER_NAME, build, &worker->process, error);
+}
+
 ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t count, ffd_error *error)
 {
     const pool_desc *const desc = &pool->desc;
+    if (pool->refusal.status) {
+        if (error)
+            *error = pool->refusal;
+        return pool->refusal.status;
+    }
     for (int i = 0; i < desc->workers; i++) {
         pool_worker *const worker = &pool->workers[i];
         pool_task *const task = worker->task ? NULL : choose(pool, worker, tasks, count);
@@ -253,8 +268,7 @@ ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t co
             continue;
         if (!make_room(pool, worker, task))
             return FFD_OK; /* none of the others goes first: the task could wait for ever */
-        const ffd_status status =
-            worker->process ? FFD_OK : ffd_process_start(WORKER_NAME, &worker->process, error);
+        const ffd_status status = worker->process ? FFD_OK : start_worker(pool, worker, error);
         if (status && ffd_pool_running(pool) > 0)
             return FFD_OK; /* go on with the workers that exist */
         if (status)
@@ -263,10 +277,7 @@ ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t co
         begin_task(pool, worker, task);
         const int share = pool->processors / count_runnable(pool, tasks, count);
         /* If sending fails, the worker has ended; that shows when its answer is read. */
-        worker->was_logged = send_task(pool, worker, task,
-                                       desc->threads ? desc->threads
-                                       : share < 1   ? 1
-                                                     : share);
+        worker->was_logged = send_task(pool, worker, task, share < 1 ? 1 : share);
     }
     return FFD_OK;
 }
@@ -310,9 +321,10 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
     memcpy(&head, bytes->data, sizeof head);
     if (!worker->task || ((head.scanned || head.goes_on) && !worker->task->order.scans) ||
         head.log_size > WIRE_MOST || head.entry_size > WIRE_MOST || head.rule_size > WIRE_MOST ||
-        head.figures_size > WIRE_MOST)
+        head.figures_size > WIRE_MOST || head.result_size > WIRE_MOST)
         return false;
-    if (bytes->size < sizeof head + head.log_size + head.entry_size + head.rule_size + head.figures_size)
+    if (bytes->size <
+        sizeof head + head.log_size + head.entry_size + head.rule_size + head.figures_size + head.result_size)
         return true;
     pool_task *const task = worker->task;
     if (head.goes_on) { /* the rest of the answer may be here already */
@@ -323,7 +335,8 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
         return take_answer(pool, worker);
     }
     const char *const log = bytes->data + sizeof head, *const entry = log + head.log_size,
-                      *const rule = entry + head.entry_size, *const figures = rule + head.rule_size;
+                      *const rule = entry + head.entry_size, *const figures = rule + head.rule_size,
+                      *const result = figures + head.figures_size;
     if (head.scanned) {
         take_scan(worker, &head, rule);
         bytes->size = 0;
@@ -336,7 +349,9 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
     if (head.end.outcome != OUTCOME_SKIPPED)
         task->figures.size = 0;
     ffd_buffer_append(&task->figures, figures, head.figures_size);
-    const bool lost = task->log.failed || task->entry.failed || task->rule.failed || task->figures.failed;
+    ffd_buffer_append(&task->result, result, head.result_size);
+    const bool lost = task->log.failed || task->entry.failed || task->rule.failed || task->figures.failed ||
+                      task->result.failed;
     if (head.out_of_memory || lost)
         ffd_fail_file(&task->failure, FFD_E_MEMORY, task->job.input, "out of memory");
     task->end = head.end;
@@ -354,7 +369,9 @@ static void describe_failure(const worker_pool *pool, const pool_worker *worker,
                              ffd_error *error)
 {
     const char *const name = worker->task->job.input;
-    if (worker->timed_out)
+    if (pool->refusal.status)
+        *error = pool->refusal;
+    else if (worker->timed_out)
         ffd_fail_file(error, FFD_E_LIMIT, name, "took longer than %g %s ({timeout})", pool->desc.timeout,
                       pool->desc.timeout == 1 ? "second" : "seconds");
     else if (worker->stopped)
@@ -372,10 +389,14 @@ static void describe_failure(const worker_pool *pool, const pool_worker *worker,
         ffd_fail_file(error, FFD_E_LIMIT, name, "crashed: %s", end->text);
 }
 
-static void end_worker(const worker_pool *pool, pool_worker *worker)
+static void end_worker(worker_pool *pool, pool_worker *worker)
 {
     process_end end;
     finish_worker(worker, &end);
+    if (!end.signal && end.code == ffd_status_exit_code(FFD_E_UNSUPPORTED))
+        ffd_fail_file(&pool->refusal, FFD_E_UNSUPPORTED, pool->desc.program ? pool->desc.program : "ffd",
+                      "is of another build than the library, which is %s: it cannot do the jobs of a batch",
+                      ffd_version());
     if (!worker->task)
         return;
     pool_task *const task = worker->task;
@@ -511,6 +532,7 @@ void ffd_task_free(pool_task *task)
     ffd_buffer_free(&task->entry);
     ffd_buffer_free(&task->rule);
     ffd_buffer_free(&task->figures);
+    ffd_buffer_free(&task->result);
     ffd_buffer_free(&task->found);
     ffd_buffer_free(&task->passed);
     ffd_free(task);

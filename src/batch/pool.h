@@ -6,10 +6,11 @@
 #include "batch/wire.h"
 
 typedef struct pool_desc {
-    int workers;        /* number of processes; 0: one for each processor, as far as memory allows */
-    int threads;        /* of each job; 0: an equal share of the processors */
-    double timeout;     /* limit of a job in seconds; 0: none */
-    const char *origin; /* name of the manifest, for messages */
+    int workers;         /* number of processes; 0: one for each processor, as far as memory allows */
+    const char *program; /* whose processes they are; NULL: this one */
+    int threads;         /* of each job; 0: an equal share of the processors */
+    double timeout;      /* limit of a job in seconds; 0: none */
+    const char *origin;  /* name of the manifest, for messages */
     task_wishes wishes;
     bool draws;            /* jobs make pictures too */
     const row_array *rows; /* array of positions, or NULL */
@@ -52,6 +53,7 @@ typedef struct pool_task {
     bool noted;               /* its end was handled (ffd_run_note_ends) */
     byte_buffer log;          /* after the end: lines of messages; */
     byte_buffer rule;         /* rule of the depfile; of a measured mesh: its files; */
+    byte_buffer result;       /* as in wire_answer; or empty */
     byte_buffer entry;        /* of the report; empty if no worker has made it */
     ffd_error failure;        /* of a job whose worker died, or that was invalid from the start */
 } pool_task;

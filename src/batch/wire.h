@@ -32,6 +32,7 @@ typedef struct task_wishes {
     bool verbose; /* log details too */
     bool measure; /* only measure the mesh's box, and list its files if depfile is set */
     bool count;   /* only count the mesh's vertices */
+    bool result;  /* answer with the result of the job */
     bool tells;   /* tell at once that a scan has found nothing */
 } task_wishes;
 
@@ -91,6 +92,7 @@ typedef struct wire_answer {
     uint64_t rule_size;    /* depfile rule; of a measured mesh: its files, each terminated by 0; after a scan:
                               what was found (scan.h) */
     uint64_t figures_size; /* of the job, as JSON terminated by 0 */
+    uint64_t result_size;  /* of the job: ffd_job_result, and one for each of its morph targets */
     task_end end;
     bool scanned;       /* the scan found files, and nothing else was done */
     bool goes_on;       /* the scan found nothing: the answer has no more yet */

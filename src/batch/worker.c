@@ -22,7 +22,9 @@
 #include "job/report/output_set.h"
 #include "job/report/report.h"
 #include <ffd/program.h>
+#include <ffd/version.h>
 #include <inttypes.h>
+#include <stdio.h>
 #include <string.h>
 
 /* As in wire_task. */
@@ -542,12 +544,14 @@ static bool send_answer(batch_worker *worker, wire_answer *answer)
     return ffd_process_give(answer, sizeof *answer);
 }
 
-bool ffd_worker_is(const char *name)
+void ffd_worker_build(char build[WORKER_BUILD])
 {
-    return strcmp(name, WORKER_NAME) == 0;
+    snprintf(build, WORKER_BUILD, "%s %zu %zu %zu", ffd_version(), sizeof(wire_task), sizeof(wire_answer),
+             sizeof(ffd_job_result));
 }
 
-int ffd_worker_run(void)
+/* Does jobs until there are no more. Returns the process's exit code. */
+static int run_worker(void)
 {
     batch_worker worker = {0};
     wire_task task;
@@ -577,4 +581,14 @@ int ffd_worker_run(void)
     ffd_buffer_free(&worker.figures);
     ffd_buffer_free(&worker.message);
     return code;
+}
+
+bool ffd_worker_main(int argc, char **argv, int *exit_code)
+{
+    char build[WORKER_BUILD];
+    if (argc != 2 || strcmp(argv[0], WORKER_NAME) != 0)
+        return false;
+    ffd_worker_build(build);
+    *exit_code = strcmp(argv[1], build) == 0 ? run_worker() : ffd_status_exit_code(FFD_E_UNSUPPORTED);
+    return true;
 }

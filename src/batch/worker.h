@@ -1,12 +1,10 @@
-/* worker.h - a worker process of a batch, which does one job at a time. */
+/* worker.h - a worker process of a batch, which does one job at a time (ffd_worker_main in ffd/program.h). */
 #ifndef FFD_BATCH_WORKER_H
 #define FFD_BATCH_WORKER_H
 
-#include <stdbool.h>
-
-/* Whether the program was started as a worker. name: argv[0]. */
-bool ffd_worker_is(const char *name);
-/* Does jobs until there are no more. Returns the process's exit code. */
-int ffd_worker_run(void);
+/* The most characters of a build. */
+#define WORKER_BUILD 80
+/* Writes what a worker and the first process must have in common to understand each other's structs. */
+void ffd_worker_build(char build[WORKER_BUILD]);
 
 #endif

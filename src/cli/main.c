@@ -1,6 +1,5 @@
 /* main.c - the program ffd: finds the command and runs it. */
 #include "base/text/words.h"
-#include "batch/worker.h"
 #include "cli/commands.h"
 #include "cli/member.h"
 #include <errno.h>
@@ -176,9 +175,7 @@ int main(int argc, char **argv)
     ffd_cleanup_on_signals();
     ffd_spell_members(cli_spell);
     int code;
-    if (argc == 1 && ffd_worker_is(argv[0])) {
-        code = ffd_worker_run();
-    } else {
+    if (!ffd_worker_main(argc, argv, &code)) {
         ffd_guard_inputs();
         code = run(argc - 1, argv + 1);
     }

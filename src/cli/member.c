@@ -5,8 +5,8 @@
 
 /* What is spelled otherwise than an option of its name. */
 static const char *const others[][2] = {
-    {"by", "--wrt"},    {"deformed", "OUT-MESH"}, {"jobs", "-j"},          {"lattice", "-l"},
-    {"lattices", "-l"}, {"output", "OUT"},        {"quality", "--report"},
+    {"by", "--wrt"},    {"deformed", "OUT-MESH"}, {"workers", "-j"},        {"lattice", "-l"},
+    {"lattices", "-l"}, {"output", "OUT"},        {"manifest", "MANIFEST"}, {"quality", "--report"},
 };
 
 /* The name of a member without that of its struct. */

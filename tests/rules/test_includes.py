@@ -117,7 +117,7 @@ LAYERS = {
         "base", "base/file", "base/memory", "base/system", "base/text", "batch/files", "batch/manifest", "io", "io/npy", "job/chain", "job/figures", "job/input",
         "job/report", "json", "lattice/file", "view",
     },
-    "cli": {"base", "base/file", "base/memory", "base/text", "batch", "io", "job"},
+    "cli": {"base", "base/file", "base/memory", "base/text", "io", "job"},
     "cli/pages": {"cli"},
     "python": set(),
     "job": {

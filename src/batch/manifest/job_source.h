@@ -6,13 +6,17 @@
 #include "batch/manifest/batch_job.h"
 #include "batch/manifest/lines.h"
 #include "mesh/flaws.h"
+#include <ffd/batch.h>
 
 typedef struct job_source_desc {
-    const char *manifest; /* JSON Lines; "-": standard input; or NULL */
-    const char *table;    /* CSV, whose first row names the columns; or NULL */
-    const char *pattern;  /* with a table: the mesh of rows without "in"; else a pattern for meshes */
-    const char *ignored;  /* columns of the table to ignore, "a,b"; or NULL */
-    const char *out_dir;  /* pattern: folder of outputs, which keep their names; table: folder of "out" */
+    const char *manifest;         /* JSON Lines; "-": standard input; or NULL */
+    const char *table;            /* CSV, whose first row names the columns; or NULL */
+    ffd_batch_next_function next; /* lines of a manifest; or NULL */
+    void *next_user;
+    bool repeats;        /* next can be asked again from the first line on */
+    const char *pattern; /* with a table: the mesh of rows without "in"; else a pattern for meshes */
+    const char *ignored; /* columns of the table to ignore, "a,b"; or NULL */
+    const char *out_dir; /* pattern: folder of outputs, which keep their names; table: folder of "out" */
     const ffd_deform_desc *defaults;  /* for jobs that do not say otherwise: lattices where the jobs come from
                                          no manifest, and all other settings; or NULL */
     const char *ending;               /* of outputs, by the default output_format; or NULL */
