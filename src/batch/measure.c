@@ -131,9 +131,9 @@ static ffd_status measure(measuring *m, const job_source_desc *jobs, pool_desc *
 {
     job_source_desc all = *jobs;
     if (ffd_jobs_come_once(jobs))
-        return ffd_fail(error, FFD_E_ARGUMENT,
-                        "%s reads the jobs twice, but standard input and pipes can be read only once",
-                        SPELLED(member));
+        return ffd_fail(error, FFD_E_ARGUMENT, "%s reads the jobs twice, but %s", SPELLED(member),
+                        jobs->next ? "its caller gives them only once"
+                                   : "standard input and pipes can be read only once");
     all.shard = 0;
     all.shards = 1;
     ffd_status status = ffd_jobs_open(&all, &m->source, error);

@@ -393,7 +393,9 @@ static void end_worker(worker_pool *pool, pool_worker *worker)
 {
     process_end end;
     finish_worker(worker, &end);
-    if (!end.signal && end.code == ffd_status_exit_code(FFD_E_UNSUPPORTED))
+    /* Builds that know of no such workers take them for a command. */
+    if (!end.signal && (end.code == ffd_status_exit_code(FFD_E_UNSUPPORTED) ||
+                        end.code == ffd_status_exit_code(FFD_E_ARGUMENT)))
         ffd_fail_file(&pool->refusal, FFD_E_UNSUPPORTED, pool->desc.program ? pool->desc.program : "ffd",
                       "is of another build than the library, which is %s: it cannot do the jobs of a batch",
                       ffd_version());

@@ -33,13 +33,13 @@ typedef struct task_texts {
 } task_texts;
 
 typedef struct batch_worker {
-    hash_cache hashes;                     /* of the files of all jobs so far */
-    ffd_job_cache *cache;                  /* cache between jobs */
-    byte_buffer text;                      /* of the task */
-    ffd_deform_desc desc;                  /* likewise, in that text */
-    task_texts texts;                      /* what else is in it */
-    byte_buffer log, entry, rule, figures; /* of the answer */
-    byte_buffer message;                   /* the whole answer */
+    hash_cache hashes;                             /* of the files of all jobs so far */
+    ffd_job_cache *cache;                          /* cache between jobs */
+    byte_buffer text;                              /* of the task */
+    ffd_deform_desc desc;                          /* likewise, in that text */
+    task_texts texts;                              /* what else is in it */
+    byte_buffer log, entry, rule, figures, result; /* of the answer */
+    byte_buffer message;                           /* the whole answer */
     ffd_output_set *output_set; /* of the task: the models that share files with its output; or NULL */
 } batch_worker;
 
@@ -493,6 +493,15 @@ static void make_entry(batch_worker *worker, const wire_task *task, const wire_a
     ffd_buffer_free(&set);
 }
 
+/* Adds the result with those of its morph targets. */
+static void append_result(batch_worker *worker, const ffd_job_result *result)
+{
+    const ffd_morph_results *const morphs = &result->morphs;
+    ffd_buffer_append(&worker->result, result, sizeof *result);
+    if (morphs->results)
+        ffd_buffer_append(&worker->result, morphs->results, morphs->count * sizeof *result);
+}
+
 static void answer_task(batch_worker *worker, const wire_task *task, wire_answer *answer)
 {
     ffd_job_result result;
@@ -513,6 +522,8 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
     }
     if (task->wishes.report && !taken && !answer->scanned && answer->end.outcome != OUTCOME_SKIPPED)
         make_entry(worker, task, answer, &result);
+    if (task->wishes.result && !answer->scanned && answer->end.outcome != OUTCOME_SKIPPED)
+        append_result(worker, &result);
     ffd_output_set_destroy(&worker->output_set);
     ffd_free(worker->desc.morph_results);
     ffd_deform_desc_clear(&worker->desc);
@@ -522,9 +533,10 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
    header that says so. */
 static bool send_answer(batch_worker *worker, wire_answer *answer)
 {
-    const byte_buffer *const texts[] = {&worker->log, &worker->entry, &worker->rule, &worker->figures};
+    const byte_buffer *const texts[] = {&worker->log, &worker->entry, &worker->rule, &worker->figures,
+                                        &worker->result};
     uint64_t *const sizes[] = {&answer->log_size, &answer->entry_size, &answer->rule_size,
-                               &answer->figures_size};
+                               &answer->figures_size, &answer->result_size};
     enum { TEXTS = sizeof texts / sizeof *texts };
     byte_buffer *const message = &worker->message;
     for (int i = 0; i < TEXTS; i++)
@@ -565,7 +577,7 @@ static int run_worker(void)
         wire_answer answer;
         memset(&answer, 0, sizeof answer); /* also clears padding, which is sent */
         ffd_shown_box_clear(&answer.end.box);
-        worker.log.size = worker.entry.size = worker.rule.size = worker.figures.size = 0;
+        worker.log.size = worker.entry.size = worker.rule.size = worker.figures.size = worker.result.size = 0;
         answer_task(&worker, &task, &answer);
         ffd_kept_free(&worker.hashes.kept);
         going = send_answer(&worker, &answer) && !answer.retires;
@@ -579,6 +591,7 @@ static int run_worker(void)
     ffd_buffer_free(&worker.entry);
     ffd_buffer_free(&worker.rule);
     ffd_buffer_free(&worker.figures);
+    ffd_buffer_free(&worker.result);
     ffd_buffer_free(&worker.message);
     return code;
 }
