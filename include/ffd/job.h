@@ -468,7 +468,7 @@ FFD_API ffd_status ffd_compare_run(const ffd_compare_desc *desc, ffd_comparison 
                                    ffd_error *error);
 
 /* Writes a comparison as JSON ("ffd-comparison", version 1). a and b: names of the files in the text. *text
-   ends with a line break and a 0 byte; the caller frees it with ffd_text_free. Thread-safe. Errors:
+   ends with a line break and a 0 byte; the caller frees it with ffd_free. Thread-safe. Errors:
    FFD_E_MEMORY. */
 FFD_API ffd_status ffd_comparison_json(const ffd_comparison *comparison, const char *a, const char *b,
                                        char **text, ffd_error *error);
@@ -493,7 +493,7 @@ typedef struct ffd_info_desc {
 FFD_API void ffd_info_desc_init(ffd_info_desc *desc, size_t size);
 
 /* Describes a mesh or a lattice file. *text ends with a line break and a 0 byte; the caller frees it with
-   ffd_text_free. It is NULL after a failure. Thread-safe. Errors: FFD_E_ARGUMENT, and those of reading the
+   ffd_free. It is NULL after a failure. Thread-safe. Errors: FFD_E_ARGUMENT, and those of reading the
    file. */
 FFD_API ffd_status ffd_info_run(const ffd_info_desc *desc, char **text, ffd_error *error);
 
@@ -524,7 +524,7 @@ FFD_API ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *desc, ffd_err
 
 /* Writes the figures of a result for people, as `ffd check` prints them, a line or two for each. lattice: the
    name of the lattice result->folds.witness.lattice, or NULL. *text ends with a line break and a 0 byte; the
-   caller frees it with ffd_text_free. Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_MEMORY. */
+   caller frees it with ffd_free. Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_job_result_text(const ffd_job_result *result, const char *lattice, char **text,
                                        ffd_error *error);
 
@@ -563,9 +563,6 @@ FFD_API ffd_status ffd_report_write(ffd_report *report, ffd_error *error);
    FFD_E_UNSUPPORTED, FFD_E_LIMIT, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_report_merge_run(const char *const *reports, size_t count, bool interleave,
                                         const char *output, bool force, ffd_error *error);
-
-/* The same as ffd_free (ffd/lattice.h), for a text. */
-FFD_API void ffd_text_free(char *text);
 
 #ifdef __cplusplus
 }

@@ -85,6 +85,9 @@ FFD_API void ffd_lattice_desc_init(ffd_lattice_desc *desc, size_t size);
    pointer (content); FFD_E_UNSUPPORTED (a later version of the format); FFD_E_MEMORY; FFD_E_LIMIT. */
 FFD_API ffd_status ffd_lattice_load(const char *path, ffd_lattice **lattice, ffd_error *error);
 
+/* Destroys the lattice and sets *lattice to NULL. lattice and *lattice may be NULL. */
+FFD_API void ffd_lattice_destroy(ffd_lattice **lattice);
+
 /* The value of a placeholder. A lattice file can have {"$": "NAME"} in place of any value in its moves. value
    is JSON ("0.5", "[1, 2, 3]"); text that is not JSON ("x") stands for itself as a string. Both strings
    belong to the caller. */
@@ -229,9 +232,6 @@ FFD_API ffd_status ffd_lattice_get_mesh(const ffd_lattice *lattice, size_t i, ch
    a lattice cannot have), FFD_E_MEMORY. */
 FFD_API ffd_status ffd_lattice_fit(ffd_lattice *lattice, const double min[3], const double max[3],
                                    ffd_error *error);
-
-/* Destroys the lattice and sets *lattice to NULL. lattice and *lattice may be NULL. */
-FFD_API void ffd_lattice_destroy(ffd_lattice **lattice);
 
 /* The number of control points, the degree and the domain [lo, hi] along u, v, w; in the range of the knots.
    Each function fills the caller's array. Thread-safe. */

@@ -15,6 +15,15 @@ extern "C" {
 #define FFD_PRINTF(text, first)
 #endif
 
+/* Returns the status of a call that fails, from the function that makes it. For functions in which nothing is
+   to be freed then; others carry the status to the one place where they free. */
+#define TRY(call)                                                                                            \
+    do {                                                                                                     \
+        const ffd_status try_status = (call);                                                                \
+        if (try_status)                                                                                      \
+            return try_status;                                                                               \
+    } while (0)
+
 /* A failure without a file. Line breaks and control characters in the text are replaced by '?'. */
 ffd_status ffd_fail(ffd_error *error, ffd_status status, const char *format, ...) FFD_PRINTF(3, 4);
 /* A failure that concerns a file. */

@@ -18,9 +18,7 @@ ffd_status ffd_struct_check(size_t own_size, const void *callers, const char *na
 ffd_status ffd_struct_take(void *own, size_t own_size, const void *callers, const char *name,
                            ffd_error *error)
 {
-    const ffd_status status = ffd_struct_check(own_size, callers, name, error);
-    if (status)
-        return status;
+    TRY(ffd_struct_check(own_size, callers, name, error));
     size_t size;
     memcpy(&size, callers, sizeof size);
     memcpy(own, callers, size);

@@ -175,8 +175,8 @@ static ffd_status report_task(const batch_run *run, ffd_report *report, pool_tas
 
 static ffd_status show_task(batch_run *run, pool_task *task, ffd_error *error)
 {
-    const ffd_status status = complete_entry(run, task, error);
-    return status ? status : ffd_run_view_add(run->view, task, &task->entry, error);
+    TRY(complete_entry(run, task, error));
+    return ffd_run_view_add(run->view, task, &task->entry, error);
 }
 
 static ffd_status log_task(batch_run *run, const pool_task *task, ffd_error *error)
@@ -269,11 +269,8 @@ static ffd_status emit_task(batch_run *run, pool_task *task, ffd_error *error)
         if (run->box_files.count && ffd_paths_add(&run->outputs, task->job.target, error))
             return FFD_E_MEMORY;
     }
-    if (run->view) {
-        const ffd_status status = show_task(run, task, error);
-        if (status)
-            return status;
-    }
+    if (run->view)
+        TRY(show_task(run, task, error));
     return run->report && ffd_report_is_ordered(run->report) ? report_task(run, run->report, task, error)
                                                              : FFD_OK;
 }

@@ -23,27 +23,25 @@ static ffd_status add_hash(hash_list *list, const hash128 *hash, ffd_error *erro
 static ffd_status add_file(hash_list *list, hash_cache *cache, const char *path, ffd_error *error)
 {
     hash128 hash;
-    const ffd_status status = ffd_hash_cache_hash(cache, path, &hash, error);
-    return status ? status : add_hash(list, &hash, error);
+    TRY(ffd_hash_cache_hash(cache, path, &hash, error));
+    return add_hash(list, &hash, error);
 }
 
 static ffd_status add_files(hash_list *list, hash_cache *cache, const path_list *files, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < files->count && !status; i++)
-        status = add_file(list, cache, files->paths[i], error);
-    return status;
+    for (size_t i = 0; i < files->count; i++)
+        TRY(add_file(list, cache, files->paths[i], error));
+    return FFD_OK;
 }
 
 /* A missing or unreadable image has a hash too. */
 static ffd_status add_images(hash_list *list, hash_cache *cache, const path_list *images, ffd_error *error)
 {
     static const hash128 missing = {{0}};
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < images->count && !status; i++)
+    for (size_t i = 0; i < images->count; i++)
         if (add_file(list, cache, images->paths[i], NULL))
-            status = add_hash(list, &missing, error);
-    return status;
+            TRY(add_hash(list, &missing, error));
+    return FFD_OK;
 }
 
 static ffd_status finish(hash_list *list, ffd_status status, hash128 *hash)

@@ -44,9 +44,7 @@ ffd_status ffd_hash_cache_hash(hash_cache *cache, const char *path, hash128 *has
         return FFD_OK;
     }
     file_input input;
-    const ffd_status status = ffd_file_load(path, &input, error);
-    if (status)
-        return status;
+    TRY(ffd_file_load(path, &input, error));
     *hash = ffd_hash(input.data, input.size);
     if (!is_file) {
         ffd_file_unload(&input);
@@ -59,10 +57,9 @@ ffd_status ffd_hash_cache_hash(hash_cache *cache, const char *path, hash128 *has
 
 static ffd_status copy_list(const path_list *from, path_list *to, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < from->count && !status; i++)
-        status = ffd_paths_add(to, from->paths[i], error);
-    return status;
+    for (size_t i = 0; i < from->count; i++)
+        TRY(ffd_paths_add(to, from->paths[i], error));
+    return FFD_OK;
 }
 
 static void forget_mesh(cached_mesh *mesh)
@@ -102,9 +99,7 @@ static ffd_status list_by_document(cached_mesh *mesh, const ffd_source *source, 
 static ffd_status load_and_hash(hash_cache *cache, const char *path, const file_stamp *stamp,
                                 file_input *bytes, ffd_error *error)
 {
-    const ffd_status status = ffd_file_load(path, bytes, error);
-    if (status)
-        return status;
+    TRY(ffd_file_load(path, bytes, error));
     const hash128 hash = ffd_hash(bytes->data, bytes->size);
     remember(cache, path, stamp, &hash);
     return FFD_OK;
@@ -114,10 +109,8 @@ static ffd_status list_by_bytes(hash_cache *cache, cached_mesh *mesh, const ffd_
                                 const mesh_format *table, ffd_error *error)
 {
     file_input bytes;
-    ffd_status status = load_and_hash(cache, source->path, &mesh->stamp, &bytes, error);
-    if (status)
-        return status;
-    status = table->find_resources(source->path, &bytes, &mesh->images, error);
+    TRY(load_and_hash(cache, source->path, &mesh->stamp, &bytes, error));
+    ffd_status status = table->find_resources(source->path, &bytes, &mesh->images, error);
     ffd_kept_put(&cache->kept, source->path, &mesh->stamp, &bytes);
     return status;
 }
@@ -162,13 +155,11 @@ ffd_status ffd_hash_cache_list(hash_cache *cache, const ffd_source *source, path
 {
     ffd_format format;
     const cached_mesh *mesh;
-    ffd_status status = ffd_source_format(source, &format, error);
-    if (status)
-        return status;
+    TRY(ffd_source_format(source, &format, error));
     if (!ffd_format_table(format)->list_files)
         return ffd_paths_add(files, source->path, error);
-    status = know_mesh(cache, source, format, &mesh, error);
-    return status ? status : copy_list(&mesh->files, files, error);
+    TRY(know_mesh(cache, source, format, &mesh, error));
+    return copy_list(&mesh->files, files, error);
 }
 
 ffd_status ffd_hash_cache_images(hash_cache *cache, const ffd_source *source, path_list *images,
@@ -176,11 +167,11 @@ ffd_status ffd_hash_cache_images(hash_cache *cache, const ffd_source *source, pa
 {
     ffd_format format;
     const cached_mesh *mesh;
-    ffd_status status = ffd_source_format(source, &format, error);
-    if (status || !(ffd_format_table(format)->list_images || ffd_format_table(format)->find_resources))
-        return status;
-    status = know_mesh(cache, source, format, &mesh, error);
-    return status ? status : copy_list(&mesh->images, images, error);
+    TRY(ffd_source_format(source, &format, error));
+    if (!(ffd_format_table(format)->list_images || ffd_format_table(format)->find_resources))
+        return FFD_OK;
+    TRY(know_mesh(cache, source, format, &mesh, error));
+    return copy_list(&mesh->images, images, error);
 }
 
 static void forget_scan(cached_scan *scan)
@@ -232,8 +223,8 @@ ffd_status ffd_hash_cache_scan(hash_cache *cache, const ffd_source *source, ffd_
     *beside = 0;
     ffd_status status = ffd_source_format(source, &from, error);
     if (!status && !ffd_format_table(from)->list_files) {
-        status = ffd_hash_cache_images(cache, source, copied, error);
-        return status ? status : copy_list(copied, named, error);
+        TRY(ffd_hash_cache_images(cache, source, copied, error));
+        return copy_list(copied, named, error);
     }
     if (status || !ffd_file_stamp(source->path, &stamp))
         return status;
@@ -242,8 +233,8 @@ ffd_status ffd_hash_cache_scan(hash_cache *cache, const ffd_source *source, ffd_
     if (status)
         return status;
     *beside = cache->scan.beside;
-    status = copy_list(&cache->scan.named, named, error);
-    return status ? status : copy_list(&cache->scan.copied, copied, error);
+    TRY(copy_list(&cache->scan.named, named, error));
+    return copy_list(&cache->scan.copied, copied, error);
 }
 
 ffd_status ffd_hash_cache_list_named(const ffd_source *source, path_list *named, ffd_error *error)

@@ -33,9 +33,7 @@ ffd_status ffd_index_entry_read(const byte_buffer *text, index_entry *entry, ffd
     json_tree tree;
     bool failed = false;
     *entry = (index_entry){0};
-    const ffd_status status = ffd_json_parse(&input, &tree, error);
-    if (status)
-        return status;
+    TRY(ffd_json_parse(&input, &tree, error));
     entry->row.input = text_of(entry, &tree, "input", &failed);
     entry->row.output = text_of(entry, &tree, "output", &failed);
     entry->row.error = text_of(entry, &tree, "error", &failed);

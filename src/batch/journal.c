@@ -220,9 +220,7 @@ static bool is_journal(const update_file *file)
 static ffd_status open_table(job_journal *journal, ffd_error *error)
 {
     bool own = false;
-    const ffd_status status = ffd_update_open(journal->path, &journal->file, error);
-    if (status)
-        return status;
+    TRY(ffd_update_open(journal->path, &journal->file, error));
     /* Only the first table is written under the journal's own name, so only it can be truncated. */
     if (read_head(journal, &own) && journal->slots != 0 && journal->slots != FIRST_SLOTS &&
         !has_slots(journal, own ? sizeof(journal_slot) : LEAST_SLOT))

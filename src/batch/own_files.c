@@ -45,15 +45,14 @@ static ffd_status check_read(const own_file *file, const own_file *read, ffd_err
 static ffd_status check_reads(const own_file *file, const job_source_desc *jobs, ffd_error *error)
 {
     const own_file reads[] = {{"the manifest", jobs->manifest}, {"the table", jobs->table}};
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < sizeof reads / sizeof *reads && !status; i++)
-        status = check_read(file, &reads[i], error);
     const ffd_deform_desc *const defaults = jobs->defaults;
-    for (size_t i = 0; defaults && i < defaults->lattice_count && !status; i++)
-        status = check_read(file, &(own_file){"a lattice", defaults->lattices[i].path}, error);
-    if (!status && defaults && defaults->embedding)
-        status = check_read(file, &(own_file){"the embedding", defaults->embedding}, error);
-    return status;
+    for (size_t i = 0; i < sizeof reads / sizeof *reads; i++)
+        TRY(check_read(file, &reads[i], error));
+    for (size_t i = 0; defaults && i < defaults->lattice_count; i++)
+        TRY(check_read(file, &(own_file){"a lattice", defaults->lattices[i].path}, error));
+    return defaults && defaults->embedding
+               ? check_read(file, &(own_file){"the embedding", defaults->embedding}, error)
+               : FFD_OK;
 }
 
 static ffd_status check_all(const own_file *files, size_t count, const batch_desc *desc, ffd_error *error)

@@ -63,9 +63,7 @@ static ffd_status open_array(const row_array *array, update_file **file, ffd_err
     char head[NPY_HEADER_CAPACITY], found[NPY_HEADER_CAPACITY];
     const size_t length = make_head(array, head);
     uint64_t size;
-    const ffd_status status = ffd_update_open_there(array->path, file, error);
-    if (status)
-        return status;
+    TRY(ffd_update_open_there(array->path, file, error));
     if (ffd_update_size(*file, &size) && size == length + array->rows * row_size(array) &&
         ffd_update_read(*file, 0, found, length) && memcmp(found, head, length) == 0)
         return FFD_OK;
@@ -81,10 +79,9 @@ ffd_status ffd_rows_find(const row_array *array, bool *is_there, ffd_error *erro
     *is_there = ffd_file_exists(array->path);
     if (!*is_there)
         return FFD_OK;
-    const ffd_status status = open_array(array, &file, error);
-    if (!status)
-        ffd_update_close(&file);
-    return status;
+    TRY(open_array(array, &file, error));
+    ffd_update_close(&file);
+    return FFD_OK;
 }
 
 /* Fills bytes with NaNs of the array's number type. */
@@ -253,12 +250,9 @@ ffd_status ffd_row_write(const row_array *array, uint64_t row, const double *pos
                          ffd_error *error)
 {
     update_file *file;
-    ffd_status status = ffd_row_check(array, positions, count, error);
-    if (!status)
-        status = open_array(array, &file, error);
-    if (status)
-        return status;
-    status = write_row(array, row, file, positions, error);
+    TRY(ffd_row_check(array, positions, count, error));
+    TRY(open_array(array, &file, error));
+    ffd_status status = write_row(array, row, file, positions, error);
     ffd_update_close(&file);
     return status;
 }

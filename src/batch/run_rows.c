@@ -76,9 +76,8 @@ ffd_status ffd_run_rows_place(run_rows *rows, const batch_desc *desc, ffd_error 
     /* An interrupted run ends without jobs; it must not replace what an earlier run has made. */
     if (desc->pool.wishes.dry || ffd_interrupt_requested())
         return FFD_OK;
-    const ffd_status status =
-        ffd_report_create(rows->list, desc->pool.wishes.stable, NULL, &rows->report, error);
-    return status ? status : ffd_rows_place(&rows->array, rows->replaces, &rows->made, error);
+    TRY(ffd_report_create(rows->list, desc->pool.wishes.stable, NULL, &rows->report, error));
+    return ffd_rows_place(&rows->array, rows->replaces, &rows->made, error);
 }
 
 hash128 ffd_run_rows_target(const run_rows *rows, uint64_t row, const hash128 *output)

@@ -35,12 +35,10 @@ char *ffd_run_view_page_of(const char *folder, uint64_t shard, uint64_t shards)
 static ffd_status begin_page(run_view *view, ffd_error *error)
 {
     const run_view_desc *const desc = &view->desc;
-    ffd_status status = ffd_output_create(&view->output, error);
-    if (!status)
-        status = ffd_output_folder(view->output, desc->folder, error);
-    if (!status)
-        status = ffd_output_begin(view->output, view->page, desc->force, error);
-    return status ? status : ffd_index_begin(&view->index, desc->name, view->output, error);
+    TRY(ffd_output_create(&view->output, error));
+    TRY(ffd_output_folder(view->output, desc->folder, error));
+    TRY(ffd_output_begin(view->output, view->page, desc->force, error));
+    return ffd_index_begin(&view->index, desc->name, view->output, error);
 }
 
 static ffd_status open_view(run_view *view, ffd_error *error)
@@ -136,15 +134,13 @@ ffd_status ffd_run_view_add(run_view *view, const pool_task *task, const byte_bu
     byte_buffer settings = {0};
     if (!view->output)
         return FFD_OK;
-    ffd_status status = ffd_index_entry_read(text, &entry, error);
-    if (status)
-        return status;
+    TRY(ffd_index_entry_read(text, &entry, error));
     ffd_settings_show(&task->job.desc, &settings);
     char *const shown = ffd_buffer_finish(&settings);
     entry.row.number = task->job.line;
     entry.row.settings = shown;
     entry.row.picture = task->end.has_picture ? task->picture_name : NULL;
-    status = shown ? ffd_index_add(&view->index, &entry.row, error) : ffd_fail_memory(error);
+    ffd_status status = shown ? ffd_index_add(&view->index, &entry.row, error) : ffd_fail_memory(error);
     ffd_free(shown);
     ffd_index_entry_free(&entry);
     return status;
@@ -154,8 +150,8 @@ ffd_status ffd_run_view_write(run_view *view, ffd_error *error)
 {
     if (!view->output)
         return FFD_OK;
-    const ffd_status status = ffd_index_end(&view->index, error);
-    return status ? status : ffd_output_commit(view->output, error);
+    TRY(ffd_index_end(&view->index, error));
+    return ffd_output_commit(view->output, error);
 }
 
 void ffd_run_view_destroy(run_view **view)

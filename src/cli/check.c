@@ -28,7 +28,7 @@ static int print_summary(const cli_job *job, const char *input, const ffd_job_re
     if (ffd_job_result_text(result, cli_display_name(lattice), &text, &error))
         return cli_fail(&error);
     printf("%s\n%s", cli_display_name(input), text);
-    ffd_text_free(text);
+    ffd_free(text);
     return EXIT_DONE;
 }
 

@@ -77,7 +77,7 @@ static int print_json(const ffd_comparison *comparison, const char *a, const cha
     if (ffd_comparison_json(comparison, a, b, &text, &error))
         return cli_fail(&error);
     fputs(text, stdout);
-    ffd_text_free(text);
+    ffd_free(text);
     return comparison->equal ? EXIT_DONE : EXIT_NO;
 }
 

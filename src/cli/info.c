@@ -44,7 +44,7 @@ static int describe(settings *s, const char *file)
     if (ffd_info_run(&desc, &text, &error))
         return cli_fail(&error);
     fputs(text, stdout);
-    ffd_text_free(text);
+    ffd_free(text);
     return EXIT_DONE;
 }
 

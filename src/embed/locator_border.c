@@ -29,9 +29,7 @@ ffd_status ffd_locator_border(const ffd_locator *locator, const boundary **borde
     *border = there;
     if (there)
         return FFD_OK;
-    const ffd_status status = ffd_boundary_create(locator->lattice, &mine, error);
-    if (status)
-        return status;
+    TRY(ffd_boundary_create(locator->lattice, &mine, error));
     if (atomic_compare_exchange_strong(&locator->border->made, &there, mine)) {
         *border = mine;
         return FFD_OK;

@@ -103,18 +103,14 @@ static ffd_status retry(const ffd_locator *locator, const double p[3], const bor
     boundary_point nearest;
     boundary_verdict verdict;
     border_place place;
-    ffd_status status = ffd_locator_border(locator, &border, error);
-    if (status)
-        return status;
+    TRY(ffd_locator_border(locator, &border, error));
     double size = 0;
     for (int a = 0; a < 3; a++)
         size = larger_of(size, locator->hull.hi[a] - locator->hull.lo[a]);
-    status = ffd_boundary_find(border, p, reach->distance + BORDER_GAP * size, &nearest, error);
-    if (status)
-        return status;
+    TRY(ffd_boundary_find(border, p, reach->distance + BORDER_GAP * size, &nearest, error));
     if (nearest.found)
         evaluate(locator, p, nearest.uvw, &place);
-    status = find_verdict(border, p, reach, &nearest, &place, &verdict, error);
+    ffd_status status = find_verdict(border, p, reach, &nearest, &place, &verdict, error);
     if (verdict == BOUNDARY_MEETS) {
         take(&place, location);
     } else if (verdict == BOUNDARY_UNDECIDED) {

@@ -232,14 +232,12 @@ static ffd_status find(const ffd_lattice *lattice, int threads, ffd_folds *folds
     if (!ffd_lattice_get_points(lattice, FFD_VOLUME_REST))
         return ffd_fail(error, FFD_E_ARGUMENT,
                         "the lattice has no control points yet: its box is that of a mesh");
-    ffd_status status = ffd_threads_choose(threads, &threads, error);
-    if (status)
-        return status;
+    TRY(ffd_threads_choose(threads, &threads, error));
     folds->cells = lattice->knots[0].span_count * lattice->knots[1].span_count * lattice->knots[2].span_count;
     folds->relative_to = FFD_FOLDS_TO_PLACE;
     if (ffd_fold_is_affine(lattice, &folds->min_det))
         return FFD_OK;
-    status = ffd_fold_plan_make(lattice, &work.plan, error);
+    ffd_status status = ffd_fold_plan_make(lattice, &work.plan, error);
     if (!status)
         status = allocate(&work, threads, error);
     if (status)
@@ -266,10 +264,8 @@ out:
 ffd_status ffd_folds_find(const ffd_lattice *lattice, int threads, ffd_folds *callers, ffd_error *error)
 {
     ffd_folds folds = {.struct_size = sizeof folds};
-    ffd_status status = ffd_struct_check(sizeof folds, callers, "ffd_folds", error);
-    if (status)
-        return status;
-    status = find(lattice, threads, &folds, error);
+    TRY(ffd_struct_check(sizeof folds, callers, "ffd_folds", error));
+    ffd_status status = find(lattice, threads, &folds, error);
     folds.is_known = !status;
     ffd_struct_give(&folds, sizeof folds, callers, callers->struct_size);
     return status;

@@ -130,9 +130,7 @@ static ffd_status find_polynomial_volume(const fold_plan *plan, rational_volume 
         rows += 2 * plan->cells[a];
         if (ffd_knots_closed(&plan->lattice->knots[a]))
             continue;
-        const ffd_status status = add_direction(plan, a, &scale, &total, error);
-        if (status)
-            return status;
+        TRY(add_direction(plan, a, &scale, &total, error));
     }
     volume->triple = total.volume;
     volume->doubt = total.error + (double)rows * UNIT * total.size;
@@ -162,10 +160,8 @@ static scaled bounds_volume(const ffd_lattice *lattice)
 ffd_status ffd_fold_volume(const fold_plan *plan, signed_volume *volume, ffd_error *error)
 {
     rational_volume found;
-    const ffd_status status = plan->rational ? ffd_rational_volume(plan->lattice, &found, error)
-                                             : find_polynomial_volume(plan, &found, error);
-    if (status)
-        return status;
+    TRY(plan->rational ? ffd_rational_volume(plan->lattice, &found, error)
+                       : find_polynomial_volume(plan, &found, error));
     const double size = fabs(found.triple);
     volume->sign = found.triple < 0 ? -1 : 1;
     volume->is_mean = size > 2 * found.doubt && size <= DBL_MAX;

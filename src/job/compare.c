@@ -83,13 +83,10 @@ ffd_status ffd_compare_run(const ffd_compare_desc *callers, ffd_comparison *comp
     ffd_compare_desc desc;
     ffd_comparison own = {.struct_size = sizeof own};
     ffd_compare_desc_init(&desc, sizeof desc);
-    ffd_status status = ffd_struct_take(&desc, sizeof desc, callers, "ffd_compare_desc", error);
-    if (!status)
-        status = ffd_struct_check(sizeof own, comparison, "ffd_comparison", error);
-    if (status)
-        return status;
+    TRY(ffd_struct_take(&desc, sizeof desc, callers, "ffd_compare_desc", error));
+    TRY(ffd_struct_check(sizeof own, comparison, "ffd_comparison", error));
     job_memory memory = {0};
-    status = ffd_in_memory_source(&memory, &desc.a, error);
+    ffd_status status = ffd_in_memory_source(&memory, &desc.a, error);
     if (!status)
         status = ffd_in_memory_source(&memory, &desc.b, error);
     if (!status)

@@ -211,7 +211,7 @@ static ffd_status make_model(const mesh_document *document, const conversion_mor
     if (!morph->name)
         return FFD_OK;
     ffd_status status = document->format->model(document, &after, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_model_add_morph(model, &after, morph->name, error);
     ffd_model_free(&after);
     return status;
@@ -225,14 +225,14 @@ ffd_status ffd_conversion_save(const mesh_document *document, const conversion_m
     mesh_model model = {0};
     memory_budget budget = document->budget;
     ffd_status status = make_model(document, morph, &budget, &model, error);
-    if (status == FFD_OK)
+    if (!status)
         status = check_range(&model, target, options->path, error);
-    if (status == FFD_OK) {
+    if (!status) {
         clear_attributes(&model, target, log);
         limit_colours(&model, target, log);
         status = target->write(&model, options, output, log, error);
     }
-    if (status == FFD_OK)
+    if (!status)
         warn(&model, target, log);
     ffd_model_free(&model);
     return status;

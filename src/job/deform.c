@@ -54,8 +54,8 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
                                    .resources = desc->resources,
                                    .input = input};
     if (!ffd_deform_desc_writes(desc)) {
-        const ffd_status status = check_no_output(desc, error);
-        return status ? status : ffd_source_format(&desc->input, &options->format, error);
+        TRY(check_no_output(desc, error));
+        return ffd_source_format(&desc->input, &options->format, error);
     }
     if (desc->depfile && desc->output && ffd_output_is_stream(desc->output))
         return ffd_fail(error, FFD_E_ARGUMENT, "{depfile} needs a file name as {output}");
@@ -133,21 +133,17 @@ static bool goes_round_all(const deform_job *job)
 static ffd_status make_rule(const deform_job *job, path_list *inputs, byte_buffer *rule, ffd_error *error)
 {
     const ffd_deform_desc *desc = job->desc;
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < desc->lattice_count && !status; i++) {
+    for (size_t i = 0; i < desc->lattice_count; i++) {
         const char *const path = ffd_lattice_file(&desc->lattices[i]);
-        status = path ? ffd_paths_add(inputs, path, error) : FFD_OK;
+        TRY(path ? ffd_paths_add(inputs, path, error) : FFD_OK);
     }
-    if (!status && desc->embedding && !desc->embedding_bytes.data && !ffd_file_is_stream(desc->embedding))
-        status = ffd_paths_add(inputs, desc->embedding, error);
-    for (size_t i = 0; i < job->chain.count && !status; i++)
-        status = add_paths(inputs, &job->chain.links[i].box_files, error);
-    if (!status && desc->shared_box && goes_round_all(job))
-        status = add_paths(inputs, &desc->shared_box->files, error);
-    if (!status)
-        status = ffd_depfile_rule(desc->output, inputs, rule, error);
-    if (status)
-        return status;
+    if (desc->embedding && !desc->embedding_bytes.data && !ffd_file_is_stream(desc->embedding))
+        TRY(ffd_paths_add(inputs, desc->embedding, error));
+    for (size_t i = 0; i < job->chain.count; i++)
+        TRY(add_paths(inputs, &job->chain.links[i].box_files, error));
+    if (desc->shared_box && goes_round_all(job))
+        TRY(add_paths(inputs, &desc->shared_box->files, error));
+    TRY(ffd_depfile_rule(desc->output, inputs, rule, error));
     warn_of_name(job, desc->output);
     for (size_t i = 0; i < inputs->count; i++)
         warn_of_name(job, inputs->paths[i]);
@@ -186,16 +182,14 @@ static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_er
     hash128 hash;
     byte_buffer rule = {0};
     file_output *output;
-    ffd_status status = ffd_output_create(&output, error);
-    if (status)
-        return status;
+    TRY(ffd_output_create(&output, error));
     ffd_output_record(output, ffd_output_set_list(job->desc->output_set));
     ffd_output_redirect(output, job->desc->sink, job->desc->sink_user);
     if (job->desc->if_changed)
         ffd_output_keep_equal(output);
     if (hashed)
         ffd_output_hash(output);
-    status = write_all(job, options, output, &rule, error);
+    ffd_status status = write_all(job, options, output, &rule, error);
     status = ffd_mapping_judge(job->losses, status, error);
     if (!status) /* a missing resource may be the fault of a resolve callback */
         status = ffd_in_memory_judge(&job->desc->input, status, error);
@@ -299,8 +293,8 @@ static ffd_status check_reads(const deform_job *job, const char *output, ffd_err
     const ffd_deform_desc *const desc = job->desc;
     if (!ffd_deform_desc_writes(desc) || desc->in_place || desc->sink)
         return FFD_OK;
-    const ffd_status status = ffd_job_check_mesh_files(output, &desc->input, job->document, error);
-    return status ? status : ffd_job_check_box_files(output, &job->chain, desc->lattices, error);
+    TRY(ffd_job_check_mesh_files(output, &desc->input, job->document, error));
+    return ffd_job_check_box_files(output, &job->chain, desc->lattices, error);
 }
 
 /* Saves the result; a dry run only looks whether that would be refused. */

@@ -99,12 +99,10 @@ ffd_status ffd_job_for_caller(deform_job_function run, const ffd_deform_desc *ca
     ffd_deform_desc desc;
     ffd_job_result result;
     ffd_result_clear(&result);
-    ffd_status status = ffd_struct_check(sizeof result, callers_result, "ffd_job_result", error);
-    if (status)
-        return status;
+    TRY(ffd_struct_check(sizeof result, callers_result, "ffd_job_result", error));
     const size_t size = callers_result->struct_size;
     deadline own;
-    status = ffd_deform_desc_take(callers, &desc, &result.error);
+    ffd_status status = ffd_deform_desc_take(callers, &desc, &result.error);
     const deadline *const before = ffd_deadline_begin(&own, status ? 0 : desc.timeout);
     if (!status)
         status = run_own(run, &desc, &result, size);
@@ -140,16 +138,14 @@ static ffd_status open_mesh(deform_job *job, ffd_error *error)
     file_input bytes;
     const bool is_file =
         ffd_job_cache_holds_meshes(desc->cache) && !source.bytes.data && ffd_file_stamp(source.path, &stamp);
-    ffd_status status = is_file && ffd_job_cache_take_bytes(desc->cache, source.path, &stamp, &bytes)
-                            ? ffd_source_open_bytes(&source, job->threads, &bytes, &job->document, error)
-                            : ffd_source_open(&source, job->threads, &job->document, error);
-    if (!status)
-        status = ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(&desc->input),
-                                     job->document, error);
-    if (!status)
-        ffd_job_cache_describe_mesh(desc->cache, desc, job->only_positions, is_file ? &stamp : NULL,
-                                    job->document);
-    return status;
+    TRY(is_file && ffd_job_cache_take_bytes(desc->cache, source.path, &stamp, &bytes)
+            ? ffd_source_open_bytes(&source, job->threads, &bytes, &job->document, error)
+            : ffd_source_open(&source, job->threads, &job->document, error));
+    TRY(ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(&desc->input), job->document,
+                            error));
+    ffd_job_cache_describe_mesh(desc->cache, desc, job->only_positions, is_file ? &stamp : NULL,
+                                job->document);
+    return FFD_OK;
 }
 
 ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outside, ffd_job_cache *cache,
@@ -228,9 +224,7 @@ static ffd_status prepare_positions(deform_job *job, memory_budget *budget, ffd_
     const size_t bytes = 3 * sizeof *job->positions;
     if (!job->desc->positions)
         return FFD_OK;
-    const ffd_status status = ffd_budget_take(budget, count, bytes, error);
-    if (status)
-        return status;
+    TRY(ffd_budget_take(budget, count, bytes, error));
     job->positions = ffd_alloc((size_t)count, bytes);
     return job->positions ? FFD_OK : ffd_fail_memory(error);
 }
@@ -289,9 +283,9 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, figure_arrays 
 static ffd_status locate(deform_job *job, ffd_error *error)
 {
     const char *embedding = job->desc->embedding;
-    const ffd_status status = ffd_chain_fit(&job->chain, job->document, job->threads, error);
-    if (status || !embedding)
-        return status;
+    TRY(ffd_chain_fit(&job->chain, job->document, job->threads, error));
+    if (!embedding)
+        return FFD_OK;
     const chain_link *const link = &job->chain.links[0];
     return ffd_embedding_reuse(embedding, job->desc->embedding_bytes, job->document, link->lattice,
                                link->snap, job->threads, &job->embedding, error);
@@ -464,7 +458,7 @@ ffd_status ffd_deform_job_end(deform_job *job, ffd_status status, ffd_job_result
     ffd_model_free(&job->base);
     if (job->document) /* reset for the next job */
         job->document->shown = job->document->converted = false;
-    if (status == FFD_OK)
+    if (!status)
         ffd_job_cache_put_mesh(job->desc->cache, job->desc, job->document);
     else
         ffd_source_close(&job->document);

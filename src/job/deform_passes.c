@@ -78,9 +78,7 @@ static ffd_status pass_over_stored(deform_job *job, mesh_pass *pass, pass_totals
     pass->deformed = pass->deformed ? pass->deformed : job->positions;
     if (!pass->is_located && !job->desc->embedding)
         ffd_job_cache_count_search(job->desc->cache);
-    const ffd_status status = ffd_pass_run(pass, totals, error);
-    if (status)
-        return status;
+    TRY(ffd_pass_run(pass, totals, error));
     ffd_job_cache_locations_filled(cache);
     if (job->positions && pass->deformed != job->positions)
         memcpy(job->positions, pass->deformed,
@@ -101,15 +99,13 @@ static ffd_status pass_over_both(deform_job *job, const figure_arrays *figures, 
     pass.write = !writes_shown;
     pass.attributes = pass.attributes && pass.write;
     pass.counts_shapes = true;
-    ffd_status status = pass_over_stored(job, &pass, &of_stored, error);
-    if (!status && !writes_shown && of_stored.moved)
-        status = recompute(job, stored, counts, error);
-    if (status)
-        return status;
+    TRY(pass_over_stored(job, &pass, &of_stored, error));
+    if (!writes_shown && of_stored.moved)
+        TRY(recompute(job, stored, counts, error));
     fill_figures(job, figures, &shown);
     shown.discards = !writes_shown;
     job->document->shown = true;
-    status = ffd_pass_run(&shown, &job->totals, error);
+    ffd_status status = ffd_pass_run(&shown, &job->totals, error);
     if (!status && writes_shown && job->totals.moved)
         status = recompute(job, figures, counts, error);
     ffd_totals_add_stored(&of_stored, pass.write, &job->totals);

@@ -117,41 +117,34 @@ static ffd_status check_outputs(const ffd_embed_desc *desc, ffd_error *error)
                    ? fail_one_file(desc->output, error)
                    : FFD_OK;
     /* Restore files that a killed run had set aside. */
-    ffd_status status = ffd_output_is_stream(desc->output) ? FFD_OK : ffd_restore_output(desc->output, error);
-    if (!status)
-        status = check_output(desc, desc->output, error);
-    if (!status && desc->status_output)
-        status = check_output(desc, desc->status_output, error);
-    if (!status && desc->status_output && is_one_file(desc->output, desc->status_output))
-        status = fail_one_file(desc->output, error);
-    return status;
+    TRY(ffd_output_is_stream(desc->output) ? FFD_OK : ffd_restore_output(desc->output, error));
+    TRY(check_output(desc, desc->output, error));
+    if (desc->status_output)
+        TRY(check_output(desc, desc->status_output, error));
+    if (desc->status_output && is_one_file(desc->output, desc->status_output))
+        TRY(fail_one_file(desc->output, error));
+    return FFD_OK;
 }
 
 /* Refuses to replace what is read through the mesh and the lattice. */
 static ffd_status check_reads(const ffd_embed_desc *desc, const embedding *made, ffd_error *error)
 {
     const char *const outputs[] = {desc->output, desc->status_output};
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < 2 && outputs[i] && !desc->sink && !status; i++) {
-        status = ffd_job_check_mesh_files(outputs[i], &desc->input, NULL, error);
-        if (!status)
-            status = ffd_job_check_box_files(outputs[i], &made->chain, &desc->lattice, error);
+    for (size_t i = 0; i < 2 && outputs[i] && !desc->sink; i++) {
+        TRY(ffd_job_check_mesh_files(outputs[i], &desc->input, NULL, error));
+        TRY(ffd_job_check_box_files(outputs[i], &made->chain, &desc->lattice, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Opens the mesh and fits the loaded lattice to it. */
 static ffd_status open_mesh(const ffd_embed_desc *desc, embedding *made, int threads, ffd_error *error)
 {
     const mesh_log log = {desc->log, desc->log_user};
-    ffd_status status = ffd_source_open(&desc->input, threads, &made->document, error);
-    if (!status)
-        status = ffd_mesh_check(made->document, error);
-    if (!status)
-        status = ffd_mesh_warn(made->document, &log, error);
-    if (!status)
-        status = ffd_chain_fit(&made->chain, made->document, threads, error);
-    return status;
+    TRY(ffd_source_open(&desc->input, threads, &made->document, error));
+    TRY(ffd_mesh_check(made->document, error));
+    TRY(ffd_mesh_warn(made->document, &log, error));
+    return ffd_chain_fit(&made->chain, made->document, threads, error);
 }
 
 /* Allocates and fills the arrays. */
@@ -160,11 +153,8 @@ static ffd_status make(const ffd_embed_desc *desc, embedding *made, int threads,
 {
     made->count = (size_t)ffd_mesh_vertex_count(made->document);
     memory_budget budget = made->document->budget;
-    ffd_status status = ffd_lattice_memory_share(&made->chain, &budget, error);
-    if (!status)
-        status = ffd_budget_take(&budget, made->count, 3 * sizeof *made->uvw + sizeof *made->statuses, error);
-    if (status)
-        return status;
+    TRY(ffd_lattice_memory_share(&made->chain, &budget, error));
+    TRY(ffd_budget_take(&budget, made->count, 3 * sizeof *made->uvw + sizeof *made->statuses, error));
     made->uvw = ffd_alloc(made->count, 3 * sizeof *made->uvw);
     made->statuses = ffd_alloc(made->count, sizeof *made->statuses);
     if (!made->uvw || !made->statuses)
@@ -191,8 +181,8 @@ static ffd_status write(const ffd_embed_desc *desc, embedding *made, int threads
 {
     const chain_link *const link = &made->chain.links[0];
     made->lattice = ffd_embedding_hash_rest(link->lattice, link->snap);
-    const ffd_status status = ffd_embedding_hash_positions(made->document, threads, &made->positions, error);
-    return status ? status : write_files(desc, made, error);
+    TRY(ffd_embedding_hash_positions(made->document, threads, &made->positions, error));
+    return write_files(desc, made, error);
 }
 
 /* Runs the job once the lattice is loaded. */
@@ -202,14 +192,11 @@ static ffd_status embed(const ffd_embed_desc *desc, embedding *made, double star
     const mesh_log log = {desc->log, desc->log_user};
     pass_totals totals;
     int threads;
-    ffd_status status = ffd_threads_choose(desc->threads, &threads, error);
-    if (!status)
-        status = open_mesh(desc, made, threads, error);
-    if (status)
-        return status;
+    TRY(ffd_threads_choose(desc->threads, &threads, error));
+    TRY(open_mesh(desc, made, threads, error));
     const double opened = ffd_clock_seconds();
     result->seconds.read = opened - start;
-    status = make(desc, made, threads, &log, &totals, error);
+    ffd_status status = make(desc, made, threads, &log, &totals, error);
     status = ffd_mapping_judge(made->losses, status, error);
     if (status)
         return status;
@@ -238,12 +225,9 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
                                .log = &log};
     const chain_outside outside = {.snap = desc->snap, .snap_is_relative = desc->snap_relative};
     embedding made = {.losses = ffd_mapping_losses()};
-    ffd_status status = check_outputs(desc, error);
-    if (!status)
-        status = ffd_chain_load(&files, &outside, FFD_ISA_AUTO, NULL, &made.chain, error);
-    if (status)
-        return status;
-    status = check_reads(desc, &made, error);
+    TRY(check_outputs(desc, error));
+    TRY(ffd_chain_load(&files, &outside, FFD_ISA_AUTO, NULL, &made.chain, error));
+    ffd_status status = check_reads(desc, &made, error);
     if (!status)
         status = embed(desc, &made, start, result, error);
     if (status)
@@ -260,17 +244,12 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
 /* Names and checks data in memory. */
 static ffd_status take_memory(job_memory *memory, ffd_embed_desc *desc, ffd_error *error)
 {
-    ffd_status status = ffd_in_memory_lattice(&desc->lattice, "the lattice", "lattice", error);
-    if (!status && desc->sink && desc->output && desc->status_output &&
-        strcmp(desc->output, desc->status_output) == 0)
-        status = fail_one_file(desc->output, error);
-    if (!status)
-        status = ffd_in_memory_source(memory, &desc->input, error);
-    if (!status)
-        status = ffd_in_memory_output(desc->sink, desc->output, error);
-    if (!status)
-        status = ffd_in_memory_output(desc->sink, desc->status_output, error);
-    return status;
+    TRY(ffd_in_memory_lattice(&desc->lattice, "the lattice", "lattice", error));
+    if (desc->sink && desc->output && desc->status_output && strcmp(desc->output, desc->status_output) == 0)
+        TRY(fail_one_file(desc->output, error));
+    TRY(ffd_in_memory_source(memory, &desc->input, error));
+    TRY(ffd_in_memory_output(desc->sink, desc->output, error));
+    return ffd_in_memory_output(desc->sink, desc->status_output, error);
 }
 
 ffd_status ffd_embed_run(const ffd_embed_desc *callers, ffd_job_result *callers_result, ffd_error *error)
@@ -278,13 +257,11 @@ ffd_status ffd_embed_run(const ffd_embed_desc *callers, ffd_job_result *callers_
     ffd_embed_desc desc;
     ffd_job_result result = {.struct_size = sizeof result};
     ffd_embed_desc_init(&desc, sizeof desc);
-    ffd_status status = ffd_struct_take(&desc, sizeof desc, callers, "ffd_embed_desc", error);
-    if (!status && callers_result)
-        status = ffd_struct_check(sizeof result, callers_result, "ffd_job_result", error);
-    if (status)
-        return status;
+    TRY(ffd_struct_take(&desc, sizeof desc, callers, "ffd_embed_desc", error));
+    if (callers_result)
+        TRY(ffd_struct_check(sizeof result, callers_result, "ffd_job_result", error));
     job_memory memory = {0};
-    status = take_memory(&memory, &desc, &result.error);
+    ffd_status status = take_memory(&memory, &desc, &result.error);
     if (!status)
         status = run(&desc, &result, &result.error);
     result.status = ffd_in_memory_end(&memory, status, &result.error);

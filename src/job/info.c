@@ -1,11 +1,9 @@
 /* info.c - the job of `ffd info`. */
+#include "job/info.h"
 #include "base/file/mapping.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
-#include "job/info_lattice.h"
-#include "job/info_mesh.h"
-#include "job/info_text.h"
 #include "job/input/deform_desc.h"
 #include "job/input/in_memory.h"
 #include "job/input/source.h"
@@ -64,17 +62,15 @@ ffd_status ffd_info_run(const ffd_info_desc *callers, char **text, ffd_error *er
     const unsigned losses = ffd_mapping_losses();
     *text = NULL;
     ffd_info_desc_init(&own, sizeof own);
-    ffd_status status = ffd_struct_take(&own, sizeof own, callers, "ffd_info_desc", error);
-    if (status)
-        return status;
+    TRY(ffd_struct_take(&own, sizeof own, callers, "ffd_info_desc", error));
     job_memory memory = {0};
-    status = ffd_in_memory_source(&memory, &own.file, error);
+    ffd_status status = ffd_in_memory_source(&memory, &own.file, error);
     if (!status)
         status = write_facts(desc, &facts, error);
     status = ffd_mapping_judge(losses, status, error);
-    if (status == FFD_OK && !desc->json)
+    if (!status && !desc->json)
         status = ffd_info_render(facts.data, facts.size, text, error);
-    else if (status == FFD_OK) {
+    else if (!status) {
         *text = ffd_buffer_finish(&facts);
         status = *text ? FFD_OK : ffd_fail_memory(error);
     }
@@ -83,9 +79,4 @@ ffd_status ffd_info_run(const ffd_info_desc *callers, char **text, ffd_error *er
     status = ffd_in_memory_end(&memory, status, error);
     ffd_buffer_free(&facts);
     return status;
-}
-
-void ffd_text_free(char *text)
-{
-    ffd_free(text);
 }

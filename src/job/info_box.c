@@ -1,6 +1,7 @@
-#include "job/info_box.h"
+/* info_box.c - boxes in what `ffd info` prints: any bounds, and the box of a lattice's rest volume. */
 #include "base/memory/memory.h"
 #include "job/chain/mesh_boxes.h"
+#include "job/info.h"
 #include "lattice/lattice.h"
 #include "lattice/shapes.h"
 #include "lattice/spec.h"
@@ -54,10 +55,8 @@ static ffd_status describe_meshes(ffd_lattice *lattice, const ffd_source *like, 
 {
     ffd_error reason;
     char line[1024];
-    ffd_status status = write_meshes(lattice, json, error);
-    if (status)
-        return status;
-    status = go_round(lattice, like, fits, box, &reason);
+    TRY(write_meshes(lattice, json, error));
+    ffd_status status = go_round(lattice, like, fits, box, &reason);
     if (!status)
         return FFD_OK;
     *box = ffd_bounds_empty();

@@ -1,10 +1,9 @@
-#include "job/info_lattice.h"
+/* info_lattice.c - describes a lattice file for `ffd info`. */
 #include "base/memory/memory.h"
 #include "base/spelling.h"
 #include "base/vector/vec.h"
 #include "job/chain/lattice_memory.h"
-#include "job/info_box.h"
-#include "job/info_layers.h"
+#include "job/info.h"
 #include "lattice/build.h"
 #include "lattice/file/spec_parse.h"
 #include "lattice/lattice.h"
@@ -146,10 +145,10 @@ static ffd_status write_inversion(const ffd_lattice *lattice, json_text *json, f
     ffd_locator *locator = NULL;
     ffd_error reason = {0};
     const ffd_status status = ffd_locator_create(lattice, &locator, &reason);
-    if (status == FFD_OK)
+    if (!status)
         ffd_json_string(json, "inversion", ffd_locator_get_method(locator));
     ffd_locator_destroy(&locator);
-    if (status == FFD_OK)
+    if (!status)
         return FFD_OK;
     if (status != FFD_E_INVALID && status != FFD_E_LIMIT) {
         if (error)

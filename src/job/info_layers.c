@@ -1,5 +1,6 @@
-#include "job/info_layers.h"
+/* info_layers.c - positions of the layers of control points. */
 #include "base/vector/vec.h"
+#include "job/info.h"
 #include "lattice/lattice.h"
 #include "lattice/shapes.h"
 #include "lattice/spec.h"

@@ -1,8 +1,7 @@
-#include "job/info_mesh.h"
+/* info_mesh.c - describes a mesh for `ffd info`. */
 #include "io/openmesh/half_edges.h"
 #include "io/openmesh/topology.h"
-#include "job/info_box.h"
-#include "job/info_parts.h"
+#include "job/info.h"
 #include "job/input/source.h"
 #include "mesh/bounds.h"
 #include <stdio.h>
@@ -74,8 +73,8 @@ static ffd_status check_memory(const mesh_document *document, const mesh_faces *
 {
     memory_budget budget = document->budget;
     const size_t corners = faces->start[faces->face_count];
-    const ffd_status status = ffd_mesh_faces_take(faces, corners, &budget, error);
-    return status ? status : ffd_budget_check(&budget, ffd_half_edge_bytes(faces), 1, error);
+    TRY(ffd_mesh_faces_take(faces, corners, &budget, error));
+    return ffd_budget_check(&budget, ffd_half_edge_bytes(faces), 1, error);
 }
 
 /* Faces that this build cannot read do not keep the rest from being described. */
@@ -85,11 +84,11 @@ static ffd_status survey_faces(const mesh_document *document, json_text *json, f
     mesh_topology topology;
     ffd_error reason = {0};
     ffd_status status = document->format->faces(document, &faces, &reason);
-    if (status == FFD_OK)
+    if (!status)
         status = check_memory(document, &faces, &reason);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_topology_compute(&faces, &topology, &reason);
-    if (status == FFD_OK)
+    if (!status)
         write_topology(&faces, &topology, json);
     else if (status == FFD_E_UNSUPPORTED || status == FFD_E_LIMIT) {
         ffd_json_null(json, "topology");
@@ -105,13 +104,11 @@ ffd_status ffd_info_document(const mesh_document *document, json_text *json, ffd
 {
     ffd_json_string(json, "mesh_format", document->format->name);
     write_vertices(document, json);
-    ffd_status status = write_reason(document, json, error);
-    if (status)
-        return status;
+    TRY(write_reason(document, json, error));
     ffd_json_object(json, "contents", false);
-    status = document->format->describe(document, json, error);
+    ffd_status status = document->format->describe(document, json, error);
     ffd_json_end(json, '}');
-    return status == FFD_OK ? survey_faces(document, json, error) : status;
+    return status ? status : survey_faces(document, json, error);
 }
 
 ffd_status ffd_info_mesh(const ffd_info_desc *desc, json_text *json, ffd_error *error)
@@ -119,13 +116,13 @@ ffd_status ffd_info_mesh(const ffd_info_desc *desc, json_text *json, ffd_error *
     const mesh_log log = {desc->log, desc->log_user};
     mesh_document *document;
     ffd_status status = ffd_source_open(&desc->file, 0, &document, error);
-    if (status == FFD_OK)
+    if (!status)
         document->shown = true;
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_info_document(document, json, error);
-    if (status == FFD_OK && desc->parts)
+    if (!status && desc->parts)
         status = ffd_info_parts(document, json, error);
-    if (status == FFD_OK)
+    if (!status)
         ffd_flaws_warn(&document->flaws, ffd_source_name(&desc->file), &log);
     ffd_source_close(&document);
     return status;

@@ -1,6 +1,6 @@
-#include "job/info_parts.h"
+/* info_parts.c - lists the names of a mesh that `--only` accepts. */
 #include "base/memory/memory.h"
-#include "job/info_box.h"
+#include "job/info.h"
 #include "mesh/listing.h"
 #include <stdio.h>
 #include <string.h>
@@ -41,7 +41,7 @@ static ffd_status write_things(const mesh_listing *listing, json_text *json, ffd
     ffd_status status = FFD_OK;
     unsigned named = 0;
     ffd_json_array(json, "named_parts", false);
-    for (size_t i = 0; i < listing->count && status == FFD_OK; i++)
+    for (size_t i = 0; i < listing->count && !status; i++)
         if (listing->things[i].name) {
             named |= SELECTOR_BIT(listing->things[i].kind);
             status = write_named(&listing->things[i], json, error);
@@ -66,10 +66,10 @@ ffd_status ffd_info_parts(const mesh_document *document, json_text *json, ffd_er
     ffd_status status = FFD_OK;
     if (document->format->list_parts) {
         status = ffd_listing_begin(document, &listing, &reason);
-        if (status == FFD_OK)
+        if (!status)
             status = document->format->list_parts(document, &listing, &reason);
     }
-    if (status == FFD_OK) {
+    if (!status) {
         status = write_things(&listing, json, &reason);
     } else if (status == FFD_E_UNSUPPORTED || status == FFD_E_LIMIT) {
         ffd_json_null(json, "named_parts");

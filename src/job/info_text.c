@@ -1,8 +1,9 @@
-#include "job/info_text.h"
+/* info_text.c - the JSON of `ffd info` as text for people. */
 #include "base/memory/memory.h"
 #include "base/one_line.h"
 #include "base/text/buffer.h"
 #include "base/text/words.h"
+#include "job/info.h"
 #include "json/json_parse.h"
 #include <stdio.h>
 #include <string.h>
@@ -239,9 +240,7 @@ ffd_status ffd_info_render(const char *json, size_t size, char **text, ffd_error
 {
     const json_input input = {.text = json, .size = size, .name = ""};
     json_tree facts;
-    const ffd_status status = ffd_json_parse(&input, &facts, error);
-    if (status)
-        return status;
+    TRY(ffd_json_parse(&input, &facts, error));
     byte_buffer out = {0};
     renderer r = {.facts = &facts};
     render_members(&r, 0, 0);

@@ -60,10 +60,9 @@ static ffd_status add_mesh(const ffd_lattice_new_desc *desc, const ffd_source *m
     static const ffd_bounds everywhere = {{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
     const mesh_log log = {desc->log, desc->log_user};
     mesh_document *document;
-    ffd_status status = ffd_source_open(mesh, 0, &document, error);
-    if (status)
-        return status;
-    status = ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(mesh), document, error);
+    TRY(ffd_source_open(mesh, 0, &document, error));
+    ffd_status status =
+        ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(mesh), document, error);
     if (!status)
         status = ffd_mesh_check(document, error);
     if (!status && document->format->check_reach)
@@ -82,10 +81,9 @@ static ffd_status add_mesh(const ffd_lattice_new_desc *desc, const ffd_source *m
 
 static ffd_status add_meshes(const ffd_lattice_new_desc *desc, bool all, place_list *places, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < desc->mesh_count && !status; i++)
-        status = add_mesh(desc, &desc->meshes[i], all, places, error);
-    return status;
+    for (size_t i = 0; i < desc->mesh_count; i++)
+        TRY(add_mesh(desc, &desc->meshes[i], all, places, error));
+    return FFD_OK;
 }
 
 /* Invalid sizes are left to ffd_lattice_create. */
@@ -132,11 +130,8 @@ static ffd_status check_desc(const ffd_lattice_new_desc *desc, ffd_error *error)
     for (size_t i = 0; i < desc->mesh_count && !ffd_output_is_stream(desc->output); i++)
         if (ffd_job_reads_mesh(&desc->meshes[i], desc->output))
             return ffd_fail_file(error, FFD_E_ARGUMENT, desc->output, "the lattice would replace its mesh");
-    for (size_t i = 0; i < desc->mesh_count; i++) {
-        const ffd_status status = ffd_job_check_mesh_files(desc->output, &desc->meshes[i], NULL, error);
-        if (status)
-            return status;
-    }
+    for (size_t i = 0; i < desc->mesh_count; i++)
+        TRY(ffd_job_check_mesh_files(desc->output, &desc->meshes[i], NULL, error));
     return ffd_output_check(desc->output, desc->force, error);
 }
 
@@ -162,11 +157,9 @@ static ffd_status take_memory(job_memory *memory, ffd_lattice_new_desc *desc, ff
 static ffd_status save(const ffd_lattice_new_desc *desc, const ffd_lattice *lattice, ffd_error *error)
 {
     file_output *output;
-    ffd_status status = ffd_output_create(&output, error);
-    if (status)
-        return status;
+    TRY(ffd_output_create(&output, error));
     ffd_output_redirect(output, desc->sink, desc->sink_user);
-    status = ffd_lattice_write(lattice, output, desc->output, desc->force, error);
+    ffd_status status = ffd_lattice_write(lattice, output, desc->output, desc->force, error);
     ffd_output_destroy(&output);
     return status;
 }
@@ -177,12 +170,10 @@ ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *callers, ffd_error *e
     const ffd_lattice_new_desc *const desc = &own;
     ffd_lattice *lattice = NULL;
     ffd_lattice_new_desc_init(&own, sizeof own);
-    ffd_status status = ffd_struct_take(&own, sizeof own, callers, "ffd_lattice_new_desc", error);
-    if (status)
-        return status;
+    TRY(ffd_struct_take(&own, sizeof own, callers, "ffd_lattice_new_desc", error));
     job_memory memory = {0};
     ffd_source *meshes = NULL;
-    status = take_memory(&memory, &own, &meshes, error);
+    ffd_status status = take_memory(&memory, &own, &meshes, error);
     if (!status)
         status = check_desc(desc, error);
     if (!status)

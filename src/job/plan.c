@@ -40,10 +40,9 @@ ffd_status ffd_plan_write(job_plan *plan, const char *input, const char *output,
         return ffd_fail_file(error, FFD_E_INVALID, input, "and %s would both write one file",
                              plan->inputs.paths[writer]);
     plan->replaces = plan->replaces || ffd_file_exists(output);
-    ffd_status status = ffd_paths_add(&plan->inputs, input, error);
-    if (!status)
-        status = ffd_files_put(&plan->outputs, &place, index, error);
-    return status ? status : add_folders(plan, output, error);
+    TRY(ffd_paths_add(&plan->inputs, input, error));
+    TRY(ffd_files_put(&plan->outputs, &place, index, error));
+    return add_folders(plan, output, error);
 }
 
 /* Whether an output of the run lies in the folder of a mesh or below. */

@@ -37,10 +37,10 @@ typedef struct mesh_names {
 static ffd_status list_by_document(const mesh_document *document, mesh_names *names, ffd_error *error)
 {
     const mesh_format *const format = document->format;
-    ffd_status status = format->list_files(document, &names->named, error);
-    if (!status && format->list_images)
-        status = format->list_images(document, &names->resources, error);
-    return status;
+    TRY(format->list_files(document, &names->named, error));
+    if (format->list_images)
+        TRY(format->list_images(document, &names->resources, error));
+    return FFD_OK;
 }
 
 static ffd_status list_by_bytes(const mesh_format *format, const ffd_source *source, mesh_names *names,

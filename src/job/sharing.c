@@ -55,10 +55,10 @@ static ffd_status find(void *context, const char *file, const char *output, size
 {
     job_sharing *const s = context;
     const bool is_complete = s->known->is_complete;
-    ffd_status status = is_complete ? FFD_OK : list_folder(s, file, error);
-    if (!status && !is_complete && !s->has_input)
-        status = add_input(s, error);
-    return status ? status : ffd_users_find(&s->known->users, file, output, count, by_output, names, error);
+    TRY(is_complete ? FFD_OK : list_folder(s, file, error));
+    if (!is_complete && !s->has_input)
+        TRY(add_input(s, error));
+    return ffd_users_find(&s->known->users, file, output, count, by_output, names, error);
 }
 
 void ffd_sharing_begin(job_sharing *sharing, const ffd_deform_desc *desc, const mesh_document *document,

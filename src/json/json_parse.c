@@ -214,9 +214,7 @@ static json_value *add_value(scanner *s, uint32_t parent)
 static ffd_status scan_key(scanner *s, json_value *value)
 {
     value->key_begin = offset(s);
-    const ffd_status status = scan_string(s, "a key in double quotes is expected");
-    if (status)
-        return status;
+    TRY(scan_string(s, "a key in double quotes is expected"));
     value->key_end = offset(s);
     skip_space(s);
     if (s->at == s->last || *s->at != ':')
@@ -257,7 +255,7 @@ static ffd_status refuse_equal_keys(const scanner *s, uint32_t object)
         return ffd_fail_memory(s->error);
     ffd_json_tree_sort(tree, object, members);
     ffd_status status = FFD_OK;
-    for (size_t i = 1; i < count && status == FFD_OK; i++)
+    for (size_t i = 1; i < count && !status; i++)
         if (ffd_json_tree_compare_keys(tree, members[i - 1].value, tree, members[i].value) == 0)
             status = refuse_key(s, members[i - 1].value, members[i].value);
     if (members != few)
@@ -283,11 +281,8 @@ static ffd_status scan_value(scanner *s, uint32_t *container, int *depth)
     json_value *value = add_value(s, *container);
     if (!value)
         return FFD_E_MEMORY;
-    if (*container != JSON_NONE && tree->values[*container].kind == JSON_OBJECT) {
-        const ffd_status status = scan_key(s, value);
-        if (status)
-            return status;
-    }
+    if (*container != JSON_NONE && tree->values[*container].kind == JSON_OBJECT)
+        TRY(scan_key(s, value));
     value->begin = offset(s);
     if (s->at == s->last || (*s->at != '{' && *s->at != '['))
         return scan_scalar(s, value);

@@ -238,13 +238,13 @@ ffd_status ffd_json_require(json_cursor object, const char *key, json_cursor *me
 ffd_status ffd_json_member_double(json_cursor object, const char *key, double *number)
 {
     json_cursor member;
-    const ffd_status status = ffd_json_require(object, key, &member);
-    return status ? status : ffd_json_read_double(member, number);
+    TRY(ffd_json_require(object, key, &member));
+    return ffd_json_read_double(member, number);
 }
 
 ffd_status ffd_json_member_doubles(json_cursor object, const char *key, size_t count, double *numbers)
 {
     json_cursor member;
-    const ffd_status status = ffd_json_require(object, key, &member);
-    return status ? status : ffd_json_read_doubles(member, count, numbers);
+    TRY(ffd_json_require(object, key, &member));
+    return ffd_json_read_doubles(member, count, numbers);
 }

@@ -130,9 +130,9 @@ static ffd_status set_deformed(const lattice_spec *spec, ffd_lattice *lattice, f
 {
     const size_t size = spec->count * 3 * sizeof *lattice->deformed;
     memcpy(lattice->deformed, spec->deformed_points ? spec->deformed_points : lattice->rest, size);
-    const ffd_status status = ffd_lattice_make_difference(lattice, error);
-    if (status || !spec->deformed_offsets)
-        return status;
+    TRY(ffd_lattice_make_difference(lattice, error));
+    if (!spec->deformed_offsets)
+        return FFD_OK;
     memcpy(lattice->difference, spec->deformed_offsets, size);
     for (size_t c = 0; c < 3 * spec->count; c++)
         lattice->deformed[c] = lattice->rest[c] + spec->deformed_offsets[c];
@@ -143,17 +143,13 @@ static ffd_status set_points(const lattice_spec *spec, const double *min, const 
                              const move_observer *observer, ffd_lattice *lattice, ffd_error *error)
 {
     rest_region region;
-    ffd_status status = make_points(lattice, error);
-    if (!status)
-        status = make_weights(spec, lattice, error);
-    if (!status)
-        status = place_rest(spec, min, max, lattice, &region, error);
-    if (status)
-        return status;
-    status = set_deformed(spec, lattice, error);
-    if (!status && spec->move_count > 0)
-        status = ffd_moves_apply(spec, &region, lattice, observer, error);
-    return status ? status : ffd_lattice_finish_moved(lattice, error);
+    TRY(make_points(lattice, error));
+    TRY(make_weights(spec, lattice, error));
+    TRY(place_rest(spec, min, max, lattice, &region, error));
+    TRY(set_deformed(spec, lattice, error));
+    if (spec->move_count > 0)
+        TRY(ffd_moves_apply(spec, &region, lattice, observer, error));
+    return ffd_lattice_finish_moved(lattice, error);
 }
 
 static ffd_status build(lattice_spec *spec, const double *min, const double *max, bool points,
@@ -188,10 +184,8 @@ ffd_status ffd_lattice_replay(const ffd_lattice *lattice, const move_observer *o
 {
     const bool fitted = lattice->spec->rest == SPEC_BOX_MESH;
     ffd_lattice *again;
-    const ffd_status status = build(lattice->spec, fitted ? lattice->fitted_min : NULL,
-                                    fitted ? lattice->fitted_max : NULL, true, observer, &again, error);
-    if (status)
-        return status;
+    TRY(build(lattice->spec, fitted ? lattice->fitted_min : NULL, fitted ? lattice->fitted_max : NULL, true,
+              observer, &again, error));
     again->spec = NULL; /* it belongs to the lattice */
     ffd_lattice_destroy(&again);
     return FFD_OK;

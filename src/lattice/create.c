@@ -81,8 +81,8 @@ static ffd_status check_desc(const ffd_lattice_desc *desc, ffd_error *error)
         (!vec_is_finite(desc->axis) || (desc->axis[0] == 0 && desc->axis[1] == 0 && desc->axis[2] == 0)))
         return ffd_fail(error, FFD_E_ARGUMENT, "axis %g %g %g of the cylinder is not a direction",
                         desc->axis[0], desc->axis[1], desc->axis[2]);
-    const ffd_status status = check_counts(desc, error);
-    return status ? status : check_knots(desc, error);
+    TRY(check_counts(desc, error));
+    return check_knots(desc, error);
 }
 
 /* Finds the bounds of the finite points along three directions (rows of axes). Returns false if no point is
@@ -139,9 +139,7 @@ static const double world_axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 static ffd_status use_principal_axes(const double *xyz, size_t count, double axes[9], ffd_error *error)
 {
     double min[3], max[3], center[3], length = 0;
-    const ffd_status status = find_bounds_or_fail(xyz, count, world_axes, min, max, error);
-    if (status)
-        return status;
+    TRY(find_bounds_or_fail(xyz, count, world_axes, min, max, error));
     for (int c = 0; c < 3; c++) {
         center[c] = 0.5 * min[c] + 0.5 * max[c];
         length = fmax(length, max[c] - min[c]);

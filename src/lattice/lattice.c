@@ -64,11 +64,8 @@ static ffd_status check_points(const ffd_lattice *lattice, ffd_error *error)
         all_finite(lattice->deformed, 3 * lattice->count))
         return FFD_OK;
     for (int volume = FFD_VOLUME_REST; volume <= FFD_VOLUME_DEFORMED; volume++)
-        for (size_t i = 0; i < lattice->count; i++) {
-            const ffd_status status = check_point(lattice, (ffd_volume)volume, i, error);
-            if (status)
-                return status;
-        }
+        for (size_t i = 0; i < lattice->count; i++)
+            TRY(check_point(lattice, (ffd_volume)volume, i, error));
     return FFD_OK;
 }
 
@@ -256,20 +253,15 @@ ffd_status ffd_lattice_make_difference(ffd_lattice *lattice, ffd_error *error)
 
 ffd_status ffd_lattice_finish_moved(ffd_lattice *lattice, ffd_error *error)
 {
-    ffd_status status = check_points(lattice, error);
-    if (!status)
-        status = make_diagonal(lattice, error);
-    if (status)
-        return status;
+    TRY(check_points(lattice, error));
+    TRY(make_diagonal(lattice, error));
     if (!lattice->moved)
         lattice->moved = ffd_alloc(lattice->count, sizeof *lattice->moved);
     if (!lattice->moved)
         return ffd_fail_memory(error);
     lattice->moves_alike = false;
     make_inverse(lattice);
-    status = check_difference(lattice, error);
-    if (status)
-        return status;
+    TRY(check_difference(lattice, error));
     mark_moved(lattice);
     mark_like_next(lattice);
     mark_blocks(lattice);

@@ -173,11 +173,8 @@ ffd_status ffd_mirror_select(const ffd_lattice *lattice, const mirror_plane *pla
                              unsigned char *selected, size_t *missing, ffd_error *error)
 {
     mirror_tree chosen;
-    ffd_status status = all->order ? FFD_OK : make_tree(lattice, NULL, all, error);
-    if (!status)
-        status = make_tree(lattice, selected, &chosen, error);
-    if (status)
-        return status;
+    TRY(all->order ? FFD_OK : make_tree(lattice, NULL, all, error));
+    TRY(make_tree(lattice, selected, &chosen, error));
     *missing = lattice->count;
     for (size_t i = 0; i < lattice->count && *missing == lattice->count; i++)
         if (selected[i] && !has_image(all, plane, i))

@@ -261,10 +261,9 @@ ffd_status ffd_move_bend_exactly(const exact_bend *bend, ffd_error *error)
     if (!find_block(bend, first, last))
         return refuse(&a, "it needs all points of a layer, not a part of them");
     find_direction(&a, first, last);
-    ffd_status status = check_knots(&a);
-    if (!status)
-        status = check_layers(&a, first, last);
-    return status ? status : bend_arcs(&a);
+    TRY(check_knots(&a));
+    TRY(check_layers(&a, first, last));
+    return bend_arcs(&a);
 }
 
 exact_layers ffd_move_exact_layers(const exact_bend *bend)

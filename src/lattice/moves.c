@@ -282,15 +282,15 @@ static ffd_status move_points(const move_work *work, size_t index, const lattice
                               ready_move *ready, const mirror_plane *plane)
 {
     const exact_bend bend = {work->lattice, work->selected, ready, plane, work->file};
-    ffd_status status = observe(work, index, move, ready, plane);
-    if (!status && ready->move.exact)
-        status = ffd_move_bend_exactly(&bend, work->error);
-    for (size_t i = 0; i < work->lattice->count && !status; i++) {
+    TRY(observe(work, index, move, ready, plane));
+    if (ready->move.exact)
+        TRY(ffd_move_bend_exactly(&bend, work->error));
+    for (size_t i = 0; i < work->lattice->count; i++) {
         if (!work->selected[i])
             continue;
-        status = ready->move.exact ? check_finite(work, &ready->move, i) : move_point(work, ready, plane, i);
+        TRY(ready->move.exact ? check_finite(work, &ready->move, i) : move_point(work, ready, plane, i));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Applies the action again, reflected, to the mirror images of the points. */

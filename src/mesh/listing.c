@@ -22,7 +22,7 @@ ffd_status ffd_listing_begin(const mesh_document *document, mesh_listing *listin
     *listing = (mesh_listing){0};
     ffd_status status =
         ffd_budget_take(&budget, count, 3 * sizeof *listing->xyz + sizeof *listing->seen, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_parts_number(document, &listing->first, error);
     if (status)
         return status;

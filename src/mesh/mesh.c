@@ -73,9 +73,7 @@ ffd_status ffd_mesh_mark_used(mesh_document *document, ffd_error *error)
 
 ffd_status ffd_used_make(mesh_document *document, size_t count, uint8_t **used, ffd_error *error)
 {
-    const ffd_status status = ffd_budget_take(&document->budget, count, 1, error);
-    if (status)
-        return status;
+    TRY(ffd_budget_take(&document->budget, count, 1, error));
     *used = ffd_alloc_zero(count, 1);
     return *used ? FFD_OK : ffd_fail_memory(error);
 }
@@ -118,9 +116,9 @@ ffd_status ffd_mesh_faces_take(const mesh_faces *faces, uint64_t corners, memory
     const size_t index = faces->numbers ? sizeof *faces->numbers : 0;
     ffd_status status =
         ffd_budget_take(budget, faces->vertex_count, 3 * sizeof *faces->positions + index, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_budget_take(budget, faces->face_count, sizeof *faces->start, error);
-    return status == FFD_OK ? ffd_budget_take(budget, corners, sizeof *faces->corners, error) : status;
+    return status ? status : ffd_budget_take(budget, corners, sizeof *faces->corners, error);
 }
 
 ffd_status ffd_mesh_faces_make(const mesh_document *document, mesh_faces *faces, size_t corners,
@@ -128,7 +126,7 @@ ffd_status ffd_mesh_faces_make(const mesh_document *document, mesh_faces *faces,
 {
     memory_budget budget = document->budget;
     ffd_status status = ffd_mesh_faces_take(faces, corners, &budget, error);
-    if (status == FFD_OK) {
+    if (!status) {
         faces->positions = ffd_alloc(faces->vertex_count, 3 * sizeof *faces->positions);
         faces->start = ffd_alloc(faces->face_count + 1, sizeof *faces->start);
         faces->corners = ffd_alloc(corners, sizeof *faces->corners);

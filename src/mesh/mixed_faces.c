@@ -138,10 +138,9 @@ ffd_status ffd_face_lists_join(const mesh_document *document, const face_list *l
         faces->face_count += lists[l].faces;
         corners += lists[l].count - lists[l].faces;
     }
-    const ffd_status status = ffd_mesh_faces_make(document, faces, corners, error);
-    if (!status)
-        fill_faces(lists, count, faces);
-    return status;
+    TRY(ffd_mesh_faces_make(document, faces, corners, error));
+    fill_faces(lists, count, faces);
+    return FFD_OK;
 }
 
 ffd_status ffd_face_lists_narrow(const mesh_document *document, const face_list *lists, size_t count,

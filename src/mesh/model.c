@@ -49,13 +49,9 @@ static ffd_status make(mesh_model *model, double **values, size_t count, size_t 
 ffd_status ffd_model_make_values(mesh_model *model, size_t positions, size_t texcoords, size_t normals,
                                  ffd_error *error)
 {
-    ffd_status status = make(model, &model->positions, positions, 3, error);
-    if (status == FFD_OK)
-        status = make(model, &model->texcoords, texcoords, 2, error);
-    if (status == FFD_OK)
-        status = make(model, &model->normals, normals, 3, error);
-    if (status)
-        return status;
+    TRY(make(model, &model->positions, positions, 3, error));
+    TRY(make(model, &model->texcoords, texcoords, 2, error));
+    TRY(make(model, &model->normals, normals, 3, error));
     model->position_count = positions;
     model->texcoord_count = texcoords;
     model->normal_count = normals;
@@ -66,9 +62,7 @@ ffd_status ffd_model_make_colours(mesh_model *model, ffd_error *error)
 {
     if (model->colours)
         return FFD_OK;
-    const ffd_status status = ffd_model_take(model, model->position_count, 4 * sizeof *model->colours, error);
-    if (status)
-        return status;
+    TRY(ffd_model_take(model, model->position_count, 4 * sizeof *model->colours, error));
     model->colours = ffd_alloc(model->position_count, 4 * sizeof *model->colours);
     if (!model->colours)
         return ffd_fail_memory(error);
@@ -143,7 +137,7 @@ ffd_status ffd_model_add(mesh_model *model, model_kind kind, const model_corner 
 {
     ffd_status status = ffd_model_take(model, count, CORNER_BYTES, error);
     if (kind == MODEL_POINTS || count == 1) {
-        for (size_t i = 0; i < count && status == FFD_OK; i++)
+        for (size_t i = 0; i < count && !status; i++)
             status = append(&model->lists[MODEL_POINTS], corners + i, 1, error);
         return status;
     }
@@ -159,9 +153,7 @@ ffd_status ffd_model_add(mesh_model *model, model_kind kind, const model_corner 
 static ffd_status colour_up_to(mesh_model *model, size_t count, ffd_error *error)
 {
     const size_t more = count - model->coloured_faces;
-    const ffd_status status = ffd_model_take(model, more, 4 * sizeof *model->face_colours, error);
-    if (status)
-        return status;
+    TRY(ffd_model_take(model, more, 4 * sizeof *model->face_colours, error));
     if (!ffd_grow((void **)&model->face_colours, &model->face_colour_capacity, 4 * count,
                   sizeof *model->face_colours))
         return ffd_fail_memory(error);
@@ -175,7 +167,7 @@ ffd_status ffd_model_colour_face(mesh_model *model, const double colour[4], ffd_
 {
     const size_t count = model->lists[MODEL_FACES].count;
     const ffd_status status = colour_up_to(model, count, error);
-    if (status == FFD_OK && count > 0)
+    if (!status && count > 0)
         memcpy(model->face_colours + 4 * (count - 1), colour, 4 * sizeof *colour);
     return status;
 }
@@ -191,14 +183,14 @@ ffd_status ffd_model_check_memory(const mesh_model *model, size_t corner_bytes, 
     if (!model->budget)
         return FFD_OK;
     memory_budget budget = *model->budget;
-    ffd_status status = ffd_budget_take(&budget, model->run_count, run_bytes, error);
-    for (int k = 0; k < MODEL_KINDS && status == FFD_OK; k++) {
+    TRY(ffd_budget_take(&budget, model->run_count, run_bytes, error));
+    for (int k = 0; k < MODEL_KINDS; k++) {
         const model_list *list = &model->lists[k];
         const size_t corners = list->corner_count; /* at least 3 for each face */
-        status = ffd_budget_take(&budget, k == MODEL_FACES ? 3 * (corners - 2 * list->count) : corners,
-                                 corner_bytes, error);
+        TRY(ffd_budget_take(&budget, k == MODEL_FACES ? 3 * (corners - 2 * list->count) : corners,
+                            corner_bytes, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 static void copy_vector(const double *from, uint32_t i, double *to, uint32_t k)

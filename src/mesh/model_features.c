@@ -127,7 +127,7 @@ static ffd_status make_cloud(mesh_model *model, ffd_error *error)
         return FFD_OK;
     if (model->position_count > 0 && model->run_count == 0)
         status = ffd_model_begin_run(model, NULL, NULL, NULL, error);
-    for (size_t i = 0; i < model->position_count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < model->position_count && !status; i++) {
         const uint32_t index = (uint32_t)i;
         const model_corner corner = {index, texcoords ? index : MODEL_NONE, normals ? index : MODEL_NONE};
         status = ffd_model_add(model, MODEL_POINTS, &corner, 1, error);
@@ -225,7 +225,7 @@ static ffd_status find_lost_parts(const mesh_model *model, bool *lost, ffd_error
     intern_table names = {0};
     part_error *const parts = ffd_alloc(model->run_count, sizeof *parts);
     ffd_status status = parts ? FFD_OK : ffd_fail_memory(error);
-    for (size_t r = 0; r < model->run_count && status == FFD_OK; r++) {
+    for (size_t r = 0; r < model->run_count && !status; r++) {
         const uint32_t key[2] = {model->runs[r].object, model->runs[r].group};
         const size_t known = names.count;
         uint32_t index;
@@ -237,7 +237,7 @@ static ffd_status find_lost_parts(const mesh_model *model, bool *lost, ffd_error
             parts[index] = (part_error){.box = ffd_bounds_empty()};
         measure_run(model, r, &parts[index]);
     }
-    for (size_t p = 0; p < names.count && status == FFD_OK; p++) {
+    for (size_t p = 0; p < names.count && !status; p++) {
         const double side = ffd_bounds_side(&parts[p].box);
         *lost = *lost || (side > 0 && parts[p].error > PART_TOLERANCE * side);
     }
@@ -259,9 +259,9 @@ ffd_status ffd_model_finish(mesh_model *model, ffd_error *error)
     ffd_status status = make_cloud(model, error);
     scale_colours(model->colours, model->position_count);
     scale_colours(model->face_colours, model->coloured_faces);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_model_colour_rest(model, error);
-    if (status == FFD_OK)
+    if (!status)
         status = find_fine_positions(model, error);
     if (status)
         return status;

@@ -188,9 +188,7 @@ static ffd_status link_corners(polygon_cutter *cutter, uint32_t count, ffd_error
     for (uint32_t i = 0; i < count; i++)
         cutter->order[i] = i;
     cutter->has_boxes = !is_plain;
-    const ffd_status status = is_plain ? FFD_OK : order_corners(cutter, count, error);
-    if (status)
-        return status;
+    TRY(is_plain ? FFD_OK : order_corners(cutter, count, error));
     for (uint32_t i = 0; i < count; i++)
         cutter->corners[i] = (cut_corner){i > 0 ? i - 1 : count - 1, i + 1 < count ? i + 1 : 0, 0, false};
     fill_nodes(cutter, count);
@@ -312,9 +310,7 @@ ffd_status ffd_polygon_cut(polygon_cutter *cutter, const double *points, size_t 
 {
     bool fan = count == 3;
     if (!fan) {
-        const ffd_status status = reserve(cutter, count, error);
-        if (status)
-            return status;
+        TRY(reserve(cutter, count, error));
         project(cutter, points, count);
         fan = is_convex(cutter, (uint32_t)count);
     }
@@ -326,10 +322,9 @@ ffd_status ffd_polygon_cut(polygon_cutter *cutter, const double *points, size_t 
         }
         return FFD_OK;
     }
-    const ffd_status status = link_corners(cutter, (uint32_t)count, error);
-    if (!status)
-        cut_ears(cutter, (uint32_t)count, triangles);
-    return status;
+    TRY(link_corners(cutter, (uint32_t)count, error));
+    cut_ears(cutter, (uint32_t)count, triangles);
+    return FFD_OK;
 }
 
 void ffd_polygon_cut_warn(uint64_t hurried, const mesh_log *log)

@@ -177,13 +177,9 @@ static ffd_status draw_panel(drawing *d, size_t index, ffd_error *error)
 {
     const picture *const of = d->of;
     const memory_budget before = d->budget;
-    ffd_status status = of->fill ? of->fill(of->context, index, error) : FFD_OK;
-    if (!status)
-        status = check_panel(&of->panels[index], d->means.budget, error);
-    if (!status)
-        status = ffd_panel_make(&d->layout, index, &d->seen, &d->means, &d->drawn, error);
-    if (status)
-        return status;
+    TRY(of->fill ? of->fill(of->context, index, error) : FFD_OK);
+    TRY(check_panel(&of->panels[index], d->means.budget, error));
+    TRY(ffd_panel_make(&d->layout, index, &d->seen, &d->means, &d->drawn, error));
     ffd_parallel_tiles(of->height, BAND_ROWS, d->means.threads, draw_band, d);
     ffd_panel_free(&d->drawn);
     d->budget = before;
@@ -217,14 +213,12 @@ ffd_status ffd_picture_draw(const picture *of, const memory_budget *budget, uint
         d.budget = *budget;
         d.means.budget = &d.budget;
     }
-    ffd_status status = check_size(of, d.means.budget, error);
-    if (status)
-        return status;
+    TRY(check_size(of, d.means.budget, error));
     d.layout = ffd_layout_make(of);
     d.means.threads = thread_count(of, d.means.budget);
     ffd_linear_fill(&d.tables);
     d.seen = find_bounds(of);
-    status = make(&d, error);
+    ffd_status status = make(&d, error);
     for (size_t p = 0; p < of->panel_count && !status; p++)
         status = draw_panel(&d, p, error);
     free_scratch(&d);

@@ -94,9 +94,7 @@ ffd_status ffd_surface_make(const picture_mesh *mesh, const projection *by, cons
                             surface *result, ffd_error *error)
 {
     surface_normals found;
-    const ffd_status status = ffd_surface_normals(mesh, by->scale, means->budget, &found, error);
-    if (status)
-        return status;
+    TRY(ffd_surface_normals(mesh, by->scale, means->budget, &found, error));
     const size_t count = mesh->vertex_count + found.split_count;
     *result = (surface){.mesh = mesh,
                         .projection = *by,

@@ -195,9 +195,7 @@ static ffd_status split_places(crease_work *work, const memory_budget *budget, f
         total += work->first[v];
         work->first[v] = total;
     }
-    const ffd_status status = budget ? ffd_budget_check(budget, total, SPLIT_BYTES, error) : FFD_OK;
-    if (status)
-        return status;
+    TRY(budget ? ffd_budget_check(budget, total, SPLIT_BYTES, error) : FFD_OK);
     work->corners = ffd_alloc(total, sizeof *work->corners);
     work->result->triangles = ffd_alloc(mesh->triangle_count, 3 * sizeof *mesh->triangles);
     if (!work->corners || !work->result->triangles)
@@ -239,7 +237,7 @@ ffd_status ffd_surface_normals(const picture_mesh *mesh, double scale, const mem
     ffd_free(work.faces);
     ffd_free(work.first);
     ffd_free(work.corners);
-    if (status == FFD_OK)
+    if (!status)
         return FFD_OK;
     ffd_free(result->normals);
     ffd_free(result->origins);

@@ -66,11 +66,8 @@ static ffd_status begin(const ffd_embedding *embedding, const double *weights, c
                         point_run *run, basis_work *work, ffd_error *error)
 {
     *work = (basis_work){.embedding = embedding, .weights = weights};
-    ffd_status status = ffd_basis_weights(embedding, &work->weights, error);
-    if (!status)
-        status = ffd_point_run_begin(callers, embedding->count, run, error);
-    if (status)
-        return status;
+    TRY(ffd_basis_weights(embedding, &work->weights, error));
+    TRY(ffd_point_run_begin(callers, embedding->count, run, error));
     work->rows = ffd_alloc((size_t)run->run.threads, sizeof *work->rows);
     return work->rows ? FFD_OK : ffd_fail_memory(error);
 }

@@ -52,14 +52,13 @@ static ffd_status carry_tile(void *context, size_t first, size_t count, int work
 static ffd_status check(direction_work *work, ffd_error *error)
 {
     const char *const what = work->tangents ? "the array of tangents" : "the array of normals";
-    ffd_status status = ffd_span_check(&work->in, work->in.count, what, error);
-    if (!status)
-        status = ffd_span_check(&work->out, work->in.count, "the array of results", error);
-    if (!status && work->normals.count > 0)
-        status = ffd_span_check(&work->normals, work->in.count, "the array of normals", error);
-    if (!status && !work->gradients && work->in.count > 0)
+    TRY(ffd_span_check(&work->in, work->in.count, what, error));
+    TRY(ffd_span_check(&work->out, work->in.count, "the array of results", error));
+    if (work->normals.count > 0)
+        TRY(ffd_span_check(&work->normals, work->in.count, "the array of normals", error));
+    if (!work->gradients && work->in.count > 0)
         return ffd_fail(error, FFD_E_ARGUMENT, "there are no gradients");
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status carry(direction_work *work, size_t *collapsed, const ffd_run_options *callers,

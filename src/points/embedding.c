@@ -42,9 +42,9 @@ static ffd_status extend(const embed_work *work, size_t point, const double x[3]
 {
     const double reach = work->desc->falloff > 0 ? work->desc->falloff : HUGE_VAL;
     boundary_point nearest;
-    const ffd_status status = ffd_boundary_find(work->border, x, reach, &nearest, error);
-    if (status || !nearest.found)
-        return status;
+    TRY(ffd_boundary_find(work->border, x, reach, &nearest, error));
+    if (!nearest.found)
+        return FFD_OK;
     if (!ffd_grow((void **)&list->points, &list->capacity, list->count + 1, sizeof *list->points))
         return ffd_fail_memory(error);
     list->points[list->count++] = (extended_point){point, nearest};
@@ -82,10 +82,10 @@ static ffd_status embed_tile(void *context, size_t first, size_t count, int work
     double *const x = work->positions + 3 * POINT_TILE * (size_t)worker;
     ffd_location *const locations = work->locations + POINT_TILE * (size_t)worker;
     ffd_span_read(&work->desc->points, first, count, x);
-    ffd_status status = ffd_locator_find(work->locator, x, count, locations, error);
-    for (size_t i = 0; i < count && !status; i++)
-        status = settle_point(work, first + i, x + 3 * i, &locations[i], error);
-    return status;
+    TRY(ffd_locator_find(work->locator, x, count, locations, error));
+    for (size_t i = 0; i < count; i++)
+        TRY(settle_point(work, first + i, x + 3 * i, &locations[i], error));
+    return FFD_OK;
 }
 
 /* Joins the lists of the tiles. */

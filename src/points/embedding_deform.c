@@ -149,12 +149,10 @@ static ffd_status check_vertices(const deform_work *work, size_t count, ffd_erro
 static ffd_status check(deform_work *work, size_t count, ffd_error *error)
 {
     const size_t all = work->embedding->count;
-    ffd_status status = ffd_embedding_check_lattice(work->embedding, work->lattice, error);
-    if (!status)
-        status = ffd_span_check(&work->in, all, "the array of points", error);
-    if (!status)
-        status = ffd_span_check(&work->out, all, "the array of results", error);
-    return status ? status : check_vertices(work, count, error);
+    TRY(ffd_embedding_check_lattice(work->embedding, work->lattice, error));
+    TRY(ffd_span_check(&work->in, all, "the array of points", error));
+    TRY(ffd_span_check(&work->out, all, "the array of results", error));
+    return check_vertices(work, count, error);
 }
 
 /* Allocates the scratch memory of a thread for tiles of this many points. */

@@ -127,9 +127,7 @@ static ffd_status check_multiplicity(const knot_list *list)
     for (size_t first = 0, end; first < list->count; first = end) {
         end = run_end(list, first);
         const bool at_seam = list->closed && (first == 0 || end == list->count);
-        const ffd_status status = at_seam ? FFD_OK : check_run(list, first, end);
-        if (status)
-            return status;
+        TRY(at_seam ? FFD_OK : check_run(list, first, end));
         if (list->closed && end == list->count)
             return check_seam(list, start_run, end - first);
     }
@@ -138,14 +136,10 @@ static ffd_status check_multiplicity(const knot_list *list)
 
 static ffd_status check_list(const knot_list *list, size_t points)
 {
-    ffd_status status = check_count(list, points);
-    if (!status)
-        status = check_order(list);
-    if (!status)
-        status = check_domain(list);
-    if (!status)
-        status = check_multiplicity(list);
-    return status;
+    TRY(check_count(list, points));
+    TRY(check_order(list));
+    TRY(check_domain(list));
+    return check_multiplicity(list);
 }
 
 /* Refuses knots for which d times the range, or d divided by the width of a span, overflows. */

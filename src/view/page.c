@@ -112,8 +112,8 @@ static ffd_status prepare(page_work *work, ffd_error *error)
         return status;
     ffd_page_data_measure(&work->mesh, &work->data);
     log_omissions(work, used);
-    status = make_rig(work, error);
-    return status ? status : choose_cages(work, error);
+    TRY(make_rig(work, error));
+    return choose_cages(work, error);
 }
 
 static void write_json(page_work *work, const char *id, byte_buffer *json)

@@ -121,9 +121,7 @@ static size_t count_triangles(const view_scene *scene)
 ffd_status ffd_page_mesh_take(const view_scene *scene, page_mesh *mesh, ffd_error *error)
 {
     *mesh = (page_mesh){.scene = scene, .part_count = scene->part_count ? scene->part_count : 1};
-    const ffd_status status = check(scene, error);
-    if (status)
-        return status;
+    TRY(check(scene, error));
     const size_t triangles = count_triangles(scene);
     if (triangles > UINT32_MAX / 3)
         return ffd_fail(error, FFD_E_LIMIT, "a page of %zu triangles is not possible", triangles);

@@ -168,9 +168,7 @@ static ffd_status reduce_class(reducer *r, double ratio, bool is_rough, int kind
         size_t run = count - done < RUN_TRIANGLES ? count - done : RUN_TRIANGLES;
         uint32_t *const first = corners + 3 * done;
         done += run;
-        const ffd_status status = reduce_run(r, ratio, is_rough, first, &run, error);
-        if (status)
-            return status;
+        TRY(reduce_run(r, ratio, is_rough, first, &run, error));
         put_back(r->mesh, first, run, kind);
     }
     return FFD_OK;

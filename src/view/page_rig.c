@@ -259,10 +259,10 @@ ffd_status ffd_page_rig_make(const page_mesh *mesh, page_rig *rig, ffd_error *er
     rig->has_after = rigs[0].skeleton && (!rig->is_shared || rigs[1].anchors.points);
     if (!rigs[0].skeleton)
         return FFD_OK;
-    ffd_status status = make_side(rig, 0, error);
-    if (!status && rig->has_after)
-        status = make_side(rig, 1, error);
-    return status;
+    TRY(make_side(rig, 0, error));
+    if (rig->has_after)
+        TRY(make_side(rig, 1, error));
+    return FFD_OK;
 }
 
 void ffd_page_rig_free(page_rig *rig)

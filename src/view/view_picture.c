@@ -292,13 +292,10 @@ static ffd_status make_step(void *context, size_t index, ffd_error *error)
     step *const s = &w->step;
     view_palette own;
     free_step(w);
-    ffd_status status = place(w, index, s);
-    if (!status)
-        status = paint(w, s, &own);
-    if (status)
-        return status;
+    TRY(place(w, index, s));
+    TRY(paint(w, s, &own));
     make_meshes(w, s, own.color == FFD_VIEW_PLAIN);
-    status = make_cages(w, s, error);
+    ffd_status status = make_cages(w, s, error);
     if (!status && index == 0)
         log_omitted_lattices(w);
     picture_panel *const panel = &w->panels[index];
@@ -367,30 +364,22 @@ static ffd_status prepare(picture_work *w)
     w->budget = *options->budget;
     const uint64_t drawing =
         ffd_picture_bytes(pixel_count(options), scene->vertex_count, scene->triangle_count);
-    ffd_status status = ffd_budget_take(&w->budget, scene->vertex_count, VERTEX_BYTES, w->error);
-    if (!status)
-        status = ffd_budget_take(&w->budget, scene->triangle_count, TRIANGLE_BYTES, w->error);
-    if (!status)
-        status = ffd_view_surface_make(scene, has_texture, &w->budget, drawing, options->log, &w->surface,
-                                       w->error);
-    if (status)
-        return status;
+    TRY(ffd_budget_take(&w->budget, scene->vertex_count, VERTEX_BYTES, w->error));
+    TRY(ffd_budget_take(&w->budget, scene->triangle_count, TRIANGLE_BYTES, w->error));
+    TRY(ffd_view_surface_make(scene, has_texture, &w->budget, drawing, options->log, &w->surface, w->error));
     w->twins = ffd_alloc(scene->vertex_count, sizeof *w->twins);
     w->white = ffd_alloc_zero(scene->triangle_count, sizeof *w->white);
     if (!w->twins || !w->white)
         return ffd_fail_memory(w->error);
     log_omissions(w);
     ffd_view_palette_make(scene, options->color, &w->palette);
-    status = ffd_positions_twins(scene->before, scene->vertex_count, w->twins, w->error);
-    if (!status)
-        status = find_used(scene, &w->used, w->error);
-    if (!status)
-        status = name_panels(w);
-    if (!status && options->rows)
+    TRY(ffd_positions_twins(scene->before, scene->vertex_count, w->twins, w->error));
+    TRY(find_used(scene, &w->used, w->error));
+    TRY(name_panels(w));
+    if (options->rows)
         return find_posed(w);
-    if (!status)
-        find_seen(w);
-    return status;
+    find_seen(w);
+    return FFD_OK;
 }
 
 static void free_picture(picture_work *w)

@@ -57,6 +57,7 @@ typedef struct ffd_lattice_desc {
 } ffd_lattice_desc;
 void ffd_lattice_desc_init(ffd_lattice_desc *desc, size_t size);
 ffd_status ffd_lattice_load(const char *path, ffd_lattice **lattice, ffd_error *error);
+void ffd_lattice_destroy(ffd_lattice **lattice);
 typedef struct ffd_setting {
     const char *name, *value;
 } ffd_setting;
@@ -108,7 +109,6 @@ bool ffd_lattice_needs_bounds(const ffd_lattice *lattice);
 size_t ffd_lattice_get_mesh_count(const ffd_lattice *lattice);
 ffd_status ffd_lattice_get_mesh(const ffd_lattice *lattice, size_t i, char **path, ffd_error *error);
 ffd_status ffd_lattice_fit(ffd_lattice *lattice, const double min[3], const double max[3], ffd_error *error);
-void ffd_lattice_destroy(ffd_lattice **lattice);
 void ffd_lattice_get_size(const ffd_lattice *lattice, size_t size[3]);
 void ffd_lattice_get_degree(const ffd_lattice *lattice, int degree[3]);
 void ffd_lattice_get_domain(const ffd_lattice *lattice, double lo[3], double hi[3]);
@@ -594,7 +594,6 @@ ffd_status ffd_report_add(ffd_report *report, const char *input, const char *out
 ffd_status ffd_report_write(ffd_report *report, ffd_error *error);
 ffd_status ffd_report_merge_run(const char *const *reports, size_t count, bool interleave, const char *output,
                                 bool force, ffd_error *error);
-void ffd_text_free(char *text);
 typedef ffd_status (*ffd_batch_next_function)(void *user, uint64_t index, const char **line);
 typedef struct ffd_batch_job {
     uint64_t line;

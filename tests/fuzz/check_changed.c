@@ -3,7 +3,7 @@
 #include "../support/repetitions.h"
 #include "fuzz_target.h"
 #include "io/formats.h"
-#include "job/info_parts.h"
+#include "job/info.h"
 #include "job/input/source.h"
 #include "mesh/difference.h"
 #include "mesh/mixed_faces.h"

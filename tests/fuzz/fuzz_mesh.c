@@ -5,8 +5,7 @@
 #include "check_changed.h"
 #include "io/gltf/read/gltf_document.h"
 #include "job/chain/chain_load.h"
-#include "job/info_parts.h"
-#include "job/info_text.h"
+#include "job/info.h"
 #include "job/input/source.h"
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
@@ -55,7 +54,7 @@ static void check_description(const mesh_document *document)
     char *text;
     PROMISE(ffd_info_render(out.data, out.size, &text, &error) == FFD_OK, "cannot be told: %s",
             error.message);
-    ffd_text_free(text);
+    ffd_free(text);
     ffd_buffer_free(&out);
 }
 

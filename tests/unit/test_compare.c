@@ -160,7 +160,7 @@ static void the_json_names_files_and_worst_difference(void **state)
     assert_text(json, facts_member(json, "worst.kind"), "position");
     assert_true(facts_number(json, facts_member(json, "worst.difference")) == 1);
     facts_free(json);
-    ffd_text_free(text);
+    ffd_free(text);
 }
 
 int main(void)

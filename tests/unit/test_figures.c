@@ -150,7 +150,7 @@ static void the_text_has_a_line_for_what_is_known(void **state)
     assert_string_equal(text,
                         "  vertices       0\n  moved          0, by 0 at most\n  area           not known\n"
                         "  volume         not known\n");
-    ffd_text_free(text);
+    ffd_free(text);
     result.counts[FFD_VERTEX_SINGULAR] = result.vertices = 2;
     result.tear.is_known = result.folds.is_known = result.folds.witness.is_there = true;
     result.folds.witness.lattice = 1;
@@ -160,7 +160,7 @@ static void the_text_has_a_line_for_what_is_known(void **state)
     assert_non_null(strstr(text, "  torn edges     0\n"));
     assert_non_null(strstr(text, "det J is 0 (lattice 2)\n"));
     assert_null(strstr(text, "flipped"));
-    ffd_text_free(text);
+    ffd_free(text);
     result.struct_size = 0;
     assert_int_equal(ffd_job_result_text(&result, NULL, &text, &error), FFD_E_ARGUMENT);
     assert_null(text);

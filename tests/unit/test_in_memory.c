@@ -607,8 +607,8 @@ static void other_jobs_take_memory_too(void **state)
     made.sink = NULL;
     assert_int_equal(ffd_lattice_new_run(&made, NULL), FFD_OK);
     check_same(&b.sink.files, "out");
-    ffd_text_free(ours);
-    ffd_text_free(theirs);
+    ffd_free(ours);
+    ffd_free(theirs);
     end(&b);
     (void)state;
 }

@@ -9,8 +9,7 @@
 #include "../support/json_facts.h"
 #include "../support/test_folder.h"
 #include "base/memory/memory.h"
-#include "job/info_mesh.h"
-#include "job/info_text.h"
+#include "job/info.h"
 #include <ffd/job.h>
 #include <math.h>
 #include <stdio.h>
@@ -37,7 +36,7 @@ static json_facts *info_of(const char *name)
         fail_msg("%s: %s", error.pointer, error.message);
     json_facts *const json = facts_read(text, strlen(text));
     assert_string_equal(text + strlen(text) - 2, "}\n");
-    ffd_text_free(text);
+    ffd_free(text);
     assert_text(json, facts_member(json, "format"), "ffd-info");
     assert_true(facts_number(json, facts_member(json, "version")) == 1);
     assert_text(json, facts_member(json, "file"), in_folder(name));
@@ -269,7 +268,7 @@ static void json_becomes_aligned_text(void **state)
                               "    deep\n"
                               "      w    123456789012345683968\n"
                               "  1        1 2\n");
-    ffd_text_free(text);
+    ffd_free(text);
 }
 
 /* Files */
@@ -325,7 +324,7 @@ static void an_obj_file_is_described_as_text(void **state)
     assert_told(text, "  boundary loops", "0");
     assert_told(text, "  euler", "2");
     assert_null(strstr(text, "ffd-info"));
-    ffd_text_free(text);
+    ffd_free(text);
 }
 
 static void names_that_are_not_utf8_are_shown_as_utf8(void **state)
@@ -337,7 +336,7 @@ static void names_that_are_not_utf8_are_shown_as_utf8(void **state)
         char *text = NULL;
         assert_int_equal(ffd_info_run(&desc, &text, NULL), FFD_OK);
         assert_non_null(strstr(text, "/caf\xef\xbf\xbd.obj"));
-        ffd_text_free(text);
+        ffd_free(text);
     }
 }
 
@@ -396,7 +395,7 @@ static void a_box_lattice_is_described(void **state)
     assert_told(text, "  w", "0 2");
     assert_told(text, "largest move", "5");
     assert_told(text, "rational", "no");
-    ffd_text_free(text);
+    ffd_free(text);
 }
 
 static void a_cylinder_lattice_is_described(void **state)
@@ -445,7 +444,7 @@ static void a_lattice_awaiting_its_mesh_has_no_bounds(void **state)
     assert_none(json, "moved");
     assert_none(json, "inversion");
     facts_free(json);
-    ffd_text_free(text_of("mesh.json"));
+    ffd_free(text_of("mesh.json"));
 }
 
 /* A lattice without volume is still described. */
@@ -519,7 +518,7 @@ static void each_failed_allocation_is_reported(void **state)
         ffd_alloc_fail_after(failures);
         const ffd_status status = ffd_info_run(&desc, &text, &error);
         ffd_alloc_fail_after(-1);
-        ffd_text_free(text);
+        ffd_free(text);
         if (status == FFD_OK)
             break;
         assert_int_equal(status, FFD_E_MEMORY);

@@ -146,7 +146,7 @@ static ffd_status run_info(ffd_error *error)
     desc.parts = true;
     const ffd_status status = ffd_info_run(&desc, &text, error);
     assert_true((status == FFD_OK) == (text != NULL));
-    ffd_text_free(text);
+    ffd_free(text);
     return status;
 }
 
@@ -162,7 +162,7 @@ static ffd_status run_compare(ffd_error *error)
     if (status == FFD_OK)
         status = ffd_comparison_json(&comparison, input, input, &text, error);
     assert_true((status == FFD_OK) == (text != NULL));
-    ffd_text_free(text);
+    ffd_free(text);
     return status;
 }
 

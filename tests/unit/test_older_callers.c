@@ -98,7 +98,7 @@ static void descriptions_of_older_callers_are_enough(void **state)
     GUARDED(info);
     info.as.file.path = input;
     assert_int_equal(ffd_info_run(&info.as, &text, NULL), FFD_OK);
-    ffd_text_free(text);
+    ffd_free(text);
     OLDER(ffd_embed_desc, embed, offsetof(ffd_embed_desc, set));
     ffd_embed_desc_init(&embed.as, embed_known);
     GUARDED(embed);

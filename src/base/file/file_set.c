@@ -83,10 +83,10 @@ static ffd_status undo(const set_record *record, ffd_error *error)
 /* Completes the new files or restores the old ones, then removes the record. */
 static ffd_status settle(const set_record *record, bool is_done, ffd_error *error)
 {
-    ffd_status status = is_done ? finish(record, error) : undo(record, error);
-    if (!status && ffd_record_remove(record) != 0 && errno != ENOENT)
-        status = ffd_fail_errno(error, record->path, "cannot be removed");
-    return status;
+    TRY(is_done ? finish(record, error) : undo(record, error));
+    if (ffd_record_remove(record) != 0 && errno != ENOENT)
+        return ffd_fail_errno(error, record->path, "cannot be removed");
+    return FFD_OK;
 }
 
 /* Returns whether the head is placed. It is placed last, so this tells how far a killed run came. */

@@ -170,9 +170,7 @@ static ffd_status check_record(const set_record *record, size_t *size, ffd_error
     struct stat info;
     if (fstat(record->fd, &info) != 0)
         return ffd_fail_errno(error, record->path, "cannot be read");
-    const ffd_status status = check_owner(record, &info, error);
-    if (status)
-        return status;
+    TRY(check_owner(record, &info, error));
     if (info.st_mode & 022 || info.st_nlink != 1 || (unsigned long long)info.st_size > LARGEST)
         return refuse(record, strange, error);
     *size = (size_t)info.st_size;
@@ -262,11 +260,9 @@ static ffd_status read_entries(set_record *record, ffd_error *error)
 {
     size_t size = 0;
     bool whole = false;
-    ffd_status status = check_record(record, &size, error);
-    if (status)
-        return status;
+    TRY(check_record(record, &size, error));
     char *const bytes = ffd_alloc(size, 1);
-    status = bytes ? read_bytes(record, bytes, size, error) : ffd_fail_memory(error);
+    ffd_status status = bytes ? read_bytes(record, bytes, size, error) : ffd_fail_memory(error);
     if (!status)
         status = parse(record, bytes, size, &whole, error);
     ffd_free(bytes);
@@ -284,8 +280,8 @@ static ffd_status explain(const set_record *record, ffd_error *error)
     if (lstat(record->path, &info) != 0)
         return FFD_OK;
     errno = reason;
-    const ffd_status status = check_owner(record, &info, error);
-    return status ? status : ffd_fail_errno(error, record->path, "cannot be opened");
+    TRY(check_owner(record, &info, error));
+    return ffd_fail_errno(error, record->path, "cannot be opened");
 }
 
 /* Opens and locks the record. Success without a descriptor: there is none. */
@@ -312,12 +308,11 @@ static ffd_status open_locked(set_record *record, ffd_error *error)
 
 ffd_status ffd_record_open(set_record *record, const char *head, ffd_error *error)
 {
-    ffd_status status = ffd_record_begin(record, head, error);
-    if (!status)
-        status = open_locked(record, error);
-    if (!status && record->fd >= 0)
-        status = read_entries(record, error);
-    return status;
+    TRY(ffd_record_begin(record, head, error));
+    TRY(open_locked(record, error));
+    if (record->fd >= 0)
+        TRY(read_entries(record, error));
+    return FFD_OK;
 }
 
 bool ffd_record_exists(const char *head)

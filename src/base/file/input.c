@@ -291,10 +291,8 @@ static ffd_status load(const char *path, size_t least_mapped, file_input *input,
 {
     int fd;
     *input = (file_input){.data = nothing};
-    ffd_status status = ffd_file_open(path, &fd, error);
-    if (status)
-        return status;
-    status = load_descriptor(fd, ffd_file_display_name(path), least_mapped, input, error);
+    TRY(ffd_file_open(path, &fd, error));
+    ffd_status status = load_descriptor(fd, ffd_file_display_name(path), least_mapped, input, error);
     if (fd != STDIN_FILENO)
         close(fd);
     return status;
@@ -401,9 +399,7 @@ void ffd_file_prefault(const void *bytes, size_t size)
 ffd_status ffd_file_compare(const char *path, const file_input *bytes, bool *same, ffd_error *error)
 {
     file_input there;
-    const ffd_status status = ffd_file_load(path, &there, error);
-    if (status)
-        return status;
+    TRY(ffd_file_load(path, &there, error));
     *same = there.size == bytes->size;
     for (size_t at = 0, piece; at < bytes->size && *same; at += piece) {
         piece = bytes->size - at < COMPARED ? bytes->size - at : COMPARED;

@@ -98,28 +98,26 @@ static ffd_status refuse_written(const file_output *output, const char *path, ff
 /* Refuses targets that are among the written files, also if they became so after ffd_output_begin. */
 static ffd_status refuse_recorded(const file_output *output, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < output->count && !status; i++)
+    for (size_t i = 0; i < output->count; i++)
         if (output->files[i].temporary)
-            status = refuse_written(output, output->files[i].target, error);
-    return status;
+            TRY(refuse_written(output, output->files[i].target, error));
+    return FFD_OK;
 }
 
 /* Records the files before they are renamed, so that no file is missing in the record: a rename does not
    change a file's identity. */
 static ffd_status record_files(const file_output *output, bool stays, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < output->count && output->written && !status; i++) {
+    for (size_t i = 0; i < output->count && output->written; i++) {
         const output_file *const file = &output->files[i];
         file_stamp stamp;
         if (!file->temporary)
             continue;
         if (!ffd_file_stamp(stays ? file->target : file->temporary, &stamp))
             return ffd_fail_errno(error, file->target, "cannot be written");
-        status = ffd_written_add(output->written, &stamp, file->target, error);
+        TRY(ffd_written_add(output->written, &stamp, file->target, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Returns the descriptor of a stream; -1 for other paths. A stream that is redirected to a file is written
@@ -230,9 +228,7 @@ static ffd_status check_target(const char *path, bool force, struct stat *info, 
         return errno == ENOENT ? ffd_fail_file(error, FFD_E_IO, path, "is a link that leads to no file")
                                : ffd_fail_errno(error, path, "cannot be written");
     }
-    const ffd_status status = refuse_special(info, path, error);
-    if (status)
-        return status;
+    TRY(refuse_special(info, path, error));
     if (!S_ISREG(info->st_mode))
         return FFD_OK;
     return force ? check_replaceable(path, info, error) : fail_exists(path, error);
@@ -244,9 +240,9 @@ ffd_status ffd_output_check(const char *path, bool force, ffd_error *error)
     bool exists;
     if (ffd_output_is_stream(path))
         return FFD_OK;
-    const ffd_status status = check_target(path, force, &info, &exists, error);
-    if (status || exists)
-        return status;
+    TRY(check_target(path, force, &info, &exists, error));
+    if (exists)
+        return FFD_OK;
     char *folder = ffd_path_folder(path);
     if (!folder)
         return ffd_fail_memory(error);
@@ -344,18 +340,15 @@ static ffd_status flush(file_output *output, ffd_error *error)
 {
     if (output->count == 0)
         return FFD_OK;
-    const ffd_status status = write_all(output, output->block, output->filled, error);
-    if (!status)
-        output->filled = 0;
-    return status;
+    TRY(write_all(output, output->block, output->filled, error));
+    output->filled = 0;
+    return FFD_OK;
 }
 
 ffd_status ffd_output_begin(file_output *output, const char *path, bool force, ffd_error *error)
 {
     output->was_busy = false;
-    ffd_status status = flush(output, error);
-    if (status)
-        return status;
+    TRY(flush(output, error));
     if (!ffd_grow((void **)&output->files, &output->capacity, output->count + 1, sizeof *output->files))
         return ffd_fail_memory(error);
     output_file *file = &output->files[output->count];
@@ -363,11 +356,8 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
 
     struct stat info;
     bool exists = false;
-    if (!ffd_output_is_stream(path) && !output->sink) {
-        status = check_target(path, force, &info, &exists, error);
-        if (status)
-            return status;
-    }
+    if (!ffd_output_is_stream(path) && !output->sink)
+        TRY(check_target(path, force, &info, &exists, error));
     char *resolved = exists && S_ISREG(info.st_mode) ? realpath(path, NULL) : NULL;
     file->target = ffd_text_copy(resolved ? resolved : path);
     free(resolved);
@@ -381,12 +371,10 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
         file->fd = dup(stream_of(path));
         return file->fd < 0 ? ffd_fail_errno(error, shown(path), "cannot be written") : FFD_OK;
     }
-    status = exists ? refuse_written(output, path, error) : FFD_OK;
-    if (status)
-        return status;
+    TRY(exists ? refuse_written(output, path, error) : FFD_OK);
     if (exists && !S_ISREG(info.st_mode))
         return open_device(file, path, error);
-    status = open_temporary(file, path, exists ? &info : NULL, &output->was_busy, error);
+    ffd_status status = open_temporary(file, path, exists ? &info : NULL, &output->was_busy, error);
     /* Another run may have created the target before this one got the lock. */
     if (!status && !force && lstat(file->target, &info) == 0) {
         status = fail_exists(path, error);
@@ -426,15 +414,13 @@ ffd_status ffd_output_folder(file_output *output, const char *path, ffd_error *e
 static ffd_status make_room(file_output *output, ffd_error *error)
 {
     const output_file *const file = &output->files[output->count - 1];
-    const ffd_status status = file->temporary || output->sink ? ffd_deadline_check(error) : FFD_OK;
-    return status ? status : flush(output, error);
+    TRY(file->temporary || output->sink ? ffd_deadline_check(error) : FFD_OK);
+    return flush(output, error);
 }
 
 ffd_status ffd_output_write(file_output *output, const void *bytes, size_t size, ffd_error *error)
 {
-    const ffd_status status = size > BLOCK - output->filled ? make_room(output, error) : FFD_OK;
-    if (status)
-        return status;
+    TRY(size > BLOCK - output->filled ? make_room(output, error) : FFD_OK);
     if (output->hash && output->count == 1)
         ffd_hash_stream_add(output->hash, bytes, size);
     if (size >= BLOCK)
@@ -553,11 +539,9 @@ static ffd_status give_all(const file_output *output, ffd_error *error)
 
 static ffd_status settle_all(file_output *output, bool stays, ffd_error *error)
 {
-    ffd_status status = stays ? drop_all(output, error) : place_all(output, error);
-    for (size_t i = 0; i < output->count && !status; i++)
-        status = settle_file(&output->files[i], error);
-    if (status)
-        return status;
+    TRY(stays ? drop_all(output, error) : place_all(output, error));
+    for (size_t i = 0; i < output->count; i++)
+        TRY(settle_file(&output->files[i], error));
     for (size_t i = 0; i < output->folder_count; i++)
         ffd_cleanup_strike(&output->folders[i].noted);
     output->committed = true;

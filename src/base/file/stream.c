@@ -72,11 +72,8 @@ static ffd_status fill(byte_stream *stream, ffd_error *error)
 ffd_status ffd_stream_take(byte_stream *stream, const char **bytes, size_t *size, ffd_error *error)
 {
     *size = 0;
-    if (stream->next == stream->filled && !stream->ended) {
-        const ffd_status status = fill(stream, error);
-        if (status)
-            return status;
-    }
+    if (stream->next == stream->filled && !stream->ended)
+        TRY(fill(stream, error));
     if (stream->ended)
         return FFD_OK;
     const unsigned char *const begin = stream->block + stream->next;

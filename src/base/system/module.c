@@ -116,7 +116,7 @@ static ffd_status load_once(module *of, const module_head **head, ffd_error *err
     *head = atomic_load(&of->head);
     if (!*head)
         status = open_module(of, head, error);
-    if (status == FFD_OK)
+    if (!status)
         atomic_store(&of->head, *head);
     pthread_mutex_unlock(&lock);
     return status;
@@ -125,8 +125,8 @@ static ffd_status load_once(module *of, const module_head **head, ffd_error *err
 ffd_status ffd_module_load(module *of, const module_head **head, ffd_error *error)
 {
     *head = atomic_load(&of->head);
-    const ffd_status status = *head ? FFD_OK : load_once(of, head, error);
-    if (status == FFD_OK && !prepare_thread(*head))
+    TRY(*head ? FFD_OK : load_once(of, head, error));
+    if (!prepare_thread(*head))
         return ffd_fail_memory(error);
-    return status;
+    return FFD_OK;
 }

@@ -23,10 +23,10 @@ ffd_status ffd_claims_expect(run_files *files, const batch_job *job, ffd_error *
         files->has_odd_outputs =
             ffd_format_from_name(job->target) == FFD_FORMAT_AUTO || ffd_job_has_copies(job, &kind);
     }
-    const ffd_status status = ffd_files_find(&files->writes, &place, &line)
-                                  ? FFD_OK
-                                  : ffd_files_put(&files->writes, &place, job->line, error);
-    return status ? status : ffd_run_add_folder(files, job->target, error);
+    TRY(ffd_files_find(&files->writes, &place, &line)
+            ? FFD_OK
+            : ffd_files_put(&files->writes, &place, job->line, error));
+    return ffd_run_add_folder(files, job->target, error);
 }
 
 /* Whether an earlier job reads a file. *line: of that job. */

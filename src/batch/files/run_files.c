@@ -86,8 +86,8 @@ ffd_status ffd_run_keep(run_files *files, const char *path, ffd_error *error)
 
 ffd_status ffd_run_reserve(run_files *files, const char *path, ffd_error *error)
 {
-    const ffd_status status = ffd_run_keep(files, path, error);
-    return status ? status : ffd_run_add_folder(files, path, error);
+    TRY(ffd_run_keep(files, path, error));
+    return ffd_run_add_folder(files, path, error);
 }
 
 /* Adds a resolved folder and those above it, as far as they are new. Shortens the path. */

@@ -171,10 +171,10 @@ static void begin_scan(run_files *files, const job_kind *kind, size_t beside)
 static ffd_status end_scan(run_files *files, const job_kind *kind, uint64_t line, ffd_error *error)
 {
     mesh_scan *const scan = &files->scan;
-    ffd_status status = note_all(files, &scan->named, line, &scan->conflicts, error);
-    for (size_t i = 0; i < scan->named.count && !status; i++)
-        status = ffd_users_add(&files->users, scan->named.paths[i], kind->input, error);
-    return status;
+    TRY(note_all(files, &scan->named, line, &scan->conflicts, error));
+    for (size_t i = 0; i < scan->named.count; i++)
+        TRY(ffd_users_add(&files->users, scan->named.paths[i], kind->input, error));
+    return FFD_OK;
 }
 
 /* State of reading what a worker has found. */
@@ -194,8 +194,8 @@ static ffd_status take(finding *f, scan_kind kind, const char *path, ffd_error *
     if (kind == SCAN_COPY)
         return ffd_paths_add(&scan->copies, path, error);
     if (kind == SCAN_LATTICE) {
-        status = end_lattice(f->files, f->lattice, f->job->line, error);
-        return status ? status : add_lattice(f->files, path, &f->lattice, error);
+        TRY(end_lattice(f->files, f->lattice, f->job->line, error));
+        return add_lattice(f->files, path, &f->lattice, error);
     }
     if (kind == SCAN_BOX)
         return f->lattice ? ffd_paths_add(&f->lattice->files, path, error) : FFD_OK;

@@ -165,9 +165,9 @@ static ffd_status refuse_equal_names(const job_source *source, ffd_error *error)
 
 static ffd_status find_files(job_source *source, ffd_error *error)
 {
-    const ffd_status status = ffd_glob(source->desc.pattern, &source->files, error);
-    if (status || ffd_interrupt_requested())
-        return status;
+    TRY(ffd_glob(source->desc.pattern, &source->files, error));
+    if (ffd_interrupt_requested())
+        return FFD_OK;
     if (source->files.count == 0)
         return ffd_fail_file(error, FFD_E_IO, source->desc.pattern, "no file matches this pattern");
     return source->desc.out_dir ? refuse_equal_names(source, error) : FFD_OK;

@@ -39,9 +39,9 @@ static ffd_status take_bytes(line_reader *reader, line_state *state, ffd_error *
     size_t size;
     /* A line may be endless, so interrupts must be noticed. */
     while (ffd_stream_is_ready(reader->stream) && !ffd_interrupt_requested()) {
-        const ffd_status status = ffd_stream_take(reader->stream, &bytes, &size, error);
-        if (status || size == 0)
-            return status;
+        TRY(ffd_stream_take(reader->stream, &bytes, &size, error));
+        if (size == 0)
+            return FFD_OK;
         *state = LINE_READ;
         const bool ends = bytes[size - 1] == '\n';
         const size_t length = size - ends;

@@ -259,16 +259,16 @@ ffd_status ffd_table_begin(csv_table *table, ffd_error *error)
 {
     line_state state;
     bool valid = false;
-    ffd_status status = first_row(table, &state, &valid, error);
-    if (!status && !ffd_interrupt_requested())
-        status = pass_separator(table, &state, &valid, error);
-    if (status || ffd_interrupt_requested())
-        return status;
+    TRY(first_row(table, &state, &valid, error));
+    if (!ffd_interrupt_requested())
+        TRY(pass_separator(table, &state, &valid, error));
+    if (ffd_interrupt_requested())
+        return FFD_OK;
     if (state != LINE_READ || !valid)
         return ffd_fail_line(error, FFD_E_INVALID, table->name, 1,
                              "the first row of the table must name its columns");
-    status = check_columns(table, error);
-    return status ? status : note_separator(table, error);
+    TRY(check_columns(table, error));
+    return note_separator(table, error);
 }
 
 void ffd_table_free(csv_table *table)

@@ -84,8 +84,8 @@ static ffd_status visit_node(cell_visit *visit, uint32_t index)
         return visit_patch(visit, node->patch);
     if (!node->child)
         return visit_cells(visit, node);
-    const ffd_status status = visit_node(visit, node->child);
-    return status ? status : visit_node(visit, node->child + 1);
+    TRY(visit_node(visit, node->child));
+    return visit_node(visit, node->child + 1);
 }
 
 /* Makes a patch of a face of a box with an affine map. */

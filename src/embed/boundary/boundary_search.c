@@ -339,8 +339,8 @@ static ffd_status expand(border_search *search, const waiting *next)
         return search_patch(search, node->patch, next->key);
     if (!node->child)
         return search_cells(search, node);
-    const ffd_status status = push_node(search, node->child);
-    return status ? status : push_node(search, node->child + 1);
+    TRY(push_node(search, node->child));
+    return push_node(search, node->child + 1);
 }
 
 static ffd_status search_border(border_search *search)

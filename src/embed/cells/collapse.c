@@ -112,8 +112,7 @@ static ffd_status add_edge(const ffd_locator *locator, const border_face *face, 
                            int side, collapse_list *list, ffd_error *error)
 {
     const int along = 3 - face->direction - side;
-    ffd_status status = FFD_OK;
-    for (int end = 0; end < 2 && !status; end++) {
+    for (int end = 0; end < 2; end++) {
         /* Only with clamped knots the control points of the edge are those of the last row of the face.
            Otherwise the face has no control points on its edge, and edges are not collapsed in practice. */
         const knot_vector *knots = &locator->knots[side];
@@ -126,9 +125,9 @@ static ffd_status add_edge(const ffd_locator *locator, const border_face *face, 
             continue;
         index[along] = 0;
         uvw[side] = u;
-        status = add_set(locator, face, -1, index, uvw, list, error);
+        TRY(add_set(locator, face, -1, index, uvw, list, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status visit_face(const ffd_locator *locator, int direction, int end, collapse_list *list,
@@ -144,11 +143,10 @@ static ffd_status visit_face(const ffd_locator *locator, int direction, int end,
     if (by_a || by_b)
         return add_set(locator, &face, by_a && by_b ? -1 : by_a ? b : a, index, uvw, list, error);
     /* An edge belongs to two faces; it is handled with the face of the lower direction. */
-    ffd_status status = FFD_OK;
-    for (int side = direction + 1; side < 3 && !status; side++)
+    for (int side = direction + 1; side < 3; side++)
         if (!ffd_knots_closed(&locator->knots[side]))
-            status = add_edge(locator, &face, uvw, side, list, error);
-    return status;
+            TRY(add_edge(locator, &face, uvw, side, list, error));
+    return FFD_OK;
 }
 
 ffd_status ffd_collapses_find(const ffd_locator *locator, collapse_list *list, ffd_error *error)

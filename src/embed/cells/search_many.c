@@ -298,11 +298,10 @@ static ffd_status find_leaves(many_search *many, size_t count)
 static ffd_status find_each(const ffd_locator *locator, const double *p, size_t count,
                             search_scratch **scratch, ffd_location *locations, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (uint32_t i = 0; i < count && !status; i++)
+    for (uint32_t i = 0; i < count; i++)
         if (!isnan(p[3 * (size_t)i]))
-            status = find_alone(locator, p, i, scratch, locations, error);
-    return status;
+            TRY(find_alone(locator, p, i, scratch, locations, error));
+    return FFD_OK;
 }
 
 ffd_status ffd_cells_find_many(const ffd_locator *locator, const double *p, size_t count,
@@ -318,8 +317,7 @@ ffd_status ffd_cells_find_many(const ffd_locator *locator, const double *p, size
         (*scratch)->many = ffd_alloc(1, sizeof *(*scratch)->many);
     if (!(*scratch)->many)
         return ffd_fail_memory(error);
-    ffd_status status = find_leaves(&many, count);
-    if (!status)
-        status = find_waiting(locator, p, many.waiting, scratch, locations, error);
-    return status ? status : judge_shared(&many);
+    TRY(find_leaves(&many, count));
+    TRY(find_waiting(locator, p, many.waiting, scratch, locations, error));
+    return judge_shared(&many);
 }

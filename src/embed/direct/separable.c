@@ -85,11 +85,8 @@ ffd_status ffd_separable_detect(ffd_locator *locator, bool *found, ffd_error *er
             !is_strictly_monotone(lattice, a))
             return FFD_OK;
     *found = true;
-    for (int a = 0; a < 3; a++) {
-        const ffd_status status = make_curve(locator, a, error);
-        if (status)
-            return status;
-    }
+    for (int a = 0; a < 3; a++)
+        TRY(make_curve(locator, a, error));
     return FFD_OK;
 }
 

@@ -110,8 +110,7 @@ static ffd_status visit_targets(anchor_work *w, target_visit *visit)
     for (size_t i = 0; i < d->instance_count; i++) {
         const gltf_instance *const instance = &d->instances[i];
         const size_t part = take_part(w, instance);
-        for (size_t t = 0; part != GLTF_NONE && t < instance->primitive->target_count && status == FFD_OK;
-             t++) {
+        for (size_t t = 0; part != GLTF_NONE && t < instance->primitive->target_count && !status; t++) {
             const size_t target = d->targets[instance->first_target + t];
             if (has_positions(d, target))
                 status = visit(w, part, target, w->rig->pose.first_weight[instance->node] + t);
@@ -132,9 +131,7 @@ static ffd_status count_target(anchor_work *w, size_t part, size_t target, size_
 
 static ffd_status make_targets(anchor_work *w)
 {
-    ffd_status status = visit_targets(w, count_target);
-    if (status)
-        return status;
+    TRY(visit_targets(w, count_target));
     const size_t count = w->anchors->target_count;
     w->anchors->target_count = 0;
     w->anchors->targets = ffd_alloc(count, sizeof *w->anchors->targets);
@@ -161,11 +158,8 @@ static ffd_status make_anchors(anchor_work *w)
     w->is_done = ffd_alloc_zero(d->base.part_count, sizeof *w->is_done);
     if (!w->driven || !w->is_done)
         return ffd_fail_memory(w->error);
-    ffd_status status = ffd_gltf_skeleton_take((gltf_skeleton *)w->rig, count, 3 * sizeof(double), w->error);
-    if (!status)
-        status = ffd_parts_number(&d->base, &w->first, w->error);
-    if (status)
-        return status;
+    TRY(ffd_gltf_skeleton_take((gltf_skeleton *)w->rig, count, 3 * sizeof(double), w->error));
+    TRY(ffd_parts_number(&d->base, &w->first, w->error));
     w->anchors->points = ffd_alloc(count, 3 * sizeof(double));
     if (!w->anchors->points)
         return ffd_fail_memory(w->error);

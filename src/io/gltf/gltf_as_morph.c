@@ -38,9 +38,7 @@ static ffd_status finish_target(gltf_document *d, ffd_error *error)
 ffd_status ffd_gltf_keep_base(mesh_document *document, const char *name, ffd_error *error)
 {
     gltf_document *d = (gltf_document *)document;
-    const ffd_status status = d->morph_name ? finish_target(d, error) : FFD_OK;
-    if (status)
-        return status;
+    TRY(d->morph_name ? finish_target(d, error) : FFD_OK);
     d->morph_name = ffd_text_copy(name);
     if (!d->morph_name)
         return ffd_fail_memory(error);
@@ -204,8 +202,8 @@ static ffd_status reopen(morph_file *file, file_input *bytes, ffd_error *error)
     close_file(file);
     file->bytes = *bytes;
     *bytes = (file_input){0};
-    const ffd_status status = ffd_budget_take(&budget, file->bytes.size, 1, error);
-    return status ? status : ffd_gltf_open_within(&file->bytes, &source, &budget, &file->made, error);
+    TRY(ffd_budget_take(&budget, file->bytes.size, 1, error));
+    return ffd_gltf_open_within(&file->bytes, &source, &budget, &file->made, error);
 }
 
 static bool replaces(const gltf_document *d, const morph_marks *marks)
@@ -223,7 +221,7 @@ static ffd_status reopen_replaced(morph_file *file, file_input *bytes, const cha
     const size_t count = current(file)->model.accessor_count;
     unsigned char *const before = ffd_gltf_count_users(current(file), NULL);
     ffd_status status = before ? reopen(file, bytes, error) : ffd_fail_memory(error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_gltf_warn_of_left(current(file), before, count, name, log, &file->bytes_left, error);
     ffd_free(before);
     return status;
@@ -234,17 +232,15 @@ static ffd_status add_target(morph_file *file, morph_marks *marks, const mesh_lo
 {
     const morph_request request = {file->source, marks->morph, marks->meshes, marks->places, log};
     file_input bytes = {0};
-    ffd_status status = mark_meshes(file->source, current(file), marks, error);
-    if (status)
-        return status;
+    TRY(mark_meshes(file->source, current(file), marks, error));
     if (!marks->any) {
         ffd_log_line(log, FFD_LOG_WARNING, "the file has no mesh that could get the morph target");
         return FFD_OK;
     }
     if (!marks->moved)
         ffd_log_line(log, FFD_LOG_WARNING, "no vertex moves: all offsets of the morph target are 0");
-    status = ffd_gltf_add_target(current(file), &request, &bytes, error);
-    if (status == FFD_OK)
+    ffd_status status = ffd_gltf_add_target(current(file), &request, &bytes, error);
+    if (!status)
         status = replaces(file->source, marks) ? reopen_replaced(file, &bytes, marks->morph->name, log, error)
                                                : reopen(file, &bytes, error);
     ffd_file_unload(&bytes);
@@ -254,15 +250,14 @@ static ffd_status add_target(morph_file *file, morph_marks *marks, const mesh_lo
 static ffd_status add_targets(morph_file *file, morph_marks *marks, const mesh_log *log, ffd_error *error)
 {
     const gltf_document *const d = file->source;
-    ffd_status status = FFD_OK;
-    for (size_t k = 0; k < d->morph_count && !status; k++) {
+    for (size_t k = 0; k < d->morph_count; k++) {
         mesh_log_label label;
         if (!make_marks(d, &d->morphs[k], &marks[k]))
             return ffd_fail_memory(error);
         const mesh_log labelled = ffd_log_morph(log, d->morphs[k].name, &label);
-        status = add_target(file, &marks[k], d->morph_count > 1 ? &labelled : log, error);
+        TRY(add_target(file, &marks[k], d->morph_count > 1 ? &labelled : log, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status add_clips(morph_file *file, const morph_marks *marks, const mesh_log *log, ffd_error *error)

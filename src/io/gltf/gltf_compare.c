@@ -206,7 +206,7 @@ static ffd_status compare_arrays(gltf_comparer *c, uint32_t x, uint32_t y)
     }
     ffd_status status = FFD_OK;
     uint32_t w = ffd_json_tree_first(&c->b->tree, y);
-    for (uint32_t v = ffd_json_tree_first(&c->a->tree, x); v != JSON_NONE && status == FFD_OK;
+    for (uint32_t v = ffd_json_tree_first(&c->a->tree, x); v != JSON_NONE && !status;
          v = ffd_json_tree_after(&c->a->tree, v)) {
         status = compare_values(c, v, w);
         w = ffd_json_tree_after(&c->b->tree, w);
@@ -234,7 +234,7 @@ static ffd_status compare_members(gltf_comparer *c, uint32_t x, const json_membe
 {
     ffd_status status = FFD_OK;
     size_t i = 0, j = 0;
-    while ((i < first_count || j < second_count) && status == FFD_OK) {
+    while ((i < first_count || j < second_count) && !status) {
         const int order = i == first_count    ? 1
                           : j == second_count ? -1
                                               : ffd_json_tree_compare_keys(first[i].tree, first[i].value,
@@ -579,7 +579,7 @@ static ffd_status compare_contents(gltf_comparer *c)
     leave_problems(c->b, c->is_unpacked);
     find_same_views(c);
     compare_accessors(c);
-    for (size_t i = 0; i < c->a->model.view_count && status == FFD_OK; i++)
+    for (size_t i = 0; i < c->a->model.view_count && !status; i++)
         if (!c->is_unpacked[i] && !c->is_same[i])
             status = compare_view(c, i);
     return status;
@@ -611,9 +611,9 @@ ffd_status ffd_gltf_compare(const mesh_document *first, const mesh_document *sec
     } else {
         status = ffd_fail_memory(error);
     }
-    if (status == FFD_OK && c.other_storage)
+    if (!status && c.other_storage)
         comparison->complete = false;
-    else if (status == FFD_OK)
+    else if (!status)
         status = compare_contents(&c);
     ffd_free(c.kinds);
     ffd_free(c.states);

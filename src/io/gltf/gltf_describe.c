@@ -121,7 +121,7 @@ static ffd_status describe_attributes(const gltf_document *d, json_text *json, f
     ffd_json_tree_sort_keys(members, count);
     ffd_status status = FFD_OK;
     ffd_json_array(json, "attributes", true);
-    for (size_t i = 0; i < count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < count && !status; i++) {
         if (i > 0 &&
             ffd_json_tree_compare_keys(&d->tree, members[i - 1].value, &d->tree, members[i].value) == 0)
             continue;
@@ -168,11 +168,8 @@ ffd_status ffd_gltf_describe(const mesh_document *document, json_text *json, ffd
     ffd_json_count(json, "nodes_with_mesh_of_colliders", ffd_gltf_count_stand_ins(d, true));
     if (d->shared_child != GLTF_NONE)
         ffd_json_count(json, "node_with_two_parents", d->shared_child);
-    ffd_status status = describe_attributes(d, json, error);
-    if (status == FFD_OK)
-        status = describe_storage(d, json, error);
-    if (status)
-        return status;
+    TRY(describe_attributes(d, json, error));
+    TRY(describe_storage(d, json, error));
     ffd_mesh_describe_splats(document, json);
     describe_strings(d, "extensionsUsed", json, &failed);
     describe_strings(d, "extensionsRequired", json, &failed);

@@ -145,7 +145,7 @@ static ffd_status count_values(extractor *e)
         positions += d->mesh_parts[i].repeats_positions ? 0 : d->mesh_parts[i].vertex_count;
         normals += d->mesh_parts[i].normal_count;
     }
-    for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++)
+    for (size_t m = 0; m < d->model.mesh_count && !status; m++)
         for (size_t n = 0; n < uses_of(e, m)->node_count; n++)
             for (const gltf_primitive *p = NULL; status == FFD_OK && (p = ffd_gltf_next_primitive(d, m, p));)
                 if (is_drawn(d, node_of(e, m, n)))
@@ -282,17 +282,16 @@ static ffd_status add_triangles(extractor *e, const drawn *drawing)
     const size_t count = mode == MODE_TRIANGLES ? drawing->count / 3
                          : drawing->count > 2   ? drawing->count - 2
                                                 : 0;
-    ffd_status status = FFD_OK;
-    for (size_t t = 0; t < count && status == FFD_OK; t++) {
+    for (size_t t = 0; t < count; t++) {
         uint32_t triangle[3];
         gltf_triangle(mode, t, drawing->corners, triangle);
         const int second = drawing->mirrored ? 2 : 1;
         const model_corner corners[3] = {corner_at(drawing, triangle[0]),
                                          corner_at(drawing, triangle[second]),
                                          corner_at(drawing, triangle[3 - second])};
-        status = ffd_model_add(e->model, MODEL_FACES, corners, 3, e->error);
+        TRY(ffd_model_add(e->model, MODEL_FACES, corners, 3, e->error));
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status add_lines(extractor *e, const drawn *drawing)
@@ -300,24 +299,22 @@ static ffd_status add_lines(extractor *e, const drawn *drawing)
     const bool pairs = drawing->primitive->mode == MODE_LINES;
     const size_t n = drawing->count;
     const size_t count = pairs ? n / 2 : n < 2 ? 0 : drawing->primitive->mode == MODE_LINE_LOOP ? n : n - 1;
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < count; i++) {
         const size_t first = pairs ? 2 * i : i, second = first + 1 < n ? first + 1 : 0;
         const model_corner corners[2] = {corner_at(drawing, drawing->corners[first]),
                                          corner_at(drawing, drawing->corners[second])};
-        status = ffd_model_add(e->model, MODEL_LINES, corners, 2, e->error);
+        TRY(ffd_model_add(e->model, MODEL_LINES, corners, 2, e->error));
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status add_points(extractor *e, const drawn *drawing)
 {
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < drawing->count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < drawing->count; i++) {
         const model_corner corner = corner_at(drawing, drawing->corners[i]);
-        status = ffd_model_add(e->model, MODEL_POINTS, &corner, 1, e->error);
+        TRY(ffd_model_add(e->model, MODEL_POINTS, &corner, 1, e->error));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Returns the member "name" of element i of a list; JSON_NONE if it is absent or empty. */
@@ -392,11 +389,11 @@ static ffd_status add_instance(extractor *e, const gltf_primitive *primitive, si
                      .texcoord = find_texcoords(e, primitive, n),
                      .mirrored = is_mirrored(d, part)};
     ffd_status status = ffd_gltf_read_corners(d, primitive, &drawing.corners, &drawing.count, e->error);
-    if (status == FFD_OK)
+    if (!status)
         status = begin_run(e, primitive, node_of(e, primitive->mesh, n));
-    if (status == FFD_OK)
+    if (!status)
         status = take_colours(e, primitive, n, &drawing);
-    if (status == FFD_OK)
+    if (!status)
         status = drawing.primitive->mode == MODE_POINTS     ? add_points(e, &drawing)
                  : drawing.primitive->mode < MODE_TRIANGLES ? add_lines(e, &drawing)
                                                             : add_triangles(e, &drawing);
@@ -496,7 +493,7 @@ static ffd_status extract(extractor *e)
         return ffd_fail_memory(e->error);
     /* For the corners of one primitive at a time. */
     ffd_status status = ffd_model_take(e->model, ffd_gltf_most_corners(d), sizeof(uint32_t), e->error);
-    if (status == FFD_OK)
+    if (!status)
         status = count_values(e);
     if (status)
         return status;
@@ -527,9 +524,9 @@ ffd_status ffd_gltf_extract(const mesh_document *document, mesh_model *model, ff
 {
     extractor e = {.document = ffd_gltf_of(document), .model = model, .error = error};
     ffd_status status = refuse_instances(e.document, model, error);
-    if (status == FFD_OK)
+    if (!status)
         status = extract(&e);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_model_finish(model, error);
     ffd_free(e.first_position);
     ffd_free(e.first_normal);

@@ -121,9 +121,7 @@ ffd_status ffd_gltf_follow_keys(gltf_skeleton *skeleton, size_t index, ffd_error
     const size_t own = animation->sampler_count;
     if (!change || !change->contents)
         return FFD_OK;
-    const ffd_status status = add_copies(skeleton, change, animation, error);
-    if (status)
-        return status;
+    TRY(add_copies(skeleton, change, animation, error));
     for (size_t s = 0; s < animation->sampler_count; s++) {
         const size_t content = s < own ? change->contents[s] : change->copies[s - own].content;
         if (content != GLTF_NONE && animation->samplers[s].values)

@@ -23,8 +23,8 @@ static ffd_status check(const mesh_document *document, ffd_error *error)
 
 static ffd_status warn(const mesh_document *document, const mesh_log *log, ffd_error *error)
 {
-    const ffd_status status = ffd_gltf_warn_of_held(ffd_gltf_of(document), log, error);
-    return status ? status : ffd_gltf_warn_of_faults(document, log, error);
+    TRY(ffd_gltf_warn_of_held(ffd_gltf_of(document), log, error));
+    return ffd_gltf_warn_of_faults(document, log, error);
 }
 
 static void read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
@@ -55,8 +55,8 @@ static void read_offsets(const mesh_document *document, size_t part, size_t shap
 static ffd_status begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
 {
     ffd_gltf_free_rig((gltf_document *)document);
-    const ffd_status status = ffd_gltf_begin_results(document, normals, tangents, error);
-    return status ? status : ffd_gltf_begin_splats((gltf_document *)document, error);
+    TRY(ffd_gltf_begin_results(document, normals, tangents, error));
+    return ffd_gltf_begin_splats((gltf_document *)document, error);
 }
 
 /* mesh_format's follow. Nodes that follow also turn splats that are not selected; these are turned back, as
@@ -64,8 +64,8 @@ static ffd_status begin_results(mesh_document *document, bool normals, bool tang
 static ffd_status follow(mesh_document *document, const mesh_places *places, mesh_place_move *moves,
                          const mesh_log *log, mesh_following *following, ffd_error *error)
 {
-    const ffd_status status = ffd_gltf_follow(document, places, moves, log, following, error);
-    return status ? status : ffd_gltf_begin_splats((gltf_document *)document, error);
+    TRY(ffd_gltf_follow(document, places, moves, log, following, error));
+    return ffd_gltf_begin_splats((gltf_document *)document, error);
 }
 
 static ffd_status save(mesh_document *document, const mesh_save_options *options, file_output *output,

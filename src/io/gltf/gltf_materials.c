@@ -245,9 +245,7 @@ static ffd_status read_material(reader *r, uint32_t value)
 {
     const gltf_document *const d = r->document;
     mesh_materials *const materials = r->images.materials;
-    const ffd_status status = ffd_materials_add(materials, name_of(d, value), r->images.budget, r->error);
-    if (status)
-        return status;
+    TRY(ffd_materials_add(materials, name_of(d, value), r->images.budget, r->error));
     mesh_material *const m = &materials->list[materials->count - 1];
     const base_colour colour = find_colour(d, value);
     const uint32_t sides = ffd_json_tree_member(&d->tree, value, "doubleSided");

@@ -37,9 +37,7 @@
    between, which it can in a mapped file (mmap). */
 static ffd_status copy_json(gltf_document *d, const char **text, size_t size, ffd_error *error)
 {
-    const ffd_status status = ffd_budget_take(&d->base.budget, size, 1, error);
-    if (status)
-        return status;
+    TRY(ffd_budget_take(&d->base.budget, size, 1, error));
     d->json = ffd_alloc(size, 1);
     if (!d->json)
         return ffd_fail_memory(error);
@@ -94,10 +92,9 @@ static ffd_status list_all_values(gltf_document *d, ffd_error *error)
                  {"nodes", &d->node_values},         {"skins", &d->skin_values},
                  {"materials", &d->material_values}, {"images", &d->image_values},
                  {"textures", &d->texture_values},   {"samplers", &d->sampler_values}};
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < sizeof lists / sizeof *lists && status == FFD_OK; i++)
-        status = list_values(d, lists[i].key, lists[i].list, error);
-    return status;
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
+        TRY(list_values(d, lists[i].key, lists[i].list, error));
+    return FFD_OK;
 }
 
 static int compare_files(const void *a, const void *b)
@@ -134,15 +131,15 @@ static ffd_status note_buffer(gltf_document *d, size_t i, ffd_error *error)
     if (buffer->flaws & BUFFER_ODD_MARKER)
         status = ffd_gltf_flaw(d, uri, error,
                                "the head of the data URI does not end with \";base64\" in small letters");
-    if (status == FFD_OK && buffer->flaws & BUFFER_BLANKS)
+    if (!status && buffer->flaws & BUFFER_BLANKS)
         status = ffd_gltf_flaw(d, uri, error, "there are blanks in the base64 of the data URI");
-    if (status == FFD_OK && buffer->flaws & BUFFER_BACKSLASH)
+    if (!status && buffer->flaws & BUFFER_BACKSLASH)
         status =
             ffd_gltf_flaw(d, uri, error, "the URI has backslashes for slashes: \"%s\" is read", buffer->path);
-    if (status == FFD_OK && buffer->flaws & BUFFER_SHORT)
+    if (!status && buffer->flaws & BUFFER_SHORT)
         status = ffd_gltf_flaw(d, value, error, "the buffer has %zu bytes, less than its byteLength %zu",
                                buffer->size, buffer->stated);
-    if (status == FFD_OK && buffer->flaws & BUFFER_LONG)
+    if (!status && buffer->flaws & BUFFER_LONG)
         status = ffd_gltf_flaw(d, value, error, "the buffer has %zu bytes, more than its byteLength %zu",
                                buffer->size, buffer->stated);
     return status;
@@ -155,17 +152,17 @@ static ffd_status load_buffers(gltf_document *d, ffd_error *error)
     if (!d->buffers)
         return ffd_fail_memory(error);
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < d->buffer_values.count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < d->buffer_values.count && !status; i++) {
         const bool bin = i == 0 && d->binary && d->glb.has_bin;
         status = ffd_gltf_load_buffer(&d->tree, d->buffer_values.values[i],
                                       bin ? d->input.data + d->glb.bin_begin : NULL, d->glb.bin_size,
                                       &d->base.folder, d->name, &most_read, &d->buffers[i], error);
-        if (d->buffers[i].kind == BUFFER_DATA && status == FFD_OK)
+        if (d->buffers[i].kind == BUFFER_DATA && !status)
             status = ffd_budget_take(&d->base.budget, d->buffers[i].size, 1, error);
-        if (status == FFD_OK)
+        if (!status)
             status = note_buffer(d, i, error);
     }
-    return status == FFD_OK ? count_files(d, error) : status;
+    return status ? status : count_files(d, error);
 }
 
 /* Counts the primitives that the JSON has. */
@@ -185,8 +182,8 @@ static ffd_status limit_objects(gltf_document *d, ffd_error *error)
     const uint64_t count = (uint64_t)d->buffer_values.count + d->view_values.count +
                            d->accessor_values.count + d->mesh_values.count + count_primitives(d) +
                            d->node_values.count + ffd_json_tree_count(&d->tree, scenes);
-    const ffd_status status = ffd_budget_check(&d->base.budget, count, OBJECT_BYTES, error);
-    return status ? status : ffd_budget_take(&d->base.budget, count, KEPT_OBJECT_BYTES, error);
+    TRY(ffd_budget_check(&d->base.budget, count, OBJECT_BYTES, error));
+    return ffd_budget_take(&d->base.budget, count, KEPT_OBJECT_BYTES, error);
 }
 
 /* Finds the JSON of the model's primitives. Checks that the counts agree, since the model and the JSON are
@@ -215,17 +212,17 @@ static ffd_status parse_model(gltf_document *d, ffd_error *error)
     json_edits integers = {0};
     byte_buffer text = {0};
     ffd_status status = ffd_gltf_check_schema(&d->tree, d->name, &integers, error);
-    if (status == FFD_OK)
+    if (!status)
         status = list_all_values(d, error);
-    if (status == FFD_OK)
+    if (!status)
         status = limit_objects(d, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_gltf_write_shown(d, &integers, &text)
                      ? ffd_gltf_parse_model(text.data, text.size, d->name, &d->model, error)
                      : ffd_fail_memory(error);
     ffd_edits_free(&integers);
     ffd_buffer_free(&text);
-    if (status == FFD_OK)
+    if (!status)
         status = join_json(d, error);
     return status ? status : ffd_gltf_read_drawings(d, error);
 }
@@ -305,7 +302,7 @@ ffd_status ffd_gltf_list_files(const mesh_document *document, path_list *files, 
 {
     const gltf_document *d = ffd_gltf_of(document);
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < d->buffer_values.count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < d->buffer_values.count && !status; i++) {
         if (d->buffers[i].kind != BUFFER_FILE)
             continue;
         char *path = ffd_path_sibling(d->path, d->buffers[i].path);
@@ -322,50 +319,45 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
         return ffd_fail_memory(error);
     d->name = ffd_file_display_name(d->path);
     d->base.folder = (file_folder){d->path, source->resolve, source->resolve_user};
-    ffd_status status = find_json(d, source->format, error);
-    if (status == FFD_OK)
-        status = parse_model(d, error);
-    if (status == FFD_OK)
-        status = load_buffers(d, error);
-    if (status == FFD_OK)
-        status = ffd_gltf_check_contents(d, error);
-    if (status)
-        return status;
+    TRY(find_json(d, source->format, error));
+    TRY(parse_model(d, error));
+    TRY(load_buffers(d, error));
+    TRY(ffd_gltf_check_contents(d, error));
     ffd_gltf_choose_pages(d);
     d->layouts = ffd_alloc_zero(d->model.accessor_count, sizeof *d->layouts);
     if (!d->layouts)
         return ffd_fail_memory(error);
-    status = ffd_gltf_check(d, error);
-    if (status == FFD_OK)
+    ffd_status status = ffd_gltf_check(d, error);
+    if (!status)
         status = ffd_gltf_check_indices(d, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_gltf_check_stated(d, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_gltf_check_vrm(d, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_gltf_find_required(d, source, error);
-    if (status == FFD_OK)
+    if (!status)
         ffd_gltf_find_held(d);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_gltf_list_skins(d, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_gltf_make_scene(d, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_gltf_settle_skins(d, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_gltf_make_parts(d, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_gltf_make_shapes(d, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_gltf_find_splats(d, error);
-    if (status == FFD_OK)
+    if (!status)
         d->instancing_status = ffd_gltf_find_instanced_nodes(d, &d->instancing_error);
-    if (status == FFD_OK)
+    if (!status)
         d->skins_status = ffd_gltf_prepare_skins(d, &d->skins_error);
-    if (status == FFD_OK && d->skins_status == FFD_OK)
+    if (!status && d->skins_status == FFD_OK)
         status = ffd_gltf_judge_weights(d, error);
     ffd_gltf_forget(d);
-    if (status == FFD_OK && d->skins_status == FFD_E_LIMIT)
+    if (!status && d->skins_status == FFD_E_LIMIT)
         return ffd_fail(error, FFD_E_LIMIT, "%s", d->skins_error.message);
     const bool no_memory = d->skins_status == FFD_E_MEMORY || d->instancing_status == FFD_E_MEMORY;
     return status == FFD_OK && no_memory ? ffd_fail_memory(error) : status;

@@ -81,11 +81,8 @@ static ffd_status make_influences(gltf_skeleton *rig, ffd_error *error)
     base->vertex_count = (size_t)ffd_mesh_vertex_count(&d->base);
     for (size_t p = 0; p < d->base.part_count; p++)
         most += d->mesh_parts[p].repeats_positions ? 0 : most_of(&d->parts[p], d->mesh_parts[p].vertex_count);
-    ffd_status status = ffd_gltf_skeleton_take(rig, most, sizeof *base->influences, error);
-    if (!status)
-        status = ffd_gltf_skeleton_take(rig, base->vertex_count + 1, sizeof *base->starts, error);
-    if (status)
-        return status;
+    TRY(ffd_gltf_skeleton_take(rig, most, sizeof *base->influences, error));
+    TRY(ffd_gltf_skeleton_take(rig, base->vertex_count + 1, sizeof *base->starts, error));
     base->influences = ffd_alloc(most, sizeof *base->influences);
     base->starts = ffd_alloc(base->vertex_count + 1, sizeof *base->starts);
     if (!base->influences || !base->starts)
@@ -305,15 +302,11 @@ static ffd_status load(mesh_skeleton *skeleton, size_t index, ffd_error *error)
     gltf_skeleton *const rig = (gltf_skeleton *)skeleton;
     gltf_animation *const from = &rig->animations.list[index];
     rig_animation *const to = &skeleton->animations[index];
-    ffd_status status = to->channels ? FFD_OK : ffd_gltf_load_animation(rig->document, from, error);
-    if (status || to->channels)
-        return status;
-    status = ffd_gltf_follow_keys(rig, index, error);
-    if (status)
-        return status;
-    status = ffd_gltf_skeleton_take(rig, from->channel_count, sizeof *to->channels, error);
-    if (status)
-        return status;
+    TRY(to->channels ? FFD_OK : ffd_gltf_load_animation(rig->document, from, error));
+    if (to->channels)
+        return FFD_OK;
+    TRY(ffd_gltf_follow_keys(rig, index, error));
+    TRY(ffd_gltf_skeleton_take(rig, from->channel_count, sizeof *to->channels, error));
     to->channels = ffd_alloc(from->channel_count, sizeof *to->channels);
     if (!to->channels)
         return ffd_fail_memory(error);

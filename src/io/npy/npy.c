@@ -157,10 +157,8 @@ ffd_status ffd_npy_read(const char *path, ffd_bytes bytes, size_t numbers, doubl
 {
     file_input file;
     *values = NULL;
-    ffd_status status = ffd_file_take(path, bytes, &file, error);
-    if (status)
-        return status;
-    status = read_values(path, &file, numbers, values, error);
+    TRY(ffd_file_take(path, bytes, &file, error));
+    ffd_status status = read_values(path, &file, numbers, values, error);
     ffd_file_unload(&file);
     return status;
 }

@@ -172,9 +172,7 @@ static ffd_status make_pairs(const obj_users *users, obj_document *d, ffd_error 
 
 ffd_status ffd_obj_read_faces(obj_document *d, obj_users *users, ffd_error *error)
 {
-    const ffd_status status = ffd_obj_users_finish(d, users, error);
-    if (status)
-        return status;
+    TRY(ffd_obj_users_finish(d, users, error));
     join_blocks(d, users);
     return users->firsts ? make_pairs(users, d, error) : FFD_OK;
 }
@@ -216,9 +214,7 @@ ffd_status ffd_obj_faces(const mesh_document *document, mesh_faces *faces, ffd_e
     const obj_document *d = ffd_obj_of(document);
     *faces = (mesh_faces){
         .vertex_count = d->vertices, .face_count = d->faces, .lines = d->lines, .points = d->points};
-    const ffd_status status = ffd_mesh_faces_make(document, faces, d->corners, error);
-    if (status)
-        return status;
+    TRY(ffd_mesh_faces_make(document, faces, d->corners, error));
     if (d->file.new_positions && d->file.new_positions == d->file.positions)
         ffd_obj_read_again(d, NULL, 0, faces->positions);
     else
@@ -394,9 +390,7 @@ static void mark_tile(void *context, size_t tile, size_t first, size_t last, int
 ffd_status ffd_obj_mark_used(mesh_document *document, ffd_error *error)
 {
     obj_document *const d = (obj_document *)document;
-    const ffd_status status = ffd_used_make(document, d->vertices, &d->file.used, error);
-    if (status)
-        return status;
+    TRY(ffd_used_make(document, d->vertices, &d->file.used, error));
     ffd_parallel_tiles(d->blocks.count, 1, d->threads, mark_tile, d);
     if (ffd_used_keep(document, d->vertices, &d->file.used))
         d->file.part.used = d->file.used;

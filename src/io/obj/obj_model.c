@@ -75,11 +75,9 @@ static ffd_status take_rest_of_vertex(extractor *e)
         e->model->features |= MODEL_HAS_RATIONAL;
     if (count < 6)
         return FFD_OK;
-    const ffd_status status = ffd_model_make_colours(e->model, e->error);
-    if (status == FFD_OK)
-        memcpy(e->model->colours + 4 * (e->walk.vertices.seen - 1), numbers + 3,
-               (count - 3) * sizeof *numbers);
-    return status;
+    TRY(ffd_model_make_colours(e->model, e->error));
+    memcpy(e->model->colours + 4 * (e->walk.vertices.seen - 1), numbers + 3, (count - 3) * sizeof *numbers);
+    return FFD_OK;
 }
 
 /* The text after the keyword, from the first word to the last. */
@@ -143,9 +141,7 @@ static ffd_status take_element(extractor *e, model_kind kind)
             return ffd_faces_changed(e->document->file.name, e->error);
         corner->position = (uint32_t)vertex;
         corner->normal = kind == MODEL_FACES ? find_normal(e, text.normal, vertex) : MODEL_NONE;
-        const ffd_status status = find_texcoord(e, text.texcoord, &corner->texcoord);
-        if (status)
-            return status;
+        TRY(find_texcoord(e, text.texcoord, &corner->texcoord));
     }
     return ffd_model_add(e->model, kind, e->corners, count, e->error);
 }
@@ -200,7 +196,7 @@ ffd_status ffd_obj_model(const mesh_document *document, mesh_model *model, ffd_e
     const obj_document *d = ffd_obj_of(document);
     extractor e = {.document = d, .model = model, .error = error};
     ffd_status status = ffd_model_make_values(model, d->vertices, d->texcoords, count_normals(d), error);
-    if (status == FFD_OK) {
+    if (!status) {
         copy_values(&e);
         status = ffd_model_begin_run(model, NULL, NULL, NULL, error);
     }
@@ -211,7 +207,7 @@ ffd_status ffd_obj_model(const mesh_document *document, mesh_model *model, ffd_e
     ffd_free(e.group);
     ffd_free(e.material);
     ffd_free(e.corners);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_model_finish(model, error);
     if (model->features & MODEL_HAS_MATERIAL_NAMES && e.has_library)
         model->features |= MODEL_HAS_MATERIALS;

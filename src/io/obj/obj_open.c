@@ -55,7 +55,7 @@ static ffd_status note_unknown(obj_document *d, ffd_error *error)
     if (d->unknown.count > 0)
         ffd_bytes_shown(d->unknown.name.first, (size_t)ffd_text_display_size(d->unknown.name), shown,
                         sizeof shown);
-    for (size_t i = 0; i < d->unknown.count && status == FFD_OK; i++)
+    for (size_t i = 0; i < d->unknown.count && !status; i++)
         status = ffd_flaw_line(&d->file.base.flaws, d->file.name, d->unknown.line, error,
                                "\"%s\" is no statement of OBJ: it is left as it is", shown);
     return status;
@@ -95,7 +95,7 @@ static ffd_status read_elements(obj_document *d, ffd_error *error)
 {
     obj_users users = {0};
     ffd_status status = ffd_obj_read_vectors(d, &users, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_obj_read_faces(d, &users, error);
     ffd_obj_users_free(d, &users);
     return status;
@@ -130,11 +130,11 @@ ffd_status ffd_obj_open(file_input *input, const ffd_source *source, mesh_docume
     d->threads = threads_for(source, input->size);
     d->only_positions = source->only_positions;
     ffd_status status = check_bytes(d, error);
-    if (status == FFD_OK)
+    if (!status)
         status = read_elements(d, error);
-    if (status == FFD_OK)
+    if (!status)
         status = check_statements(d, error);
-    if (status == FFD_OK)
+    if (!status)
         status = note_unknown(d, error);
     if (status) {
         status = lead_to_joined(d, status, error);

@@ -186,12 +186,12 @@ static ffd_status list_kind(const surveying *s, selector_kind kind, const size_t
                             mesh_listing *listing, ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    for (uint32_t n = 0; n < s->names.count && status == FFD_OK; n++) {
+    for (uint32_t n = 0; n < s->names.count && !status; n++) {
         const char *const key = ffd_intern_key(&s->names, n);
         if (key[0] != (char)kind)
             continue;
         status = ffd_listing_add(listing, kind, key + 1, strlen(key + 1), 0, error);
-        for (size_t i = start[n]; i < start[n + 1] && status == FFD_OK; i++)
+        for (size_t i = start[n]; i < start[n + 1] && !status; i++)
             draw(s->document, &s->runs[runs[i]], listing);
     }
     return status;
@@ -207,7 +207,7 @@ ffd_status ffd_obj_list_parts(const mesh_document *document, mesh_listing *listi
     ffd_status status = FFD_OK;
     if (s.failed || !sort_uses(&s, &start, &runs))
         status = ffd_fail_memory(error);
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds && status == FFD_OK; i++)
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds && !status; i++)
         status = list_kind(&s, kinds[i], start, runs, listing, error);
     ffd_free(start);
     ffd_free(runs);

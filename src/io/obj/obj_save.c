@@ -248,9 +248,9 @@ ffd_status ffd_obj_save(mesh_document *document, const mesh_save_options *option
     saver s = {.document = d, .splice = &splice};
     ffd_status status = ffd_obj_bring_resources(&d->file.input, &document->folder, d->names_files, options,
                                                 output, log, error);
-    if (status == FFD_OK && d->file.new_directions)
+    if (!status && d->file.new_directions)
         status = ffd_obj_split_normals(d, &s.split, error);
-    if (status == FFD_OK) {
+    if (!status) {
         ffd_splice_begin(&splice, &d->file, options, output, error);
         if (d->file.new_positions && splice.status == FFD_OK)
             write_blocks(&s);
@@ -258,7 +258,7 @@ ffd_status ffd_obj_save(mesh_document *document, const mesh_save_options *option
             add_normals(&s, &splice);
         status = ffd_splice_end(&splice);
     }
-    if (status == FFD_OK && atomic_load(&s.is_changed))
+    if (!status && atomic_load(&s.is_changed))
         status = ffd_file_document_changed(&d->file, error);
     ffd_obj_split_free(&s.split);
     return status;

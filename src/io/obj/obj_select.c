@@ -142,9 +142,9 @@ ffd_status ffd_obj_select(mesh_document *document, const mesh_selector *selector
     ffd_status status = FFD_OK;
     if (!s.found || !d->selected_vertices || !d->selected_faces || !d->selected_pairs || !d->held_normals)
         status = ffd_fail_memory(error);
-    if (status == FFD_OK)
+    if (!status)
         mark_elements(&s);
-    for (size_t i = 0; i < count && status == FFD_OK; i++)
+    for (size_t i = 0; i < count && !status; i++)
         if (!s.found[i])
             status = refuse_unknown(d, &selectors[i], error);
     d->file.part.selected = d->selected_vertices;

@@ -75,9 +75,7 @@ static ffd_status add_normal(const block_reader *r, const obj_scan *scan, size_t
                              obj_block_users *block)
 {
     size_t normal;
-    const ffd_status status = check_index(r, scan, index, r->normals, "normal", &normal);
-    if (status)
-        return status;
+    TRY(check_index(r, scan, index, r->normals, "normal", &normal));
     note_greatest(&block->normals, normal);
     if (!r->users->firsts || is_first(&r->users->firsts[vertex], (uint32_t)normal, r->document->threads == 1))
         return FFD_OK;
@@ -143,9 +141,7 @@ static ffd_status check_corners(const block_reader *r, obj_scan *scan, obj_block
             return ffd_fail_line(r->error, FFD_E_INVALID, r->document->file.name, scan->line,
                                  "not a corner (v, v/t, v//n or v/t/n): \"%.*s\"",
                                  ffd_text_display_size(word), word.first);
-        status = check_index(r, scan, corner.vertex, r->vertices, "vertex", &vertex);
-        if (status)
-            return status;
+        TRY(check_index(r, scan, corner.vertex, r->vertices, "vertex", &vertex));
         note_greatest(&block->vertices, vertex);
         note_index(r, scan, &corner, block);
         block->corners += is_face;

@@ -262,10 +262,10 @@ static ffd_status note_flaws(reader *r, ffd_error *error)
 {
     obj_document *const d = r->document;
     ffd_status status = ffd_file_document_note_mark(&d->file, d->end, error);
-    for (size_t i = 0; i < r->loose.count && status == FFD_OK; i++)
+    for (size_t i = 0; i < r->loose.count && !status; i++)
         status = ffd_flaw_line(&d->file.base.flaws, d->file.name, r->loose.line, error,
                                "blanks follow the backslash at the end of the line: it goes on in the next");
-    for (size_t i = 0; i < r->joined.count && status == FFD_OK; i++)
+    for (size_t i = 0; i < r->joined.count && !status; i++)
         status =
             ffd_flaw_line(&d->file.base.flaws, d->file.name, r->joined.line, error,
                           "the backslash at the end of the line joins the next one to it, which seems to be "
@@ -284,9 +284,7 @@ static ffd_status check_counts(const obj_document *d, ffd_error *error)
 static ffd_status read_blocks(reader *r, ffd_error *error)
 {
     obj_document *d = r->document;
-    const ffd_status status = expect_elements(r, error);
-    if (status)
-        return status;
+    TRY(expect_elements(r, error));
     if (!ffd_parallel_in_order(d->blocks.count, 1, d->threads, read_tile, join_tile, r))
         return ffd_fail_memory(error);
     ffd_file_release_pages(&d->file.input, d->file.input.data + r->released,
@@ -320,9 +318,7 @@ static ffd_status cut(obj_document *d, ffd_error *error)
 
 ffd_status ffd_obj_read_vectors(obj_document *d, obj_users *users, ffd_error *error)
 {
-    ffd_status status = cut(d, error);
-    if (status)
-        return status;
+    TRY(cut(d, error));
     const int slots = ffd_ordered_slots(d->threads);
     reader r = {.document = d,
                 .users = users,
@@ -330,7 +326,7 @@ ffd_status ffd_obj_read_vectors(obj_document *d, obj_users *users, ffd_error *er
                 .line = 1,
                 .failed = SIZE_MAX};
     atomic_init(&r.is_over, false);
-    status = r.contents ? read_blocks(&r, error) : ffd_fail_memory(error);
+    ffd_status status = r.contents ? read_blocks(&r, error) : ffd_fail_memory(error);
     for (int i = 0; r.contents && i < slots; i++)
         free_content(&r.contents[i]);
     ffd_free(r.contents);

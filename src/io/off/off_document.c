@@ -58,7 +58,7 @@ static ffd_status read_vertices(off_document *d, off_walk *walk, ffd_error *erro
             return ffd_fail_line(error, FFD_E_INVALID, d->file.name, walk->scan.line,
                                  "the file ends after %zu of %zu vertices", i, d->header.vertices);
         status = read_numbers(d, &vertex, i, error);
-        if (status == FFD_OK)
+        if (!status)
             status = check_rest(d, walk, error);
     }
     return status;
@@ -70,7 +70,7 @@ static ffd_status read_body(off_document *d, ffd_error *error)
     ffd_off_walk_begin(&d->header, &walk);
     ffd_status status = read_vertices(d, &walk, error);
     d->faces_begin = walk;
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_off_read_faces(d, &walk, error);
     if (status)
         return status;
@@ -88,10 +88,10 @@ ffd_status ffd_off_open(file_input *input, const ffd_source *source, mesh_docume
     if (!d)
         return FFD_E_MEMORY;
     ffd_status status = ffd_off_header_read(&d->file.input, d->file.name, &d->header, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_file_document_note_mark(&d->file, ffd_text_size(d->file.input.data, d->file.input.size),
                                              error);
-    if (status == FFD_OK)
+    if (!status)
         status = read_body(d, error);
     if (status) {
         ffd_file_document_free(&d->file);

@@ -91,9 +91,7 @@ ffd_status ffd_off_faces(const mesh_document *document, mesh_faces *faces, ffd_e
                           .face_count = d->header.faces - d->lines - d->points,
                           .lines = d->lines,
                           .points = d->points};
-    const ffd_status status = ffd_mesh_faces_make(document, faces, d->corners, error);
-    if (status)
-        return status;
+    TRY(ffd_mesh_faces_make(document, faces, d->corners, error));
     ffd_file_document_read_positions(document, 0, 0, faces->vertex_count, faces->positions);
     return fill_faces(d, faces, error);
 }
@@ -120,7 +118,7 @@ ffd_status ffd_off_mixed_faces(const mesh_document *document, const vertex_marks
     }
     const ffd_status status = has_changed ? ffd_faces_changed(d->file.name, error)
                                           : ffd_face_lists_narrow(document, &list, 1, faces, error);
-    if (status == FFD_OK)
+    if (!status)
         ffd_file_document_fill_positions(&d->file, faces);
     ffd_free(list.words);
     return status;
@@ -130,9 +128,7 @@ ffd_status ffd_off_mark_used(mesh_document *document, ffd_error *error)
 {
     off_document *const d = (off_document *)document;
     /* The array exists since the file was read; only now is it counted. */
-    const ffd_status status = ffd_budget_take(&document->budget, d->header.vertices, 1, error);
-    if (status)
-        return status;
+    TRY(ffd_budget_take(&document->budget, d->header.vertices, 1, error));
     if (ffd_used_keep(document, d->header.vertices, &d->file.used))
         d->file.part.used = d->file.used;
     return FFD_OK;

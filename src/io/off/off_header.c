@@ -213,14 +213,10 @@ ffd_status ffd_off_header_read(const file_input *input, const char *name, off_he
     uint64_t vertices = 0, faces = 0;
     *header = (off_header){0};
     ffd_text_begin(&r.scan, input->data, ffd_text_size(input->data, input->size), true);
-    ffd_status status = read_keyword(&r, &first);
-    if (status == FFD_OK)
-        status = read_count(&r, "vertices", first, &vertices);
-    if (status == FFD_OK)
-        status = read_count(&r, "faces", (text_word){0}, &faces);
-    if (status)
-        return status;
+    TRY(read_keyword(&r, &first));
+    TRY(read_count(&r, "vertices", first, &vertices));
+    TRY(read_count(&r, "faces", (text_word){0}, &faces));
     pass_edges(&r);
-    status = check_size(&r, vertices, faces);
-    return status == FFD_OK ? find_layout(&r) : status;
+    TRY(check_size(&r, vertices, faces));
+    return find_layout(&r);
 }

@@ -43,10 +43,9 @@ static ffd_status take_vertex(extractor *e, size_t i)
         e->model->features |= count > 0 ? MODEL_HAS_MORE : 0;
         return FFD_OK;
     }
-    const ffd_status status = ffd_model_make_colours(e->model, e->error);
-    if (status == FFD_OK)
-        memcpy(e->model->colours + 4 * i, rest, count * sizeof *rest);
-    return status;
+    TRY(ffd_model_make_colours(e->model, e->error));
+    memcpy(e->model->colours + 4 * i, rest, count * sizeof *rest);
+    return FFD_OK;
 }
 
 /* Reads the colour behind a face's corners: whole numbers up to 255, or numbers up to 1, of which one has a
@@ -95,8 +94,8 @@ static ffd_status take_face(extractor *e)
         e->corners[c] =
             (model_corner){vertex, texcoords ? vertex : MODEL_NONE, normals ? vertex : MODEL_NONE};
     }
-    const ffd_status status = ffd_model_add(e->model, MODEL_FACES, e->corners, count, e->error);
-    return status ? status : colour_face(e, count > 2);
+    TRY(ffd_model_add(e->model, MODEL_FACES, e->corners, count, e->error));
+    return colour_face(e, count > 2);
 }
 
 ffd_status ffd_off_model(const mesh_document *document, mesh_model *model, ffd_error *error)
@@ -105,12 +104,12 @@ ffd_status ffd_off_model(const mesh_document *document, mesh_model *model, ffd_e
     extractor e = {.document = d, .model = model, .error = error};
     ffd_status status =
         ffd_file_document_model(&d->file, d->header.has_texcoords ? d->header.vertices : 0, model, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_model_begin_run(model, NULL, NULL, NULL, error);
     ffd_off_walk_begin(&d->header, &e.walk);
-    for (size_t i = 0; i < d->header.vertices && status == FFD_OK; i++)
+    for (size_t i = 0; i < d->header.vertices && !status; i++)
         status = take_vertex(&e, i);
-    for (size_t i = 0; i < d->header.faces && status == FFD_OK; i++)
+    for (size_t i = 0; i < d->header.faces && !status; i++)
         status = take_face(&e);
     ffd_free(e.corners);
     return status ? status : ffd_model_finish(model, error);

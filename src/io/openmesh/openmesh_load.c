@@ -14,8 +14,8 @@ static ffd_status load(const openmesh_module **functions, ffd_error *error)
 ffd_status ffd_topology_compute(const mesh_faces *faces, mesh_topology *topology, ffd_error *error)
 {
     const openmesh_module *functions;
-    const ffd_status status = load(&functions, error);
-    return status ? status : functions->topology(faces, topology, error);
+    TRY(load(&functions, error));
+    return functions->topology(faces, topology, error);
 }
 
 ffd_status ffd_normals_of_groups(const mesh_faces *faces, const double *positions, const uint32_t *groups,

@@ -150,13 +150,13 @@ ffd_status ffd_ply_open(file_input *input, const ffd_source *source, mesh_docume
         return FFD_E_MEMORY;
     d->threads = source->threads > 0 ? source->threads : ffd_processor_count();
     ffd_status status = ffd_ply_header_read(input, d->file.name, &d->header, error);
-    if (status == FFD_OK)
+    if (!status)
         status = note_marks(d, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_ply_find_roles(d, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_ply_walk_check(&d->header, input, d->file.name, &d->behind, error);
-    if (status == FFD_OK)
+    if (!status)
         status = read_vertices(d, error);
     if (status) {
         ffd_ply_header_free(&d->header);

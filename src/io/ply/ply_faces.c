@@ -48,7 +48,7 @@ static ffd_status read_strip(strip_reader *r, uint64_t row)
     r->length = 0;
     if (!ffd_ply_walk_list(&r->walk, list, &word, &count))
         return ffd_faces_changed(d->file.name, r->error);
-    for (size_t i = 0; i < count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < count && !status; i++) {
         ffd_ply_walk_value(&r->walk, list->type, &word);
         if (ffd_ply_load_count(d->header.encoding, list->type, word, &vertex) &&
             vertex < d->file.part.vertex_count)
@@ -66,7 +66,7 @@ static ffd_status read_strip_row(strip_reader *r, uint64_t row)
     const ply_element *const strips = r->document->strips;
     ffd_status status = FFD_OK;
     ffd_ply_walk_row(&r->walk);
-    for (size_t i = 0; i < strips->property_count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < strips->property_count && !status; i++) {
         if (&strips->properties[i] == r->document->strip_corners)
             status = read_strip(r, row);
         else
@@ -85,7 +85,7 @@ static ffd_status visit_strips(const ply_document *d, ply_triangle_visitor *visi
     if (!d->strip_corners)
         return FFD_OK;
     ffd_ply_document_walk(d, d->strips, &r.walk);
-    for (uint64_t row = 0; row < d->strips->count && status == FFD_OK; row++)
+    for (uint64_t row = 0; row < d->strips->count && !status; row++)
         status = read_strip_row(&r, row);
     return status;
 }
@@ -284,8 +284,8 @@ static ffd_status read_rows(face_reader *r)
 static ffd_status visit_faces(face_reader *r)
 {
     const ply_document *const d = r->document;
-    const ffd_status status = d->face ? read_rows(r) : FFD_OK;
-    return status ? status : visit_strips(d, take_triangle, r, r->error);
+    TRY(d->face ? read_rows(r) : FFD_OK);
+    return visit_strips(d, take_triangle, r, r->error);
 }
 
 static bool count_triangle(void *context, const uint32_t corners[3])
@@ -300,11 +300,9 @@ static bool count_triangle(void *context, const uint32_t corners[3])
 static ffd_status read_faces(const ply_document *d, mesh_faces *faces, ffd_error *error)
 {
     face_reader r = {.document = d, .faces = faces, .capacity = faces->face_count, .error = error};
-    ffd_status status = ffd_mesh_faces_make(&d->file.base, faces, faces->face_count, error);
-    if (status)
-        return status;
+    TRY(ffd_mesh_faces_make(&d->file.base, faces, faces->face_count, error));
     ffd_file_document_read_positions(&d->file.base, 0, 0, faces->vertex_count, faces->positions);
-    status = visit_faces(&r);
+    ffd_status status = visit_faces(&r);
     if (!status && r.face_count != faces->face_count)
         status = ffd_faces_changed(d->file.name, error);
     if (status)
@@ -327,9 +325,7 @@ ffd_status ffd_ply_faces(const mesh_document *document, mesh_faces *faces, ffd_e
     size_t triangles = 0;
     *faces =
         (mesh_faces){.vertex_count = d->file.part.vertex_count, .lines = edges ? (size_t)edges->count : 0};
-    const ffd_status status = visit_strips(d, count_triangle, &triangles, error);
-    if (status)
-        return status;
+    TRY(visit_strips(d, count_triangle, &triangles, error));
     faces->face_count = (d->face ? (size_t)d->face->count : 0) + triangles;
     return read_faces(d, faces, error);
 }
@@ -342,9 +338,9 @@ ffd_status ffd_ply_mixed_faces(const mesh_document *document, const vertex_marks
     face_reader r = {.document = d, .mixed = &list, .marks = marks, .error = error};
     *faces = (mesh_faces){.vertex_count = marks->vertices};
     ffd_status status = visit_faces(&r);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_face_lists_narrow(document, &list, 1, faces, error);
-    if (status == FFD_OK)
+    if (!status)
         ffd_file_document_fill_positions(&d->file, faces);
     ffd_free(list.words);
     return status;
@@ -383,9 +379,7 @@ ffd_status ffd_ply_mark_used(mesh_document *document, ffd_error *error)
     ply_document *const d = (ply_document *)document;
     const size_t count = d->file.part.vertex_count;
     const ply_element *const edges = ffd_ply_find_edges(d);
-    const ffd_status status = ffd_used_make(document, count, &d->file.used, error);
-    if (status)
-        return status;
+    TRY(ffd_used_make(document, count, &d->file.used, error));
     face_reader r = {.document = d, .used = d->file.used};
     const bool known = !visit_faces(&r) && (!edges || mark_edges(d, edges, d->file.used));
     if (ffd_used_keep(document, count, &d->file.used) && known)

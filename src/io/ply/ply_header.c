@@ -189,13 +189,13 @@ static ffd_status read_property(header_reader *r, const header_line *line)
     property.name = line->words[type + 1];
     if (property.is_list)
         status = read_type(r, line->words[2], &property.count_type);
-    if (status == FFD_OK && property.is_list && !ply_is_whole(property.count_type))
+    if (!status && property.is_list && !ply_is_whole(property.count_type))
         status = FAIL(r, r->line, "the count of list %.*s is a %s: it must be a whole number",
                       ffd_text_display_size(property.name), property.name.first,
                       ffd_ply_type_name(property.count_type));
-    if (status == FFD_OK)
+    if (!status)
         status = read_type(r, line->words[type], &property.type);
-    return status == FFD_OK ? add_property(r, &property) : status;
+    return status ? status : add_property(r, &property);
 }
 
 static ffd_status add_note(header_reader *r, const header_line *line)
@@ -237,7 +237,7 @@ static ffd_status read_lines(header_reader *r)
             break;
         status = read_line(r, &line);
     }
-    if (status == FFD_OK && !r->has_format)
+    if (!status && !r->has_format)
         return FAIL(r, r->line, "the header has no format line");
     return status;
 }
@@ -280,11 +280,8 @@ ffd_status ffd_ply_header_read(const file_input *input, const char *name, ply_he
     *header = (ply_header){0};
     if (ffd_text_has_mark(input->data, input->size))
         r.at += TEXT_MARK_SIZE;
-    ffd_status status = read_magic(&r);
-    if (status == FFD_OK)
-        status = read_lines(&r);
-    if (status)
-        return status;
+    TRY(read_magic(&r));
+    TRY(read_lines(&r));
     header->body = (size_t)(r.at - first);
     header->body_line = r.line + 1;
     header->end = header->encoding == PLY_ASCII ? ffd_text_size(input->data, input->size) : input->size;

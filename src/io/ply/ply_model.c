@@ -105,7 +105,7 @@ static ffd_status take_vertices(extractor *e)
     ffd_ply_document_walk(d, d->vertex, &walk);
     for (size_t row = 0; row < d->file.part.vertex_count; row++) {
         ffd_ply_walk_row(&walk);
-        for (size_t i = 0; i < d->vertex->property_count && status == FFD_OK; i++) {
+        for (size_t i = 0; i < d->vertex->property_count && !status; i++) {
             const ply_property *property = &d->vertex->properties[i];
             const int role = role_of(e, property);
             text_word word;
@@ -188,7 +188,7 @@ static ffd_status take_faces(extractor *e)
     const bool walks = e->face_texcoords || e->face_colours[0];
     if (walks)
         ffd_ply_document_walk(e->document, e->document->face, &walk);
-    for (size_t face = 0; face < e->faces.face_count && status == FFD_OK; face++) {
+    for (size_t face = 0; face < e->faces.face_count && !status; face++) {
         const size_t first = e->faces.start[face], count = e->faces.start[face + 1] - first;
         const size_t first_texcoord = e->taken_texcoords;
         const bool is_row = walks && face < e->document->face->count;
@@ -197,15 +197,15 @@ static ffd_status take_faces(extractor *e)
         const bool texcoords = own || (!e->face_texcoords && e->model->texcoord_count > 0);
         if (!ffd_grow((void **)&corners, &capacity, count, sizeof *corners))
             status = ffd_fail_memory(e->error);
-        for (size_t c = 0; c < count && status == FFD_OK; c++) {
+        for (size_t c = 0; c < count && !status; c++) {
             const uint32_t vertex = e->faces.corners[first + c];
             const uint32_t texcoord = own ? (uint32_t)(first_texcoord + c) : vertex;
             corners[c] =
                 (model_corner){vertex, texcoords ? texcoord : MODEL_NONE, normals ? vertex : MODEL_NONE};
         }
-        if (status == FFD_OK)
+        if (!status)
             status = ffd_model_add(e->model, MODEL_FACES, corners, count, e->error);
-        if (status == FFD_OK && is_row && e->face_colours[0] && count > 2)
+        if (!status && is_row && e->face_colours[0] && count > 2)
             status = ffd_model_colour_face(e->model, e->colour, e->error);
     }
     ffd_free(corners);
@@ -247,7 +247,7 @@ static ffd_status take_edges(extractor *e)
     if (!edges)
         return FFD_OK;
     ffd_ply_document_walk(d, edges, &walk);
-    for (uint64_t row = 0; row < edges->count && status == FFD_OK; row++) {
+    for (uint64_t row = 0; row < edges->count && !status; row++) {
         model_corner ends[2] = {{0, 0, 0}, {0, 0, 0}};
         if (!take_ends(e, &walk, edges, ends))
             return ffd_fail_line(
@@ -288,20 +288,18 @@ static uint32_t features_of(const extractor *e)
 ffd_status ffd_ply_model(const mesh_document *document, mesh_model *model, ffd_error *error)
 {
     extractor e = {.document = ffd_ply_of(document), .model = model, .error = error};
-    ffd_status status = ffd_ply_faces(document, &e.faces, error);
-    if (status)
-        return status;
+    TRY(ffd_ply_faces(document, &e.faces, error));
     find_roles(&e);
-    status = make_values(&e);
-    if (status == FFD_OK)
+    ffd_status status = make_values(&e);
+    if (!status)
         status = take_vertices(&e);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_model_begin_run(model, NULL, NULL, NULL, error);
-    if (status == FFD_OK)
+    if (!status)
         status = take_faces(&e);
     if (e.face_texcoords)
         model->texcoord_count = e.taken_texcoords;
-    if (status == FFD_OK)
+    if (!status)
         status = take_edges(&e);
     model->features |= features_of(&e);
     ffd_mesh_faces_free(&e.faces);

@@ -8,8 +8,8 @@ ffd_status ffd_ply_begin_results(mesh_document *document, bool normals, bool tan
     if (normals && d->has_whole_normals)
         return ffd_fail_line(error, FFD_E_UNSUPPORTED, d->file.name, d->vertex->line,
                              "nx ny nz are not all float or double: such normals can only be kept");
-    const ffd_status status = ffd_ply_begin_splats(d, error);
-    return status ? status : ffd_file_document_begin_results(document, normals, tangents, error);
+    TRY(ffd_ply_begin_splats(d, error));
+    return ffd_file_document_begin_results(document, normals, tangents, error);
 }
 
 /* Copies vectors that are marked as changed, rounded to their types. */

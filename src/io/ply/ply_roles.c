@@ -118,9 +118,7 @@ ffd_status ffd_ply_find_roles(ply_document *d, ffd_error *error)
     if (d->vertex->count > UINT32_MAX)
         return ffd_fail_line(error, FFD_E_LIMIT, d->file.name, d->vertex->line, "more than %u vertices",
                              (unsigned)UINT32_MAX);
-    const ffd_status status = find_positions(d, error);
-    if (status)
-        return status;
+    TRY(find_positions(d, error));
     find_normals(d);
     find_faces(d);
     find_face_normals(d);

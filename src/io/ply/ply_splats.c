@@ -175,9 +175,7 @@ static ffd_status make_results(ply_document *d, ffd_error *error)
     const bool floats = are_floats(d), turns = d->file.part.form.degree > 0;
     const size_t numbers = PLY_ELLIPSOID * (floats ? sizeof *d->float_splats : sizeof *d->double_splats);
     const size_t size = numbers + (turns ? sizeof *d->new_turns : 0) + sizeof *d->splat_marks;
-    const ffd_status status = ffd_budget_take(&d->file.base.budget, count, size, error);
-    if (status)
-        return status;
+    TRY(ffd_budget_take(&d->file.base.budget, count, size, error));
     if (floats)
         d->float_splats = ffd_alloc_whole(count, numbers);
     else
@@ -193,9 +191,7 @@ ffd_status ffd_ply_begin_splats(ply_document *d, ffd_error *error)
 {
     if (!d->file.part.has_ellipsoids || d->file.base.converted)
         return FFD_OK;
-    const ffd_status status = d->splat_marks ? FFD_OK : make_results(d, error);
-    if (status)
-        return status;
+    TRY(d->splat_marks ? FFD_OK : make_results(d, error));
     memset(d->splat_marks, 0, d->file.part.vertex_count);
     return FFD_OK;
 }

@@ -54,7 +54,7 @@ static ffd_status list_all(const ply_header *header, const file_folder *folder, 
 {
     ffd_status status = FFD_OK;
     text_word name;
-    for (size_t i = 0; i < header->note_count && status == FFD_OK; i++)
+    for (size_t i = 0; i < header->note_count && !status; i++)
         if (ffd_ply_texture_name(header->notes[i], &name))
             status = add(folder, name, list, error);
     ffd_resources_sort(list);
@@ -96,7 +96,7 @@ ffd_status ffd_ply_bring_textures(const ply_header *header, const file_folder *f
         *folder, from, to, options->to_sink ? options->path : NULL, output, log, options->copied};
     resource_list list = {0};
     ffd_status status = from && to ? list_all(header, folder, &list, error) : ffd_fail_memory(error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_resources_bring(&copier, &list, options->resources == FFD_RESOURCES_COPY,
                                      ffd_save_meets(options, from, to), options->path, error);
     ffd_resources_free(&list);

@@ -127,7 +127,7 @@ static ffd_status read_text(stl_document *d, ffd_error *error)
     ffd_stl_text_begin(&text, d->file.input.data, d->file.input.size, &d->file.base.flaws);
     while (status == FFD_OK && found) {
         status = ffd_stl_text_next(&text, d->file.name, &facet, &found, error);
-        if (status == FFD_OK && found)
+        if (!status && found)
             status = add_facet(d, &facet, &capacity, error);
     }
     /* Releases the surplus capacity; if that fails, the larger block stays. */

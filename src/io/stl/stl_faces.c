@@ -56,9 +56,7 @@ ffd_status ffd_stl_faces(const mesh_document *document, mesh_faces *faces, ffd_e
     const stl_document *d = ffd_stl_of(document);
     const size_t vertices = 3 * d->facets;
     *faces = (mesh_faces){.vertex_count = vertices, .face_count = d->facets};
-    const ffd_status status = ffd_mesh_faces_make(document, faces, vertices, error);
-    if (status)
-        return status;
+    TRY(ffd_mesh_faces_make(document, faces, vertices, error));
     stl_key *keys = ffd_alloc(vertices, sizeof *keys);
     if (!keys) {
         ffd_mesh_faces_free(faces);
@@ -90,11 +88,8 @@ static ffd_status join_marked(const stl_document *d, const vertex_marks *marks, 
 {
     const size_t corners = faces->start[faces->face_count];
     position_table table;
-    ffd_status status = ffd_budget_check(&d->file.base.budget, corners, POSITION_TABLE_BYTES, error);
-    if (!status)
-        status = ffd_positions_begin(&table, faces->positions, corners, error);
-    if (status)
-        return status;
+    TRY(ffd_budget_check(&d->file.base.budget, corners, POSITION_TABLE_BYTES, error));
+    TRY(ffd_positions_begin(&table, faces->positions, corners, error));
     for (size_t c = 0; c < corners; c++)
         if (is_marked(marks, faces->corners[c]))
             ffd_positions_add(&table, faces->corners[c]);

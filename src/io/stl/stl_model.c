@@ -28,7 +28,7 @@ static ffd_status add_facet(extractor *e, size_t facet)
     model_corner corners[3];
     ffd_status status = FFD_OK;
     ffd_stl_read_positions(&e->document->file.base, 0, 3 * facet, 3, positions);
-    for (size_t c = 0; c < 3 && status == FFD_OK; c++) {
+    for (size_t c = 0; c < 3 && !status; c++) {
         corners[c] = (model_corner){0, MODEL_NONE, MODEL_NONE};
         status = find_vertex(e, positions + 3 * c, &corners[c].position);
     }
@@ -55,9 +55,9 @@ static ffd_status take_text(extractor *e)
     ffd_stl_text_begin(&text, d->file.input.data, d->file.input.size, NULL);
     while (status == FFD_OK && event != STL_AT_END) {
         status = ffd_stl_text_step(&text, d->file.name, &facet, &event, e->error);
-        if (status == FFD_OK && event == STL_AT_SOLID)
+        if (!status && event == STL_AT_SOLID)
             status = begin_solid(e, text.name);
-        else if (status == FFD_OK && event == STL_AT_FACET)
+        else if (!status && event == STL_AT_FACET)
             status = add_facet(e, seen++);
     }
     return status;
@@ -89,7 +89,7 @@ static ffd_status take_binary(extractor *e)
 {
     const bool reversed = has_colour_header(e->document->file.input.data);
     ffd_status status = ffd_model_begin_run(e->model, NULL, NULL, NULL, e->error);
-    for (size_t i = 0; i < e->document->facets && status == FFD_OK; i++) {
+    for (size_t i = 0; i < e->document->facets && !status; i++) {
         const unsigned char *attribute = ffd_stl_facet(e->document, i) + STL_ATTRIBUTE;
         double colour[4];
         status = add_facet(e, i);
@@ -131,9 +131,7 @@ static ffd_status number_positions(extractor *e)
 static ffd_status fill_positions(extractor *e)
 {
     const size_t count = e->positions.count;
-    const ffd_status status = ffd_model_make_values(e->model, count, 0, 0, e->error);
-    if (status)
-        return status;
+    TRY(ffd_model_make_values(e->model, count, 0, 0, e->error));
     for (size_t i = 0; i < count; i++)
         memcpy(e->model->positions + 3 * i, ffd_intern_key(&e->positions, (uint32_t)i), 3 * sizeof(double));
     if (e->document->file.new_positions)
@@ -145,9 +143,9 @@ ffd_status ffd_stl_model(const mesh_document *document, mesh_model *model, ffd_e
 {
     extractor e = {.document = ffd_stl_of(document), .model = model, .error = error};
     ffd_status status = e.document->binary ? take_binary(&e) : take_text(&e);
-    if (status == FFD_OK)
+    if (!status)
         status = fill_positions(&e);
-    if (status == FFD_OK && model->wants_details)
+    if (!status && model->wants_details)
         status = number_positions(&e);
     ffd_intern_free(&e.positions);
     ffd_free(e.name);

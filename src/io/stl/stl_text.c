@@ -41,9 +41,9 @@ static ffd_status take_word(text_reader *r, const char *expected, text_word *wor
 static ffd_status take_keyword(text_reader *r, const char *keyword)
 {
     text_word word;
-    const ffd_status status = take_word(r, keyword, &word);
-    if (status || ffd_text_is_any_case(word, keyword))
-        return status;
+    TRY(take_word(r, keyword, &word));
+    if (ffd_text_is_any_case(word, keyword))
+        return FFD_OK;
     return refuse_word(r, keyword, word);
 }
 
@@ -53,7 +53,7 @@ static ffd_status take_normal(text_reader *r, text_word normal[3])
     double value;
     for (int a = 0; status == FFD_OK && a < 3; a++) {
         status = take_word(r, "a number of the normal", &normal[a]);
-        if (status == FFD_OK && !ffd_stl_text_normal(normal[a], &value))
+        if (!status && !ffd_stl_text_normal(normal[a], &value))
             status = refuse_word(r, "a number of the normal", normal[a]);
     }
     return status;
@@ -65,7 +65,7 @@ static ffd_status take_corner(text_reader *r, text_word corner[3])
     for (int a = 0; status == FFD_OK && a < 3; a++) {
         double value;
         status = take_word(r, "a coordinate", &corner[a]);
-        if (status == FFD_OK && !ffd_text_number(corner[a], &value))
+        if (!status && !ffd_text_number(corner[a], &value))
             status = refuse_word(r, "a coordinate", corner[a]);
     }
     return status;
@@ -105,7 +105,7 @@ static ffd_status take_facet(text_reader *r, stl_text *text, stl_facet *facet)
 {
     static const char *const before[] = {"outer", "loop"}, *const after[] = {"endloop", "endfacet"};
     ffd_status status = take_keyword(r, "normal");
-    if (status == FFD_OK)
+    if (!status)
         status = take_normal(r, facet->normal);
     for (size_t i = 0; status == FFD_OK && i < 2; i++)
         status = take_keyword(r, before[i]);
@@ -146,9 +146,7 @@ static ffd_status take_name(text_reader *r, stl_text *text, text_word *name)
 
 static ffd_status begin_solid(text_reader *r, stl_text *text)
 {
-    const ffd_status status = take_keyword(r, "solid");
-    if (status)
-        return status;
+    TRY(take_keyword(r, "solid"));
     text->solids++;
     text->inside = true;
     return take_name(r, text, &text->name);
@@ -190,7 +188,7 @@ static ffd_status step_inside(text_reader *r, stl_text *text, stl_facet *facet, 
     ffd_status status = FFD_OK;
     while (status == FFD_OK && passed)
         status = pass_colour(r, text, &passed);
-    if (status == FFD_OK)
+    if (!status)
         status = take_word(r, "facet or endsolid", &word);
     if (status)
         return status;
@@ -208,9 +206,9 @@ ffd_status ffd_stl_text_step(stl_text *text, const char *name, stl_facet *facet,
     text_reader r = {&text->scan, name, error};
     *event = STL_AT_END;
     if (text->inside) {
-        const ffd_status status = step_inside(&r, text, facet, event);
-        if (status || *event == STL_AT_FACET)
-            return status;
+        TRY(step_inside(&r, text, facet, event));
+        if (*event == STL_AT_FACET)
+            return FFD_OK;
     }
     if (!ffd_text_find(&text->scan))
         return FFD_OK;

@@ -148,9 +148,7 @@ ffd_status ffd_file_document_model(const file_document *d, size_t texcoords, mes
     const size_t count = d->part.vertex_count;
     const double *positions = d->new_positions ? d->new_positions : d->positions;
     const double *normals = d->new_directions ? d->new_directions : d->directions;
-    const ffd_status status = ffd_model_make_values(model, count, texcoords, normals ? count : 0, error);
-    if (status)
-        return status;
+    TRY(ffd_model_make_values(model, count, texcoords, normals ? count : 0, error));
     ffd_vectors_read(positions, 0, count, model->positions);
     ffd_vectors_read(normals, 0, model->normal_count, model->normals);
     return FFD_OK;

@@ -58,7 +58,7 @@ static ffd_status join_values(planner *p, size_t count, value_reader *read, size
     *numbers = ffd_alloc(count, sizeof **numbers);
     if (!*numbers || !first || !value)
         status = ffd_fail_memory(p->error);
-    for (size_t i = 0; i < count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < count && !status; i++) {
         uint32_t index;
         const size_t known = values.count;
         (*numbers)[i] = MODEL_NONE;
@@ -114,9 +114,7 @@ static ffd_status assign_element(planner *p, primitive_key *key, size_t i)
         key->normals = key->normals && corner.normal != MODEL_NONE;
         key->texcoords = key->texcoords && corner.texcoord != MODEL_NONE;
     }
-    const ffd_status status = find_primitive(p, key, &p->primitive_of[key->kind][i]);
-    if (status)
-        return status;
+    TRY(find_primitive(p, key, &p->primitive_of[key->kind][i]));
     glb_primitive *primitive = &p->plan->primitives[p->primitive_of[key->kind][i]];
     primitive->elements++;
     primitive->index_count += key->kind == MODEL_FACES   ? 3 * (count - 2)
@@ -142,7 +140,7 @@ static ffd_status assign_run(planner *p, size_t r)
     ffd_status status = FFD_OK;
     for (key.kind = 0; key.kind < MODEL_KINDS; key.kind++) {
         const size_t last = model_run_end(p->model, r, (model_kind)key.kind);
-        for (size_t i = run->first[key.kind]; i < last && status == FFD_OK; i++)
+        for (size_t i = run->first[key.kind]; i < last && !status; i++)
             status = assign_element(p, &key, i);
     }
     return status;
@@ -156,10 +154,9 @@ static ffd_status assign_all(planner *p)
         if (!p->primitive_of[k] || !p->elements[k])
             return ffd_fail_memory(p->error);
     }
-    ffd_status status = FFD_OK;
-    for (size_t r = 0; r < p->model->run_count && status == FFD_OK; r++)
-        status = assign_run(p, r);
-    return status;
+    for (size_t r = 0; r < p->model->run_count; r++)
+        TRY(assign_run(p, r));
+    return FFD_OK;
 }
 
 /* Sorts the elements of each kind by primitive; within a primitive they keep the model's order. */
@@ -224,9 +221,7 @@ static ffd_status draw(planner *p, const glb_primitive *primitive, size_t elemen
     size_t count, triangles = 0;
     const model_corner *corners = model_element(&p->model->lists[primitive->kind], element, &count);
     if (primitive->kind == MODEL_FACES) {
-        const ffd_status status = ffd_face_triangles(&p->scratch, p->model, element, &triangles, p->error);
-        if (status)
-            return status;
+        TRY(ffd_face_triangles(&p->scratch, p->model, element, &triangles, p->error));
         for (size_t i = 0; i < 3 * triangles; i++)
             p->sorted[(*drawn)++] = corner_of(p, primitive, corners + p->scratch.triangles[i]);
         return FFD_OK;
@@ -301,13 +296,13 @@ static ffd_status make_vertices(planner *p)
     glb_plan *plan = p->plan;
     size_t at[MODEL_KINDS] = {0};
     ffd_status status = allocate(p);
-    for (size_t i = 0; i < plan->primitive_count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < plan->primitive_count && !status; i++) {
         glb_primitive *primitive = &plan->primitives[i];
         size_t drawn = 0;
         primitive->first_index = plan->index_count;
-        for (size_t e = 0; e < primitive->elements && status == FFD_OK; e++)
+        for (size_t e = 0; e < primitive->elements && !status; e++)
             status = draw(p, primitive, p->elements[primitive->kind][at[primitive->kind]++], &drawn);
-        if (status == FFD_OK)
+        if (!status)
             status = number_vertices(p, primitive, drawn);
     }
     if (status)
@@ -369,19 +364,19 @@ ffd_status ffd_glb_make_plan(const mesh_model *model, glb_plan *plan, ffd_error 
     planner p = {.plan = plan, .model = model, .error = error};
     *plan = (glb_plan){.model = model};
     ffd_status status = ffd_model_check_memory(model, CORNER_BYTES, RUN_BYTES, error);
-    if (status == FFD_OK)
+    if (!status)
         status = join_values(&p, model->texcoord_count, read_texcoord, 2, &p.texcoords);
-    if (status == FFD_OK)
+    if (!status)
         status = join_values(&p, model->normal_count, read_normal, 3 + 3 * model->morph_count, &p.normals);
-    if (status == FFD_OK)
+    if (!status)
         status = assign_all(&p);
-    if (status == FFD_OK)
+    if (!status)
         status = sort_elements(&p);
-    if (status == FFD_OK)
+    if (!status)
         status = sort_primitives(&p);
-    if (status == FFD_OK)
+    if (!status)
         status = make_vertices(&p);
-    if (status == FFD_OK && model->morph_count > 0)
+    if (!status && model->morph_count > 0)
         status = mark_morphs(plan, error);
     for (int k = 0; k < MODEL_KINDS; k++) {
         ffd_free(p.primitive_of[k]);

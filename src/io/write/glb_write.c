@@ -130,11 +130,8 @@ static ffd_status begin(gltf_writer *w, const mesh_model *model, ffd_error *erro
     w->byte_colours = ffd_model_colours_fit_bytes(model);
     for (unsigned byte = 0; byte < 256 && model->colours && w->byte_colours; byte++)
         w->linear_of_bytes[byte] = ffd_srgb_byte_to_linear(byte);
-    ffd_status status = ffd_glb_make_plan(model, &w->plan, error);
-    if (!status)
-        status = ffd_glb_make_clips(&w->plan, &w->clips, error);
-    if (status)
-        return status;
+    TRY(ffd_glb_make_plan(model, &w->plan, error));
+    TRY(ffd_glb_make_clips(&w->plan, &w->clips, error));
     measure(w);
     return choose_origins(&w->plan, &w->origins, error);
 }
@@ -206,17 +203,17 @@ static ffd_status put_files(gltf_writer *w, const mesh_save_options *options, co
     char *path;
     ffd_status status = ffd_sidecar_next(&names, NULL, NULL, &path, w->error);
     char *const uri = path ? ffd_uri_encode(ffd_path_name(path)) : NULL;
-    if (status == FFD_OK)
+    if (!status)
         status = uri ? FFD_OK : ffd_fail_memory(w->error);
-    if (status == FFD_OK)
+    if (!status)
         ffd_glb_make_json(w, false, uri);
-    if (status == FFD_OK && w->text.failed)
+    if (!status && w->text.failed)
         status = ffd_fail_memory(w->error);
-    if (status == FFD_OK && w->total > 0)
+    if (!status && w->total > 0)
         status = put_bin_file(w, options, path);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_output_begin(w->sink.output, options->path, options->force, w->error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_output_write(w->sink.output, w->text.data, w->text.size, w->error);
     ffd_free(path);
     ffd_free(uri);
@@ -259,14 +256,14 @@ static ffd_status write(const mesh_model *model, const mesh_save_options *option
     if (!w)
         return ffd_fail_memory(error);
     ffd_status status = begin(w, model, error);
-    if (status == FFD_OK && !files)
+    if (!status && !files)
         status = ffd_output_begin(output, options->path, options->force, error);
     w->sink = (model_sink){output, error, status};
-    if (status == FFD_OK)
+    if (!status)
         status = files ? put_files(w, options, log) : binary ? put_glb(w, options->path) : put_stream(w);
-    if (status == FFD_OK)
+    if (!status)
         log_origins(w, log);
-    if (status == FFD_OK)
+    if (!status)
         ffd_polygon_cut_warn(w->plan.hurried_polygons, log);
     end(w);
     return status;

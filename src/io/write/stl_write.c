@@ -25,7 +25,7 @@ static ffd_status write_face(model_sink *sink, const mesh_model *model, face_tri
 {
     size_t count = 0;
     const ffd_status status = ffd_face_triangles(scratch, model, face, &count, sink->error);
-    for (size_t t = 0; t < count && status == FFD_OK; t++) {
+    for (size_t t = 0; t < count && !status; t++) {
         const uint32_t *triangle = scratch->triangles + 3 * t;
         const double *const corners[3] = {scratch->points + 3 * (size_t)triangle[0],
                                           scratch->points + 3 * (size_t)triangle[1],

@@ -107,11 +107,8 @@ ffd_status ffd_blocks_part(const block_place *own, const block_place *next, cons
     /* A point's rounding cell may touch both blocks at slightly different places. Evaluate both displacements
        at one place if a block holds the other's place; across a gap, each at its own. */
     bool found = distance(at[0], at[1]) <= off;
-    ffd_status status = FFD_OK;
-    for (int b = 0; b < 2 && !found && !status; b++)
-        status = find_there(both[1 - b]->link, at[b], off, uvw[1 - b], &found, error);
-    if (status)
-        return status;
+    for (int b = 0; b < 2 && !found; b++)
+        TRY(find_there(both[1 - b]->link, at[b], off, uvw[1 - b], &found, error));
     for (int b = 0; b < 2; b++) {
         ffd_displacement(both[b]->link->lattice, uvw[b], delta[b], gradient);
         limit += change_of(gradient, off);

@@ -67,9 +67,9 @@ ffd_status ffd_blocks_holding(const lattice_chain *chain, const double p[3], uin
         *block = next.found;
         if (next.found == BLOCK_NONE)
             return FFD_OK;
-        const ffd_status status = ffd_locator_find(chain->links[next.found].locator, p, 1, location, error);
-        if (status || ffd_location_is_placed(location))
-            return status;
+        TRY(ffd_locator_find(chain->links[next.found].locator, p, 1, location, error));
+        if (ffd_location_is_placed(location))
+            return FFD_OK;
     }
 }
 
@@ -167,9 +167,9 @@ static ffd_status compare(const block_work *work, size_t i, uint32_t other, cons
     const block_place next = {&links[other], uvw};
     double half[3], length;
     find_half(work, i, half);
-    const ffd_status status = ffd_blocks_part(&own, &next, half, snap_of(work, other), &length, error);
-    if (status || !(length > 0))
-        return status;
+    TRY(ffd_blocks_part(&own, &next, half, snap_of(work, other), &length, error));
+    if (!(length > 0))
+        return FFD_OK;
     run->outcomes[i].disagrees = true;
     run->disagreement = larger_of(run->disagreement, length);
     return FFD_OK;
@@ -275,9 +275,9 @@ static void begin_again(const block_work *work)
 static ffd_status locate(block_work *work, ffd_error *error)
 {
     begin_points(work);
-    ffd_status status = locate_pending(work, error);
-    if (status || !(work->chain->outside.snap > 0))
-        return status;
+    TRY(locate_pending(work, error));
+    if (!(work->chain->outside.snap > 0))
+        return FFD_OK;
     work->snaps = true;
     begin_again(work);
     return locate_pending(work, error);
@@ -332,9 +332,9 @@ static ffd_status extend(const block_work *work, size_t i, ffd_error *error)
     const double falloff = chain->outside.falloff, reach = falloff > 0 ? falloff : HUGE_VAL;
     boundary_point nearest;
     uint32_t block;
-    const ffd_status status = ffd_blocks_nearest(chain, run->x + 3 * i, reach, &nearest, &block, error);
-    if (status || !nearest.found)
-        return status;
+    TRY(ffd_blocks_nearest(chain, run->x + 3 * i, reach, &nearest, &block, error));
+    if (!nearest.found)
+        return FFD_OK;
     ffd_mark_owner(chain, run, i, block | OWNER_NEAREST);
     ffd_mark_part(chain, block, run, i, nearest.uvw);
     run->outcomes[i].extended = nearest.distance < reach || !(falloff > 0);

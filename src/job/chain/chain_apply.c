@@ -61,11 +61,10 @@ static ffd_status extend(const lattice_chain *chain, size_t l, chain_run *run,
     if (run->scratch->locations[i].status == FFD_VERTEX_INVALID || !link->border)
         return FFD_OK;
     const double reach = link->falloff > 0 ? link->falloff : HUGE_VAL;
-    ffd_status status = link->is_convex ? FFD_OK : ffd_deadline_check(error);
-    if (!status)
-        status = ffd_boundary_find(link->border, run->x + 3 * i, reach, &nearest, error);
-    if (status || !nearest.found)
-        return status;
+    TRY(link->is_convex ? FFD_OK : ffd_deadline_check(error));
+    TRY(ffd_boundary_find(link->border, run->x + 3 * i, reach, &nearest, error));
+    if (!nearest.found)
+        return FFD_OK;
     ffd_mark_part(chain, l, run, i, nearest.uvw);
     run->outcomes[i].extended |= nearest.distance < reach || !(link->falloff > 0);
     run->scratch->moves[i] =
@@ -145,9 +144,7 @@ static ffd_status apply_link(const lattice_chain *chain, size_t links, size_t l,
     chain_scratch *scratch = run->scratch;
     const array_kernel *const arrays = ffd_array_kernel(chain->isa);
     displacement_batch batch = begin_batch(run, links, l);
-    const ffd_status status = note_locations(chain, l, run, &batch, error);
-    if (status)
-        return status;
+    TRY(note_locations(chain, l, run, &batch, error));
     if (ffd_common_wanted(chain))
         ffd_common_note(chain, l, run);
     ffd_displacements(link->lattice, chain->isa, &batch, &scratch->displacement);

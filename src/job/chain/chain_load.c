@@ -76,8 +76,8 @@ static void name_open_placeholders(const chain_files *files, size_t i, bool *use
 static ffd_status copy_object(const ffd_lattice *object, memory_budget *memory, ffd_lattice **lattice,
                               ffd_error *error)
 {
-    const ffd_status status = object->spec ? ffd_lattice_memory_take(memory, object->spec, 0, error) : FFD_OK;
-    return status ? status : ffd_lattice_copy(object, lattice, error);
+    TRY(object->spec ? ffd_lattice_memory_take(memory, object->spec, 0, error) : FFD_OK);
+    return ffd_lattice_copy(object, lattice, error);
 }
 
 /* file_size: of a lattice taken from the cache. */
@@ -177,12 +177,10 @@ ffd_status ffd_chain_load(const chain_files *files, const chain_outside *outside
                           ffd_job_cache *cache, lattice_chain *chain, ffd_error *error)
 {
     *chain = (lattice_chain){.memory = budget_of(files), .outside = *outside, .isa = isa, .cache = cache};
-    ffd_status status = check_count(files, error);
-    if (status)
-        return status;
+    TRY(check_count(files, error));
     bool *const used = ffd_alloc_zero(files->set_count, sizeof *used);
     chain->links = ffd_alloc_zero(files->count, sizeof *chain->links);
-    status = used && chain->links ? FFD_OK : ffd_fail_memory(error);
+    ffd_status status = used && chain->links ? FFD_OK : ffd_fail_memory(error);
     chain->count = status ? 0 : files->count;
     for (size_t i = 0; i < chain->count; i++)
         borrow_lattice(files, chain, i);

@@ -64,18 +64,16 @@ ffd_status ffd_job_cache_create(ffd_job_cache **cache, ffd_error *error)
 
 ffd_status ffd_job_cache_create_for_lattices(ffd_job_cache **cache, ffd_error *error)
 {
-    const ffd_status status = ffd_job_cache_create(cache, error);
-    if (!status)
-        (*cache)->only_lattices = true;
-    return status;
+    TRY(ffd_job_cache_create(cache, error));
+    (*cache)->only_lattices = true;
+    return FFD_OK;
 }
 
 ffd_status ffd_job_cache_create_for_job(ffd_job_cache **cache, ffd_error *error)
 {
-    const ffd_status status = ffd_job_cache_create(cache, error);
-    if (!status)
-        (*cache)->is_of_job = true;
-    return status;
+    TRY(ffd_job_cache_create(cache, error));
+    (*cache)->is_of_job = true;
+    return FFD_OK;
 }
 
 bool ffd_job_cache_is_of_batch(const ffd_job_cache *cache)

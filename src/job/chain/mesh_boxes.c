@@ -69,9 +69,7 @@ static ffd_status add_mesh(mesh_box *box, const char *path, const ffd_source *li
     source.resolve = NULL;
     if (!ffd_file_stamp(path, &stamp))
         stamp = none;
-    const ffd_status status = ffd_shown_box_add(shown, &source, NULL, 0, &box->files, &log, error);
-    if (status)
-        return status;
+    TRY(ffd_shown_box_add(shown, &source, NULL, 0, &box->files, &log, error));
     if (!ffd_grow((void **)&box->stamps, &box->stamp_capacity, box->files.count, sizeof *box->stamps))
         return ffd_fail_memory(error);
     for (size_t first = box->stamp_count; box->stamp_count < box->files.count; box->stamp_count++) {

@@ -143,10 +143,9 @@ ffd_status ffd_embedding_write(file_output *output, const double *uvw, const uin
     const hash_block blocks[] = {{header, header_size}, {uvw, 3 * count * sizeof *uvw}, {statuses, count}};
     const hash128 content = ffd_hash_blocks(blocks, 3);
     make_footer(count, positions, lattice, &content, footer);
-    ffd_status status = FFD_OK;
-    for (int i = 0; i < 3 && !status; i++)
-        status = ffd_output_write(output, blocks[i].bytes, blocks[i].size, error);
-    return status ? status : ffd_output_write(output, footer, FOOTER_SIZE, error);
+    for (int i = 0; i < 3; i++)
+        TRY(ffd_output_write(output, blocks[i].bytes, blocks[i].size, error));
+    return ffd_output_write(output, footer, FOOTER_SIZE, error);
 }
 
 /* Reading */
@@ -282,9 +281,7 @@ ffd_status ffd_embedding_reuse(const char *path, ffd_bytes bytes, const mesh_doc
 {
     hash128 positions;
     const hash128 rest = ffd_embedding_hash_rest(lattice, snap);
-    const ffd_status status = ffd_embedding_hash_positions(document, threads, &positions, error);
-    if (status)
-        return status;
+    TRY(ffd_embedding_hash_positions(document, threads, &positions, error));
     return ffd_embedding_open(path, bytes, (size_t)ffd_mesh_vertex_count(document), &positions, &rest, file,
                               error);
 }

@@ -15,20 +15,20 @@ static ffd_status check_bytes(const char *what, ffd_bytes bytes, ffd_error *erro
 ffd_status ffd_in_memory_bytes(ffd_bytes bytes, const char *name, const char **path, ffd_error *error)
 {
     const char *const own = *path ? *path : name;
-    const ffd_status status = check_bytes(own, bytes, error);
-    if (status || !bytes.data)
-        return status;
+    TRY(check_bytes(own, bytes, error));
+    if (!bytes.data)
+        return FFD_OK;
     *path = own;
     return ffd_file_check_name(own, error);
 }
 
 ffd_status ffd_in_memory_source(job_memory *memory, ffd_source *source, ffd_error *error)
 {
-    const ffd_status status = ffd_in_memory_bytes(source->bytes, "mesh", &source->path, error);
-    if (!status && source->resolve && !source->bytes.data)
+    TRY(ffd_in_memory_bytes(source->bytes, "mesh", &source->path, error));
+    if (source->resolve && !source->bytes.data)
         return ffd_fail(error, FFD_E_ARGUMENT, "a resolve function is only for a mesh whose bytes are given");
-    if (status || !source->bytes.data)
-        return status;
+    if (!source->bytes.data)
+        return FFD_OK;
     const ffd_status added = ffd_memory_add(&memory->files, source, error);
     source->resolve = ffd_memory_find;
     source->resolve_user = memory->files;
@@ -46,9 +46,9 @@ ffd_status ffd_in_memory_lattice(ffd_lattice_source *lattice, const char *what, 
     const ffd_bytes text = lattice->text;
     if (lattice->object && text.data)
         return ffd_fail(error, FFD_E_ARGUMENT, "%s is given as an object and as a text", what);
-    const ffd_status status = check_bytes(lattice->path ? lattice->path : name, text, error);
-    if (status || (!lattice->object && !text.data))
-        return status;
+    TRY(check_bytes(lattice->path ? lattice->path : name, text, error));
+    if ((!lattice->object && !text.data))
+        return FFD_OK;
     lattice->path = lattice->path ? lattice->path : name;
     return ffd_file_check_name(lattice->path, error);
 }

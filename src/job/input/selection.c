@@ -15,13 +15,13 @@ ffd_status ffd_selection_apply(const char *const *only, size_t count, const char
         return FFD_OK;
     mesh_selector *selectors = ffd_alloc(count, sizeof *selectors);
     ffd_status status = selectors ? FFD_OK : ffd_fail_memory(error);
-    for (size_t i = 0; i < count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < count && !status; i++) {
         status = ffd_selector_parse(only[i], &selectors[i], error);
-        if (status == FFD_OK)
+        if (!status)
             status =
                 ffd_selector_check_kind(&selectors[i], format->selector_kinds, format->name, name, error);
     }
-    if (status == FFD_OK)
+    if (!status)
         status = format->select(document, selectors, count, error);
     ffd_free(selectors);
     return status;

@@ -56,10 +56,8 @@ ffd_status ffd_shown_box_add(shown_box *box, const ffd_source *source, const cha
     const unsigned losses = ffd_mapping_losses();
     mesh_document *document;
     positions.only_positions = true;
-    ffd_status status = ffd_source_open(&positions, 0, &document, error);
-    if (status)
-        return status;
-    status = ffd_selection_apply(only, only_count, ffd_source_name(source), document, error);
+    TRY(ffd_source_open(&positions, 0, &document, error));
+    ffd_status status = ffd_selection_apply(only, only_count, ffd_source_name(source), document, error);
     if (!status)
         status = ffd_mesh_check(document, error);
     if (!status)

@@ -74,9 +74,9 @@ static ffd_status check_desc(const ffd_jacobian_desc *desc, ffd_error *error)
 
 static ffd_status check_differences(const jacobian *j, double *worst, ffd_error *error)
 {
-    const ffd_status status = ffd_jacobian_check(j, worst, error);
-    if (status || *worst <= JACOBIAN_TOLERANCE)
-        return status;
+    TRY(ffd_jacobian_check(j, worst, error));
+    if (*worst <= JACOBIAN_TOLERANCE)
+        return FFD_OK;
     return ffd_fail(error, FFD_E_GATE, "central differences disagree by %.2g, more than %g", *worst,
                     JACOBIAN_TOLERANCE);
 }

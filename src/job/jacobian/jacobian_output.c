@@ -179,8 +179,8 @@ static ffd_status begin_array(zip_writer *zip, const char *name, const char *des
 {
     char header[NPY_HEADER_CAPACITY];
     const size_t length = ffd_npy_header(descr, size, 0, header);
-    const ffd_status status = ffd_zip_member(zip, name, length + size * each, error);
-    return status ? status : ffd_zip_write(zip, header, length, error);
+    TRY(ffd_zip_member(zip, name, length + size * each, error));
+    return ffd_zip_write(zip, header, length, error);
 }
 
 static ffd_status write_rows(const jacobian *j, zip_writer *zip, const char *name, uint64_t entries,
@@ -188,23 +188,22 @@ static ffd_status write_rows(const jacobian *j, zip_writer *zip, const char *nam
 {
     rows_pass pass = {.j = j, .zip = zip, .put = values ? put_values : put_indices, .is_wide = is_wide};
     const char *const descr = values ? "<f8" : is_wide ? "<i8" : "<i4";
-    ffd_status status = begin_array(zip, name, descr, entries, values || is_wide ? 8 : 4, error);
-    if (!status)
-        status = run_pass(&pass, error);
-    return status ? status : ffd_zip_member_end(zip, error);
+    TRY(begin_array(zip, name, descr, entries, values || is_wide ? 8 : 4, error));
+    TRY(run_pass(&pass, error));
+    return ffd_zip_member_end(zip, error);
 }
 
 static ffd_status write_starts(const jacobian *j, zip_writer *zip, const uint64_t *starts, bool is_wide,
                                ffd_error *error)
 {
     const size_t each = is_wide ? 8 : 4;
-    ffd_status status = begin_array(zip, "indptr.npy", is_wide ? "<i8" : "<i4", j->rows + 1, each, error);
-    for (size_t row = 0; row <= j->rows && !status; row++) {
+    TRY(begin_array(zip, "indptr.npy", is_wide ? "<i8" : "<i4", j->rows + 1, each, error));
+    for (size_t row = 0; row <= j->rows; row++) {
         unsigned char stored[8];
         store_u64(stored, starts[row]);
-        status = ffd_zip_write(zip, stored, each, error);
+        TRY(ffd_zip_write(zip, stored, each, error));
     }
-    return status ? status : ffd_zip_member_end(zip, error);
+    return ffd_zip_member_end(zip, error);
 }
 
 /* Writes the word "csr" as a 0-dimensional array of three bytes. */
@@ -212,12 +211,10 @@ static ffd_status write_format(zip_writer *zip, ffd_error *error)
 {
     char header[NPY_HEADER_CAPACITY];
     const size_t length = ffd_npy_header_of("|S3", "()", header);
-    ffd_status status = ffd_zip_member(zip, "format.npy", length + 3, error);
-    if (!status)
-        status = ffd_zip_write(zip, header, length, error);
-    if (!status)
-        status = ffd_zip_write(zip, "csr", 3, error);
-    return status ? status : ffd_zip_member_end(zip, error);
+    TRY(ffd_zip_member(zip, "format.npy", length + 3, error));
+    TRY(ffd_zip_write(zip, header, length, error));
+    TRY(ffd_zip_write(zip, "csr", 3, error));
+    return ffd_zip_member_end(zip, error);
 }
 
 static ffd_status write_shape(const jacobian *j, zip_writer *zip, ffd_error *error)
@@ -225,10 +222,9 @@ static ffd_status write_shape(const jacobian *j, zip_writer *zip, ffd_error *err
     unsigned char shape[16];
     store_u64(shape, j->rows);
     store_u64(shape + 8, j->columns);
-    ffd_status status = begin_array(zip, "shape.npy", "<i8", 2, 8, error);
-    if (!status)
-        status = ffd_zip_write(zip, shape, sizeof shape, error);
-    return status ? status : ffd_zip_member_end(zip, error);
+    TRY(begin_array(zip, "shape.npy", "<i8", 2, 8, error));
+    TRY(ffd_zip_write(zip, shape, sizeof shape, error));
+    return ffd_zip_member_end(zip, error);
 }
 
 /* Writes an archive that scipy.sparse.load_npz reads. */
@@ -238,16 +234,12 @@ static ffd_status write_npz(const jacobian *j, const uint64_t *starts, file_outp
     const bool is_wide = entries > most || j->rows > most || j->columns > most;
     zip_writer zip;
     ffd_zip_begin(&zip, output);
-    ffd_status status = write_rows(j, &zip, "indices.npy", entries, is_wide, false, error);
-    if (!status)
-        status = write_starts(j, &zip, starts, is_wide, error);
-    if (!status)
-        status = write_format(&zip, error);
-    if (!status)
-        status = write_shape(j, &zip, error);
-    if (!status)
-        status = write_rows(j, &zip, "data.npy", entries, is_wide, true, error);
-    return status ? status : ffd_zip_end(&zip, error);
+    TRY(write_rows(j, &zip, "indices.npy", entries, is_wide, false, error));
+    TRY(write_starts(j, &zip, starts, is_wide, error));
+    TRY(write_format(&zip, error));
+    TRY(write_shape(j, &zip, error));
+    TRY(write_rows(j, &zip, "data.npy", entries, is_wide, true, error));
+    return ffd_zip_end(&zip, error);
 }
 
 static ffd_status write_mtx(const jacobian *j, const uint64_t *starts, file_output *output, ffd_error *error)

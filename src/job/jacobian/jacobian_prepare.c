@@ -47,9 +47,7 @@ static ffd_status find_extended(jacobian *j, const chain_link *link, const doubl
             status = ffd_boundary_find(link->border, before + 3 * i, reach, &nearest, error);
         if (status || !nearest.found)
             continue;
-        status = ffd_budget_take(&j->budget, 1, sizeof *embedding->extended, error);
-        if (status)
-            return status;
+        TRY(ffd_budget_take(&j->budget, 1, sizeof *embedding->extended, error));
         if (!ffd_grow((void **)&embedding->extended, &capacity, embedding->extended_count + 1,
                       sizeof *embedding->extended))
             return ffd_fail_memory(error);
@@ -96,14 +94,12 @@ static ffd_status extend(jacobian *j, size_t index, ffd_embedding *embedding, ff
 static ffd_status fill_embedding(jacobian *j, jacobian_link *link, pass_totals *totals, ffd_error *error)
 {
     const chain_link *const of = &j->job.chain.links[link->number];
-    ffd_status status = ffd_embedding_make(of->lattice, j->count, &link->embedding, error);
-    if (status)
-        return status;
+    TRY(ffd_embedding_make(of->lattice, j->count, &link->embedding, error));
     mesh_pass pass = pass_of(j, link->number + 1);
     pass.pace = &j->pace;
     pass.uvw = link->embedding->uvw;
     pass.statuses = link->embedding->status;
-    status = ffd_pass_run(&pass, totals, error);
+    ffd_status status = ffd_pass_run(&pass, totals, error);
     return status || !of->border ? status : extend(j, link->number, link->embedding, error);
 }
 
@@ -282,8 +278,8 @@ static ffd_status take_vertices(jacobian *j, ffd_error *error)
     if (j->desc->components)
         bytes += 9 * sizeof *j->inverses;
     j->budget = j->job.document->budget;
-    const ffd_status status = ffd_lattice_memory_share(&j->job.chain, &j->budget, error);
-    return status ? status : ffd_budget_take(&j->budget, j->count, bytes, error);
+    TRY(ffd_lattice_memory_share(&j->job.chain, &j->budget, error));
+    return ffd_budget_take(&j->budget, j->count, bytes, error);
 }
 
 ffd_status ffd_jacobian_prepare(jacobian *j, ffd_error *error)

@@ -101,15 +101,13 @@ ffd_status ffd_jacobian_multiply(const jacobian *j, ffd_error *error)
     const size_t columns = column_numbers(j), vertices = 3 * j->count;
     double *in = NULL;
     product p = {.j = j};
-    ffd_status status = ffd_npy_read(transposed ? j->desc->transposed : j->desc->times,
-                                     transposed ? j->desc->transposed_bytes : j->desc->times_bytes,
-                                     transposed ? vertices : columns, &in, error);
-    if (status)
-        return status;
+    TRY(ffd_npy_read(transposed ? j->desc->transposed : j->desc->times,
+                     transposed ? j->desc->transposed_bytes : j->desc->times_bytes,
+                     transposed ? vertices : columns, &in, error));
     p.in = in;
     p.out = ffd_alloc_zero(transposed ? columns : vertices, sizeof *p.out);
     p.block = ffd_alloc(transposed ? columns : 0, sizeof *p.block);
-    status = ffd_jacobian_rows_make(j, &p.rows, error);
+    ffd_status status = ffd_jacobian_rows_make(j, &p.rows, error);
     if (!status && (!p.out || !p.block))
         status = ffd_fail_memory(error);
     if (!status) {

@@ -27,14 +27,13 @@ static ffd_status add_name(const mesh_document *document, size_t place, ffd_behi
 static ffd_status count_place(const mesh_document *document, const mesh_place *place, ffd_job_result *result,
                               ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (int kind = 0; kind < FFD_BEHIND_KIND_COUNT && status == FFD_OK; kind++) {
+    for (int kind = 0; kind < FFD_BEHIND_KIND_COUNT; kind++) {
         if (!(place->kinds & PLACE_BIT(kind)))
             continue;
         result->behind[kind].count++;
-        status = add_name(document, place->number, &result->behind[kind], error);
+        TRY(add_name(document, place->number, &result->behind[kind], error));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Counts the places where vertices would be moved, but that have not moved along. */
@@ -42,7 +41,7 @@ static ffd_status find_places(const deform_job *job, ffd_job_result *result, ffd
 {
     const double diagonal = ffd_rig_diagonal(&result->bounds.before);
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < job->rig.places.count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < job->rig.places.count && !status; i++) {
         const mesh_place_move *const move = &job->rig.moves[i];
         const bool stays = job->desc->rig == FFD_RIG_KEEP || ffd_rig_lag(move, diagonal) > 0;
         if (move->moves && stays)
@@ -55,7 +54,7 @@ static ffd_status find_splats(const deform_job *job, ffd_behind *splats, ffd_err
 {
     ffd_status status = FFD_OK;
     splats->count = job->totals.splats_moved;
-    for (int i = 0; i < job->totals.splat_part_count && status == FFD_OK; i++) {
+    for (int i = 0; i < job->totals.splat_part_count && !status; i++) {
         const mesh_part *part = &job->document->parts[job->totals.splat_parts[i]];
         if (part->place != MESH_NO_PLACE)
             status = add_name(job->document, part->place, splats, error);

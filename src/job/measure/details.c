@@ -4,9 +4,7 @@
 ffd_status ffd_details_begin(job_details *details, size_t vertex_count, memory_budget *budget,
                              ffd_error *error)
 {
-    const ffd_status status = ffd_budget_take(budget, vertex_count, sizeof *details->statuses, error);
-    if (status)
-        return status;
+    TRY(ffd_budget_take(budget, vertex_count, sizeof *details->statuses, error));
     details->statuses = ffd_alloc_zero(vertex_count, sizeof *details->statuses);
     return details->statuses ? FFD_OK : ffd_fail_memory(error);
 }

@@ -27,10 +27,9 @@ bool ffd_figures_wanted(const deform_job *job)
 static ffd_status check_normals(const deform_job *job, const mesh_faces *faces, memory_budget budget,
                                 ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < job->document->part_count && status == FFD_OK; i++)
-        status = ffd_budget_take(&budget, job->document->parts[i].normal_count, NORMAL_BYTES, error);
-    return status ? status : ffd_budget_check(&budget, ffd_half_edge_bytes(faces), 1, error);
+    for (size_t i = 0; i < job->document->part_count; i++)
+        TRY(ffd_budget_take(&budget, job->document->parts[i].normal_count, NORMAL_BYTES, error));
+    return ffd_budget_check(&budget, ffd_half_edge_bytes(faces), 1, error);
 }
 
 static bool wants_edges(const deform_job *job)
@@ -44,14 +43,13 @@ static ffd_status take_memory(const deform_job *job, const mesh_faces *faces, me
                               ffd_error *error)
 {
     const size_t corners = faces->start[faces->face_count];
-    ffd_status status = ffd_budget_take(budget, ffd_mesh_vertex_count(job->document), ARRAY_BYTES, error);
-    if (status == FFD_OK)
-        status = ffd_mesh_faces_take(faces, corners, budget, error);
-    if (status == FFD_OK && job->recomputes)
-        status = check_normals(job, faces, *budget, error);
-    if (status == FFD_OK && wants_edges(job))
-        status = ffd_budget_take(budget, corners, EDGE_LIST_BYTES, error);
-    return status;
+    TRY(ffd_budget_take(budget, ffd_mesh_vertex_count(job->document), ARRAY_BYTES, error));
+    TRY(ffd_mesh_faces_take(faces, corners, budget, error));
+    if (job->recomputes)
+        TRY(check_normals(job, faces, *budget, error));
+    if (wants_edges(job))
+        TRY(ffd_budget_take(budget, corners, EDGE_LIST_BYTES, error));
+    return FFD_OK;
 }
 
 static ffd_status read_faces(const deform_job *job, figure_arrays *arrays, ffd_error *error)
@@ -60,7 +58,7 @@ static ffd_status read_faces(const deform_job *job, figure_arrays *arrays, ffd_e
     char line[1024];
     memory_budget budget = arrays->budget;
     ffd_status status = job->document->format->faces(job->document, &arrays->faces, &own);
-    if (status == FFD_OK)
+    if (!status)
         status = take_memory(job, &arrays->faces, &budget, &own);
     arrays->has_faces = status == FFD_OK;
     if (!status) {
@@ -81,9 +79,9 @@ static ffd_status read_faces(const deform_job *job, figure_arrays *arrays, ffd_e
 ffd_status ffd_figures_prepare(const deform_job *job, figure_arrays *arrays, ffd_error *error)
 {
     const size_t count = (size_t)ffd_mesh_vertex_count(job->document);
-    const ffd_status status = read_faces(job, arrays, error);
-    if (status || !arrays->has_faces)
-        return status;
+    TRY(read_faces(job, arrays, error));
+    if (!arrays->has_faces)
+        return FFD_OK;
     arrays->deformed = ffd_alloc(count, 3 * sizeof *arrays->deformed);
     arrays->gradients = ffd_alloc(count, 9 * sizeof *arrays->gradients);
     return arrays->deformed && arrays->gradients ? FFD_OK : ffd_fail_memory(error);
@@ -103,9 +101,7 @@ ffd_status ffd_figures_folds(lattice_chain *chain, int threads, ffd_job_result *
         chain_link *const link = &chain->links[l];
         if (!link->has_folds) {
             link->folds.struct_size = sizeof link->folds;
-            const ffd_status status = ffd_folds_find(link->lattice, threads, &link->folds, error);
-            if (status)
-                return status;
+            TRY(ffd_folds_find(link->lattice, threads, &link->folds, error));
             link->has_folds = true;
         }
         ffd_folds_join(&link->folds, l, &result->folds);
@@ -147,10 +143,8 @@ ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_j
     result->flipped_faces = ffd_quality_flipped(&arrays->faces, arrays->deformed, arrays->gradients);
     if (!wants_edges(job))
         return FFD_OK;
-    status = ffd_quality_edges(job->document, &arrays->faces, arrays->deformed, &job->chain, job->threads,
-                               &edges, error);
-    if (status)
-        return status;
+    TRY(ffd_quality_edges(job->document, &arrays->faces, arrays->deformed, &job->chain, job->threads, &edges,
+                          error));
     result->edges.is_known = true;
     result->edges.count = edges.edges;
     result->edges.deviation.max = edges.deviation_max;

@@ -333,9 +333,7 @@ static ffd_status take_links(const edge_work *work, edge_scratch *scratch)
                          .scratch = &scratch->chain,
                          .delta = scratch->link_delta,
                          .outcomes = scratch->point_outcomes};
-        const ffd_status status = ffd_chain_apply(&link, 1, &run, NULL);
-        if (status)
-            return status;
+        TRY(ffd_chain_apply(&link, 1, &run, NULL));
         keep_cells(work, scratch, k);
         for (size_t i = 0; i < 3 * scratch->requested; i++)
             scratch->delta[i] += scratch->link_delta[i];
@@ -434,17 +432,16 @@ static ffd_status halve_pieces(const edge_work *work, edge_scratch *scratch, siz
 static ffd_status begin_window(const edge_work *work, edge_scratch *scratch, size_t index)
 {
     static const double still[3] = {0, 0, 0};
-    ffd_status status = FFD_OK;
-    for (size_t slot = 0; slot <= PIECES && !status; slot += PIECES) {
+    for (size_t slot = 0; slot <= PIECES; slot += PIECES) {
         sampled_edge *edge = &scratch->edges[index];
         double offset[3];
         if (is_end(edge, slot) || edge->left_out)
             continue;
         find_offset(edge, parameter_of(edge, slot), still, offset);
         edge->largest = fmax(edge->largest, vec_length(offset));
-        status = request_sample(work, scratch, index, slot);
+        TRY(request_sample(work, scratch, index, slot));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Takes the first samples of all edges of the tile, and decides which edges are long. */
@@ -580,14 +577,12 @@ ffd_status ffd_quality_edges(const mesh_document *document, const mesh_faces *fa
         .faces = faces, .deformed = deformed, .chain = chain, .layers = ffd_chain_layers(chain)};
     size_t workers = (size_t)(threads > 0 ? threads : ffd_processor_count()), tiles = 0;
     *result = (edge_quality){0};
-    ffd_status status = ffd_edges_collect(faces, &work.list, error);
-    if (status)
-        return status;
+    TRY(ffd_edges_collect(faces, &work.list, error));
     tiles = work.list.count / TILE + (work.list.count % TILE != 0);
     workers = tiles && tiles < workers ? tiles : workers;
     work.scratch = make_scratch(workers, work.layers);
     work.tiles = ffd_alloc_zero(tiles, sizeof *work.tiles);
-    status = work.scratch && work.tiles && find_reach(&work) ? FFD_OK : ffd_fail_memory(error);
+    ffd_status status = work.scratch && work.tiles && find_reach(&work) ? FFD_OK : ffd_fail_memory(error);
     if (!status && document)
         status = ffd_vertex_owners_list(document, &work.owners, error);
     if (status)

@@ -32,7 +32,7 @@ static ffd_status send(const lattice_chain *chain, const rig_places *rig, place_
     ffd_status status = FFD_OK;
     ffd_displacement_scratch_clear(&run->chain.displacement);
     run->chain.displacement.kept.threads = 1;
-    for (size_t first = 0; first < rig->places.count && status == FFD_OK; first += CHAIN_RUN) {
+    for (size_t first = 0; first < rig->places.count && !status; first += CHAIN_RUN) {
         const mesh_place *const list = rig->places.list + first;
         const size_t left = rig->places.count - first, count = left < CHAIN_RUN ? left : CHAIN_RUN;
         chain_run sent = {.x = run->points,
@@ -44,7 +44,7 @@ static ffd_status send(const lattice_chain *chain, const rig_places *rig, place_
         for (size_t i = 0; i < count; i++)
             memcpy(run->points + 3 * i, list[i].at, sizeof list[i].at);
         status = ffd_chain_apply(chain, chain->count, &sent, error);
-        for (size_t i = 0; i < count && status == FFD_OK; i++)
+        for (size_t i = 0; i < count && !status; i++)
             note_move(&list[i], run, i, &rig->moves[first + i]);
     }
     return status;
@@ -56,12 +56,12 @@ ffd_status ffd_rig_places_find(const mesh_document *document, const lattice_chai
     *rig = (rig_places){0};
     if (!document->format->list_places)
         return FFD_OK;
-    ffd_status status = document->format->list_places(document, all, &rig->places, error);
-    if (status || rig->places.count == 0)
-        return status;
+    TRY(document->format->list_places(document, all, &rig->places, error));
+    if (rig->places.count == 0)
+        return FFD_OK;
     rig->moves = ffd_alloc_zero(rig->places.count, sizeof *rig->moves);
     place_run *const run = ffd_alloc(1, sizeof *run);
-    status = rig->moves && run ? send(chain, rig, run, error) : ffd_fail_memory(error);
+    ffd_status status = rig->moves && run ? send(chain, rig, run, error) : ffd_fail_memory(error);
     ffd_free(run);
     return status;
 }
@@ -153,7 +153,7 @@ ffd_status ffd_rig_figures_find(const mesh_document *document, const rig_places 
         figures->is_there || figures->moved || figures->sheared || figures->singular || figures->partial;
     if (worst != SIZE_MAX) {
         status = name_worst(document, rig->places.list[worst].number, figures, error);
-        if (status == FFD_OK)
+        if (!status)
             status = document->format->count_skins(document, &rig->places, lagging, &figures->lagging_skins,
                                                    &figures->lagging_joints, error);
     }

@@ -1,10 +1,10 @@
-#include "job/measure/tear_blocks.h"
+/* tear_blocks.c - tear_field.h for blocks (lattices side by side). */
 #include "base/vector/vec.h"
 #include "embed/locator.h"
 #include "job/chain/blocks.h"
 #include "job/chain/chain_apply.h"
 #include "job/chain/point_outcome.h"
-#include "job/measure/tear_feet.h"
+#include "job/measure/tear_field.h"
 #include "lattice/lattice.h"
 #include <math.h>
 #include <string.h>
@@ -25,14 +25,12 @@ static ffd_status find_end(const tear_field *field, field_place *place, field_fo
     *foot = (field_foot){.found = owner != OWNER_NONE, .inside = true, .link = block};
     if (owner == OWNER_NONE)
         return FFD_OK;
-    ffd_status status = ffd_locator_find(field->chain->links[block].locator, place->x, 1, &location, error);
-    if (status)
-        return status;
+    TRY(ffd_locator_find(field->chain->links[block].locator, place->x, 1, &location, error));
     if (ffd_location_is_placed(&location)) {
         memcpy(foot->point.uvw, location.uvw, sizeof location.uvw);
         return FFD_OK;
     }
-    status = ffd_foot_on_border(field, block, place->x, foot, error);
+    ffd_status status = ffd_foot_on_border(field, block, place->x, foot, error);
     if (!status && foot->found && !(owner & OWNER_NEAREST))
         ffd_lattice_evaluate(field->chain->links[block].lattice, FFD_VOLUME_REST, foot->point.uvw, place->x,
                              NULL);
@@ -124,11 +122,8 @@ ffd_status ffd_tear_blocks_compare(const tear_field *field, field_place pair[2],
                                    ffd_error *error)
 {
     field_foot feet[2];
-    ffd_status status = FFD_OK;
-    for (int i = 0; i < 2 && !status; i++)
-        status = find_foot(field, &pair[i], &feet[i], error);
-    if (status)
-        return status;
+    for (int i = 0; i < 2; i++)
+        TRY(find_foot(field, &pair[i], &feet[i], error));
     ffd_feet_join(field, &feet[0], &feet[1]);
     for (int i = 0; i < 2; i++)
         ffd_foot_displacement(field, &feet[i], pair[i].delta, pair[i].gradient);

@@ -369,6 +369,6 @@ ffd_status ffd_tear_edges_list(const tear_mesh *mesh, tear_kind kind, size_t spa
     ffd_free(work.behind);
     if (status || edges->count == 0)
         return status;
-    status = join_ends(&work, error);
-    return status ? status : ffd_edges_sort(edges, error);
+    TRY(join_ends(&work, error));
+    return ffd_edges_sort(edges, error);
 }

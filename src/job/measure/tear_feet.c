@@ -1,10 +1,12 @@
-#include "job/measure/tear_feet.h"
+/* tear_feet.c - the point of a lattice's volume whose displacement a place gets: its foot. Internal to
+   tear_field.h. */
 #include "base/system/deadline.h"
 #include "base/vector/vec.h"
 #include "deform/extension.h"
 #include "embed/locator_border.h"
 #include "job/chain/point_outcome.h"
 #include "job/chain/seams.h"
+#include "job/measure/tear_field.h"
 #include <math.h>
 #include <string.h>
 

@@ -4,8 +4,6 @@
 #include "embed/locator_border.h"
 #include "job/chain/pace.h"
 #include "job/chain/point_outcome.h"
-#include "job/measure/tear_blocks.h"
-#include "job/measure/tear_feet.h"
 #include "lattice/lattice.h"
 #include <math.h>
 #include <string.h>
@@ -217,12 +215,12 @@ static ffd_status find_in_links(const tear_field *field, field_place *places, si
                                 ffd_error *error)
 {
     size_t gaps = 0;
-    ffd_status status = apply_links(field, places, count, visitor, cause, scratch, error);
-    if (!status && field->chain->count > 1 && !field->chain->outside.extend)
-        status = find_gaps(field, places, count, &gaps, scratch, error);
-    if (status || gaps == 0)
-        return status;
-    status = apply_links(field, scratch->in_gaps, gaps, NULL, NULL, scratch, error);
+    TRY(apply_links(field, places, count, visitor, cause, scratch, error));
+    if (field->chain->count > 1 && !field->chain->outside.extend)
+        TRY(find_gaps(field, places, count, &gaps, scratch, error));
+    if (gaps == 0)
+        return FFD_OK;
+    ffd_status status = apply_links(field, scratch->in_gaps, gaps, NULL, NULL, scratch, error);
     for (size_t k = 0; k < gaps && !status; k++) {
         field_place *const place = &places[scratch->gaps[k]];
         memcpy(place->delta, scratch->in_gaps[k].delta, sizeof place->delta);

@@ -54,11 +54,8 @@ ffd_status ffd_tear_figures_prepare(deform_job *job, figure_arrays *arrays, ffd_
     const size_t count = count_vertices(job);
     if (count == 0)
         return FFD_OK;
-    ffd_status status = job->chain.blocks && !is_asked_for(job)
-                            ? ffd_blocks_join(&job->chain, &job->blocks_join, error)
-                            : FFD_OK;
-    if (status)
-        return status;
+    TRY(job->chain.blocks && !is_asked_for(job) ? ffd_blocks_join(&job->chain, &job->blocks_join, error)
+                                                : FFD_OK);
     ffd_marks_lay_out(&job->chain, !job->blocks_join || job->chain.outside.extend);
     /* Zeroed pages that are never written to take no memory. */
     job->kept = ffd_alloc_zero(count, job->chain.marks.planes);
@@ -225,16 +222,14 @@ static ffd_status count_torn(const deform_job *job, const mesh_faces *faces, con
                  count = faces->vertex_count;
     if (!faces->numbers)
         return count_marked(job, faces, job->kept, arrays, budget, result, error);
-    ffd_status status = ffd_budget_check(budget, count, planes, error);
-    if (status)
-        return status;
+    TRY(ffd_budget_check(budget, count, planes, error));
     uint8_t *const marks = ffd_alloc(count, planes);
     if (!marks)
         return ffd_fail_memory(error);
     for (size_t p = 0; p < planes; p++)
         for (size_t v = 0; v < count; v++)
             marks[p * count + v] = job->kept[p * vertices + faces->numbers[v]];
-    status = count_marked(job, faces, marks, arrays, budget, result, error);
+    ffd_status status = count_marked(job, faces, marks, arrays, budget, result, error);
     ffd_free(marks);
     return status;
 }
@@ -259,11 +254,9 @@ static ffd_status read_and_count(deform_job *job, size_t planes, const figure_ar
     const mesh_format *const format = job->document->format;
     const vertex_marks marks = marks_of(job, planes);
     const bool all = some_may_not_move(job) || (is_asked_for(job) && job->chain.count > 1);
-    ffd_status status = all ? format->faces(job->document, &faces, error)
-                            : format->mixed_faces(job->document, &marks, &faces, error);
-    if (status)
-        return status;
-    status = ffd_mesh_faces_take(&faces, faces.start[faces.face_count], &budget, error);
+    TRY(all ? format->faces(job->document, &faces, error)
+            : format->mixed_faces(job->document, &marks, &faces, error));
+    ffd_status status = ffd_mesh_faces_take(&faces, faces.start[faces.face_count], &budget, error);
     if (!status)
         status = count_torn(job, &faces, arrays, &budget, result, error);
     ffd_mesh_faces_free(&faces);
@@ -289,7 +282,7 @@ ffd_status ffd_tear_figures_find(deform_job *job, figure_arrays *arrays, ffd_job
             ffd_fail(&own, FFD_E_LIMIT, "more than %" PRIu64 " vertices (see {quality})", UNASKED_VERTICES);
     else
         status = read_and_count(job, planes, arrays, result, &own);
-    if (status == FFD_OK)
+    if (!status)
         return FFD_OK;
     if (job->desc->fail_on & FFD_GATE_TEAR || status == FFD_E_MEMORY || ffd_deadline_passed()) {
         if (error)

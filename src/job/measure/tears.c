@@ -154,11 +154,8 @@ static ffd_status join_marks(const tear_work *work, ffd_error *error)
         still += marks[v] & KEPT_ALWAYS;
     if (still == 0 || still == count)
         return FFD_OK;
-    ffd_status status = ffd_budget_check(work->mesh->budget, still, POSITION_TABLE_BYTES, error);
-    if (!status)
-        status = ffd_positions_begin(&table, faces->positions, still, error);
-    if (status)
-        return status;
+    TRY(ffd_budget_check(work->mesh->budget, still, POSITION_TABLE_BYTES, error));
+    TRY(ffd_positions_begin(&table, faces->positions, still, error));
     for (size_t v = 0; v < count; v++)
         if (marks[v] & KEPT_ALWAYS && !ffd_tear_is_hidden(work->mesh, (uint32_t)v))
             ffd_positions_add(&table, (uint32_t)v);

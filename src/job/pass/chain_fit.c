@@ -71,12 +71,9 @@ ffd_status ffd_chain_fit(lattice_chain *chain, mesh_document *document, int thre
         if (link->locator)
             continue;
         ffd_bounds box;
-        ffd_status status = check_reach(NULL, l, document, error);
-        if (!status)
-            status = find_box(chain, chain->blocks ? 0 : l, document, usable, &box, error);
-        if (status)
-            return status;
-        status = ffd_lattice_fit(link->lattice, box.min, box.max, error);
+        TRY(check_reach(NULL, l, document, error));
+        TRY(find_box(chain, chain->blocks ? 0 : l, document, usable, &box, error));
+        ffd_status status = ffd_lattice_fit(link->lattice, box.min, box.max, error);
         if (!status)
             status = ffd_chain_prepare(chain, l, error);
         if (status) {
@@ -84,10 +81,9 @@ ffd_status ffd_chain_fit(lattice_chain *chain, mesh_document *document, int thre
             return status;
         }
     }
-    ffd_status status = ffd_chain_boxes(chain, error);
-    if (!status)
-        status = ffd_seams_find(chain, error);
-    for (size_t l = 0; l < chain->count && !status; l++)
-        status = check_reach(chain, l, document, error);
-    return status;
+    TRY(ffd_chain_boxes(chain, error));
+    TRY(ffd_seams_find(chain, error));
+    for (size_t l = 0; l < chain->count; l++)
+        TRY(check_reach(chain, l, document, error));
+    return FFD_OK;
 }

@@ -217,7 +217,7 @@ static ffd_status find_directions(grouping *g, ffd_error *error)
         return ffd_fail_memory(error);
     const ffd_status status = ffd_normals_of_groups(g->faces, g->deformed, g->corners, groups->group_count,
                                                     g->sides, groups->directions, error);
-    for (size_t i = 0; i < groups->group_count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < groups->group_count && !status; i++) {
         const double *n = groups->directions + 3 * i;
         if (groups->outcomes[i] == NORMAL_NEW && n[0] == 0 && n[1] == 0 && n[2] == 0)
             groups->outcomes[i] = NORMAL_LOST;
@@ -229,20 +229,20 @@ static ffd_status make(grouping *g, ffd_error *error)
 {
     size_t *first_vertices = NULL;
     ffd_status status = count_normals(g, error);
-    if (status == FFD_OK)
+    if (!status)
         status = allocate(g, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_parts_number(g->document, &first_vertices, error);
-    if (status == FFD_OK)
+    if (!status)
         status = read_corners(g, error);
-    if (status == FFD_OK) {
+    if (!status) {
         read_normals(g, first_vertices);
         join_corners(g);
         g->groups->outcomes = ffd_alloc_zero(g->groups->group_count, 1);
         if (!g->groups->outcomes)
             status = ffd_fail_memory(error);
     }
-    if (status == FFD_OK) {
+    if (!status) {
         touch_groups(g);
         if (drop_kept(g))
             status = find_directions(g, error);

@@ -8,11 +8,7 @@
 #include "job/chain/chain_apply.h"
 #include "job/chain/marks.h"
 #include "job/chain/point_rounding.h"
-#include "job/pass/pass_shapes.h"
-#include "job/pass/pass_splats.h"
-#include "job/pass/tile_points.h"
-#include "job/pass/tile_rounding.h"
-#include "job/pass/tile_totals.h"
+#include "job/pass/tile.h"
 #include <ffd/deform.h>
 #include <math.h>
 #include <stdatomic.h>
@@ -470,11 +466,8 @@ static ffd_status deform_tile(const pass_tile *tile, ffd_error *error)
     const gradient_need need = find_need(tile, attributes || splats);
 
     take_points(tile);
-    ffd_status status = ffd_deadline_check(error);
-    if (!status)
-        status = deform_points(tile, &need, error);
-    if (status)
-        return status;
+    TRY(ffd_deadline_check(error));
+    TRY(deform_points(tile, &need, error));
     if (need.turns)
         note_turns(tile);
     spread(tile);

@@ -1,11 +1,10 @@
 /* pass_shapes.c - morph targets in a pass. With D the displacement in the file's own space, a vertex at p
    with the offset m gets m' = m + D(p + m) - D(p); its normals' offset is n'(p + m, n + dn) - n'(p, n),
    tangents likewise (src/maths.md 9.3). */
-#include "job/pass/pass_shapes.h"
 #include "base/vector/vec.h"
 #include "deform/attribute.h"
 #include "job/chain/chain_apply.h"
-#include "job/pass/tile_points.h"
+#include "job/pass/tile.h"
 #include <math.h>
 #include <string.h>
 
@@ -235,9 +234,7 @@ static ffd_status deform_shape(shape_scratch *s, ffd_error *error)
     const bool normals =
         attributes && part->normal_count > 0 && (has(s, MESH_NORMALS) || has(s, MESH_TANGENTS));
     const bool tangents = attributes && part->has_tangents && has(s, MESH_TANGENTS);
-    const ffd_status status = send_moved(s, normals || tangents, error);
-    if (status)
-        return status;
+    TRY(send_moved(s, normals || tangents, error));
     deform_positions(s);
     if (!normals && !tangents)
         return FFD_OK;
@@ -267,13 +264,12 @@ static bool wants_shown(const mesh_pass *pass, const mesh_part *part)
 ffd_status ffd_tile_shapes(const pass_tile *tile, ffd_error *error)
 {
     shape_scratch *const s = tile->scratch->shape;
-    ffd_status status = FFD_OK;
-    for (size_t k = 0; k < tile->part->shape_count && !status; k++) {
+    for (size_t k = 0; k < tile->part->shape_count; k++) {
         ffd_tile_points_begin(tile, s->offsets, k, &s->moved);
-        status = deform_shape(s, error);
+        TRY(deform_shape(s, error));
     }
-    if (status || !wants_shown(tile->pass, tile->part))
-        return status;
+    if (!wants_shown(tile->pass, tile->part))
+        return FFD_OK;
     ffd_tile_points_begin(tile, s->offsets, SHAPE_SHOWN, &s->moved);
     return deform_shape(s, error);
 }

@@ -1,4 +1,5 @@
-#include "job/pass/pass_splats.h"
+/* pass_splats.c - Gaussian splats in a tile of a pass (src/maths.md 9.6). */
+#include "job/pass/tile.h"
 
 void ffd_tile_splat_turns(const pass_tile *tile)
 {

@@ -142,7 +142,7 @@ static ffd_status recompute_parts(recomputing *r, ffd_error *error)
 {
     size_t *first_vertices;
     const ffd_status status = ffd_parts_number(r->document, &first_vertices, error);
-    for (r->part = 0; r->part < r->document->part_count && status == FFD_OK; r->part++) {
+    for (r->part = 0; r->part < r->document->part_count && !status; r->part++) {
         const mesh_part *part = &r->document->parts[r->part];
         r->first_vertex = first_vertices[r->part];
         if (part->normal_count && !part->skipped)
@@ -160,9 +160,9 @@ ffd_status ffd_recompute_normals(mesh_document *document, const mesh_faces *face
     recomputing *r = ffd_alloc_zero(1, sizeof *r);
     *counts = (recompute_counts){0};
     ffd_status status = r ? FFD_OK : ffd_fail_memory(error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_normal_groups_make(document, faces, deformed, &groups, error);
-    if (status == FFD_OK) {
+    if (!status) {
         r->document = document;
         r->gradients = gradients;
         r->groups = &groups;

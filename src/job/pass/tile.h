@@ -1,4 +1,7 @@
-/* tile.h - a tile of a pass: the vertices that a thread processes at a time. Internal to job/pass. */
+/* tile.h - a tile of a pass: the vertices that a thread processes at a time, and what is done with them, each
+   in a source of its own: the way of its points through the chain (tile_points.c), morph targets
+   (pass_shapes.c), splats (pass_splats.c), rounding (tile_rounding.c), points that miss the volume by a
+   rounding (tile_misses.c), counting (tile_totals.c). Internal to job/pass. */
 #ifndef FFD_JOB_PASS_TILE_H
 #define FFD_JOB_PASS_TILE_H
 
@@ -110,5 +113,70 @@ static inline double ffd_largest_coordinate(const mesh_document *document)
     const double own = document->largest_coordinate;
     return own > 0 ? own : document->format->largest_coordinate;
 }
+
+/* Prepares for the points of a tile. offsets: of all its vertices in a morph target (shape), or NULL. */
+void ffd_tile_points_begin(const pass_tile *tile, const double *offsets, size_t shape, tile_points *points);
+
+/* Puts point i, which is vertex v of the tile, to where it is at rest. */
+void ffd_tile_place(tile_points *points, size_t i, size_t v);
+
+/* The same, and lets it stay there. */
+void ffd_tile_hold(tile_points *points, size_t i, size_t v);
+
+/* Returns a run of the points through the chain. gradients: whether they are wanted. */
+chain_run ffd_tile_run(tile_points *points, bool gradients);
+
+/* Adds the times of a run to the totals. */
+void ffd_tile_add_times(const pass_tile *tile, const chain_run *run);
+
+/* If the part's node or skin moves too (the rig follows), adjusts the displacements so that vertices end up
+   where the deformation puts them in the scene. Vertices that are not finite stay. */
+void ffd_tile_carry(tile_points *points, bool gradients);
+
+/* Transforms the displacements to the file's space: p' = p + linear^{-1} delta. */
+void ffd_tile_bring_back(tile_points *points);
+/* Transforms the gradients to the file's space. */
+void ffd_tile_bring_gradients_back(tile_points *points);
+
+/* Widens the box by the points that count for bounds. Returns whether all points are finite. */
+bool ffd_tile_widen(const tile_points *points, ffd_bounds *box);
+
+/* Deforms the morph targets of a tile. Call it last: scratch holds the base's displacements and gradients in
+   the file's space, and its deformed normals and tangents. Errors: those of ffd_chain_apply. */
+ffd_status ffd_tile_shapes(const pass_tile *tile, ffd_error *error);
+
+/* Finds how directions turn at the tile's vertices, in the file's space. Their gradients must still be in the
+   lattice's space. */
+void ffd_tile_splat_turns(const pass_tile *tile);
+
+/* Deforms the splats of the tile and writes them. Their gradients must be in the file's space. */
+void ffd_tile_splats(const pass_tile *tile);
+
+/* Finds those of the visible vertices outside of the only lattice that miss it by next to nothing, if they
+   are left where they are. Call it before the selected vertices are spread over the tile. Errors:
+   FFD_E_MEMORY. */
+ffd_status ffd_tile_find_misses(const pass_tile *tile, ffd_error *error);
+
+/* Returns the rounding error of a part's results above which its shape changes, relative to its largest
+   side. */
+double ffd_part_tolerance(const mesh_document *document);
+
+/* Notes how fine the floats of a tile's positions are before it is displaced. */
+void ffd_tile_rounding_at_rest(const pass_tile *tile);
+
+/* Whether floats hold a displacement of the tile: the position of a vertex changes in the output. True too
+   where the results are not rounded here. Call it before the vertices are displaced in the file's space. */
+bool ffd_tile_shows(const pass_tile *tile);
+
+/* Notes the rounding errors of the results, if they may exceed the tolerance. */
+void ffd_tile_rounding_of_results(const pass_tile *tile);
+
+/* Counts a tile's selected vertices at rest. Call it after their positions are read. */
+void ffd_totals_count_rest(const pass_tile *tile);
+/* Counts them after the chain has moved them, and stores the flags for ffd_totals_count_others. Errors:
+   FFD_E_MEMORY. */
+ffd_status ffd_totals_count_deformed(const pass_tile *tile, ffd_error *error);
+/* Counts the vertices of a tile that are not simply inside. Call it after ffd_mesh_mark_used. */
+void ffd_totals_count_others(const pass_tile *tile);
 
 #endif

@@ -1,5 +1,6 @@
-#include "job/pass/tile_misses.h"
+/* tile_misses.c - how many vertices of a tile miss the lattice by very little. */
 #include "job/chain/point_rounding.h"
+#include "job/pass/tile.h"
 #include "lattice/lattice.h"
 
 /* A miss by this part of the rest lattice's diagonal is worth a word: the digits of a text, mostly. */

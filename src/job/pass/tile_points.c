@@ -1,6 +1,8 @@
-#include "job/pass/tile_points.h"
+/* tile_points.c - the way of a tile's points, the same for the base and for a morph target: into the
+   lattice's space, through the chain, and back to the file's space. */
 #include "base/vector/array_kernel.h"
 #include "base/vector/vec.h"
+#include "job/pass/tile.h"
 #include "job/pass/vertex_rounding.h"
 #include "mesh/bounds.h"
 #include <math.h>

@@ -1,6 +1,8 @@
-#include "job/pass/tile_rounding.h"
+/* tile_rounding.c - what the rounding of results to floats does to a tile (mesh/precision.h). A conversion's
+   results are judged by the model that is written. */
 #include "base/vector/array_kernel.h"
 #include "base/vector/vec.h"
+#include "job/pass/tile.h"
 #include "mesh/precision.h"
 #include <math.h>
 

@@ -1,8 +1,7 @@
-#include "job/pass/tile_totals.h"
+/* tile_totals.c - counts the figures of one tile of a pass. */
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
-#include "job/pass/tile_misses.h"
-#include "job/pass/tile_points.h"
+#include "job/pass/tile.h"
 
 void ffd_totals_count_rest(const pass_tile *tile)
 {

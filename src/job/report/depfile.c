@@ -28,13 +28,11 @@ static bool is_depfile(const file_input *old)
 ffd_status ffd_depfile_create(const char *path, ffd_depfile **depfile, ffd_error *error)
 {
     *depfile = NULL;
-    ffd_status status = ffd_replace_check(path, is_depfile, "depfile", error);
-    if (status)
-        return status;
+    TRY(ffd_replace_check(path, is_depfile, "depfile", error));
     ffd_depfile *made = ffd_alloc_zero(1, sizeof *made);
     if (!made)
         return ffd_fail_memory(error);
-    status = ffd_output_create(&made->output, error);
+    ffd_status status = ffd_output_create(&made->output, error);
     if (!status)
         status = ffd_output_begin(made->output, path, true, error);
     if (status)
@@ -131,8 +129,7 @@ void ffd_depfile_add(ffd_depfile *depfile, const byte_buffer *rules)
 ffd_status ffd_depfile_write(ffd_depfile *depfile, ffd_error *error)
 {
     const byte_buffer *rules = &depfile->rules;
-    ffd_status status = rules->failed ? ffd_fail_memory(error) : FFD_OK;
-    if (!status)
-        status = ffd_output_write(depfile->output, rules->data, rules->size, error);
-    return status ? status : ffd_output_commit(depfile->output, error);
+    TRY(rules->failed ? ffd_fail_memory(error) : FFD_OK);
+    TRY(ffd_output_write(depfile->output, rules->data, rules->size, error));
+    return ffd_output_commit(depfile->output, error);
 }

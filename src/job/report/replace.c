@@ -7,9 +7,7 @@ ffd_status ffd_replace_check(const char *path, bool (*is_own)(const file_input *
     file_input old;
     if (ffd_output_is_stream(path) || ffd_output_check(path, false, NULL) != FFD_E_EXISTS)
         return FFD_OK;
-    const ffd_status status = ffd_file_load(path, &old, error);
-    if (status)
-        return status;
+    TRY(ffd_file_load(path, &old, error));
     const bool free = old.size == 0 || is_own(&old);
     ffd_file_unload(&old);
     return free

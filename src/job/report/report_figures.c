@@ -261,9 +261,7 @@ ffd_status ffd_job_result_text(const ffd_job_result *callers, const char *lattic
     lattice_name name;
     ffd_result_clear(&result);
     *text = NULL;
-    const ffd_status status = ffd_struct_take(&result, sizeof result, callers, "ffd_job_result", error);
-    if (status)
-        return status;
+    TRY(ffd_struct_take(&result, sizeof result, callers, "ffd_job_result", error));
     const figure_text lines = {&result, name_of(lattice, result.folds.witness.lattice, &name), &out};
     for (const figure *f = ffd_figures; is_of_report(f); f = after(f)) {
         bool null;

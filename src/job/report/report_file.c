@@ -102,15 +102,13 @@ static ffd_status open_file(ffd_report *report, ffd_output_set *output_set, cons
     ffd_report_begin_text(report->lines, head);
     report->end = head->size;
     if (sink->function || !ffd_growing_can(report->path)) {
-        ffd_status status = ffd_output_create(&report->stream, error);
-        if (status)
-            return status;
+        TRY(ffd_output_create(&report->stream, error));
         ffd_output_record(report->stream, ffd_output_set_list(output_set));
         ffd_output_redirect(report->stream, sink->function, sink->user);
-        status = ffd_output_begin(report->stream, report->path, true, error);
-        if (!status && head->failed)
-            status = ffd_fail_memory(error);
-        return status ? status : ffd_output_write(report->stream, head->data, head->size, error);
+        TRY(ffd_output_begin(report->stream, report->path, true, error));
+        if (head->failed)
+            return ffd_fail_memory(error);
+        return ffd_output_write(report->stream, head->data, head->size, error);
     }
     ffd_report_end_text(report->lines, true, head);
     return head->failed ? ffd_fail_memory(error)
@@ -143,16 +141,16 @@ static ffd_status check_kind(const char *path, ffd_error *error)
 
 ffd_status ffd_report_check(const char *path, ffd_error *error)
 {
-    const ffd_status status = check_kind(path, error);
-    return status ? status : ffd_output_check(path, true, error);
+    TRY(check_kind(path, error));
+    return ffd_output_check(path, true, error);
 }
 
 ffd_status ffd_report_create(const char *path, bool stable, ffd_output_set *output_set, ffd_report **report,
                              ffd_error *error)
 {
     *report = NULL;
-    const ffd_status status = check_kind(path, error);
-    return status ? status : create(path, stable, output_set, (report_sink){0}, report, error);
+    TRY(check_kind(path, error));
+    return create(path, stable, output_set, (report_sink){0}, report, error);
 }
 
 ffd_status ffd_report_create_sink(const char *name, bool stable, ffd_sink_function sink, void *user,
@@ -161,8 +159,8 @@ ffd_status ffd_report_create_sink(const char *name, bool stable, ffd_sink_functi
     *report = NULL;
     if (!name || !sink)
         return ffd_fail(error, FFD_E_ARGUMENT, "a report in memory needs a name and a sink");
-    const ffd_status status = ffd_file_check_name(name, error);
-    return status ? status : create(name, stable, NULL, (report_sink){sink, user}, report, error);
+    TRY(ffd_file_check_name(name, error));
+    return create(name, stable, NULL, (report_sink){sink, user}, report, error);
 }
 
 void ffd_report_destroy(ffd_report **report)
@@ -351,6 +349,6 @@ ffd_status ffd_report_write(ffd_report *report, ffd_error *error)
     ffd_report_end_text(report->lines, report->count == 0, text);
     if (text->failed)
         return ffd_fail_memory(error);
-    const ffd_status status = ffd_output_write(report->stream, text->data, text->size, error);
-    return status ? status : ffd_output_commit(report->stream, error);
+    TRY(ffd_output_write(report->stream, text->data, text->size, error));
+    return ffd_output_commit(report->stream, error);
 }

@@ -15,9 +15,7 @@ typedef struct part {
 
 static ffd_status open_part(part *p, const char *path, ffd_error *error)
 {
-    const ffd_status status = ffd_file_map(path, &p->file, error);
-    if (status)
-        return status;
+    TRY(ffd_file_map(path, &p->file, error));
     return ffd_report_reader_open(&p->reader, strcmp(path, "-") == 0 ? "standard input" : path,
                                   ffd_report_has_lines(path), p->file.data, p->file.size, error);
 }

@@ -188,13 +188,9 @@ static ffd_status read_jobs(report_reader *reader, ffd_error *error)
     if (!take(reader, '['))
         return refuse(reader, "\"jobs\" must be an array", error);
     while (!take(reader, ']')) {
-        ffd_status status = take_entry(reader, &entry, error);
-        if (!status)
-            status = check_entry(reader, &entry, error);
-        if (!status)
-            status = take_comma(reader, error);
-        if (status)
-            return status;
+        TRY(take_entry(reader, &entry, error));
+        TRY(check_entry(reader, &entry, error));
+        TRY(take_comma(reader, error));
     }
     return FFD_OK;
 }
@@ -236,11 +232,8 @@ static ffd_status read_lines(report_reader *reader, ffd_error *error)
     report_entry_text entry;
     const char *const first = reader->at;
     while (reader->at < reader->end) {
-        ffd_status status = take_entry(reader, &entry, error);
-        if (!status)
-            status = check_entry(reader, &entry, error);
-        if (status)
-            return status;
+        TRY(take_entry(reader, &entry, error));
+        TRY(check_entry(reader, &entry, error));
     }
     reader->at = first;
     reader->jobs = 0;
@@ -261,9 +254,7 @@ ffd_status ffd_report_reader_open(report_reader *reader, const char *name, bool 
     if (!take(reader, '{'))
         return refuse(reader, "'{' is expected", error);
     do {
-        const ffd_status status = read_member(reader, &seen, &jobs, error);
-        if (status)
-            return status;
+        TRY(read_member(reader, &seen, &jobs, error));
     } while (take(reader, ','));
     if (!take(reader, '}'))
         return refuse(reader, "',' or '}' is expected", error);

@@ -1,5 +1,6 @@
 /* view.c - the job of `ffd view`: makes a scene of a mesh and its deformation, or of one or two files as they
    are. */
+#include "job/view/view.h"
 #include "base/file/mapping.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
@@ -18,11 +19,6 @@
 #include "job/pass/chain_fit.h"
 #include "job/report/output_set.h"
 #include "job/report/report.h"
-#include "job/view/view_inputs.h"
-#include "job/view/view_marks.h"
-#include "job/view/view_mesh.h"
-#include "job/view/view_order.h"
-#include "job/view/view_rigs.h"
 #include "view/page.h"
 #include "view/view_picture.h"
 #include <math.h>
@@ -162,16 +158,12 @@ static ffd_status make_rigs(view_work *work, bool deformed, ffd_error *error)
 static ffd_status take_findings(view_work *work, const ffd_job_result *result, ffd_error *error)
 {
     deform_job *const job = &work->job;
-    ffd_status status = ffd_view_take_mesh(&work->model, &work->scene, &work->faces, &job->log, error);
-    if (!status)
-        status = ffd_view_place_after(&work->model, work->details.deformed, &work->scene, error);
-    if (!status)
-        status = ffd_view_add_marks(job, result, &work->model, work->faces, &work->scene, error);
-    if (!status)
-        status = ffd_view_add_cages(&job->chain, work->desc->job->lattices, &work->scene, error);
-    if (!status)
-        status = make_rigs(work, true, error);
-    return status ? status : make_report(work, result, error);
+    TRY(ffd_view_take_mesh(&work->model, &work->scene, &work->faces, &job->log, error));
+    TRY(ffd_view_place_after(&work->model, work->details.deformed, &work->scene, error));
+    TRY(ffd_view_add_marks(job, result, &work->model, work->faces, &work->scene, error));
+    TRY(ffd_view_add_cages(&job->chain, work->desc->job->lattices, &work->scene, error));
+    TRY(make_rigs(work, true, error));
+    return make_report(work, result, error);
 }
 
 /* Checks that an open mesh can be shown, and that the output is none of its files. */
@@ -188,17 +180,13 @@ static ffd_status run_job(view_work *work, ffd_job_result *result, ffd_error *er
 {
     deform_job *const job = &work->job;
     job->stored = job->stored || job->desc->as_morph; /* it keeps the other targets */
-    ffd_status status = ffd_deform_job_open(job, result, error);
-    if (!status)
-        status = check_mesh(work, &work->desc->job->input, job->document, error);
-    if (!status)
-        status = read_model(work, error);
-    if (status)
-        return status;
+    TRY(ffd_deform_job_open(job, result, error));
+    TRY(check_mesh(work, &work->desc->job->input, job->document, error));
+    TRY(read_model(work, error));
     /* Deform the shape with default weights, as for a conversion. */
     job->document->converted = shows_shapes(work, job->document);
     job->details = &work->details;
-    status = ffd_deform_job_run(job, result, &result->error);
+    ffd_status status = ffd_deform_job_run(job, result, &result->error);
     result->status = status;
     if (status == FFD_E_GATE)
         ffd_fail_name_file(&result->error, ffd_source_name(&work->desc->job->input));
@@ -212,9 +200,7 @@ static ffd_status run_job(view_work *work, ffd_job_result *result, ffd_error *er
 static ffd_status open_mesh(view_work *work, const ffd_source *source, mesh_document **document,
                             ffd_error *error)
 {
-    const ffd_status status = ffd_source_open(source, work->job.threads, document, error);
-    if (status)
-        return status;
+    TRY(ffd_source_open(source, work->job.threads, document, error));
     const char *const name = source == work->desc->deformed ? ffd_source_name(source) : NULL;
     ffd_flaws_warn(&(*document)->flaws, name, &work->job.log);
     return check_mesh(work, source, *document, error);
@@ -228,13 +214,11 @@ static ffd_status load_cages(view_work *work, ffd_error *error)
     const chain_outside outside = {0};
     if (desc->lattice_count == 0)
         return FFD_OK;
-    ffd_status status = ffd_deform_job_load_chain(job, &outside, NULL, error);
-    if (!status)
-        status = ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(&desc->input),
-                                     job->document, error);
-    if (!status)
-        status = ffd_chain_fit(&job->chain, job->document, job->threads, error);
-    return status ? status : ffd_view_add_cages(&job->chain, desc->lattices, &work->scene, error);
+    TRY(ffd_deform_job_load_chain(job, &outside, NULL, error));
+    TRY(ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(&desc->input), job->document,
+                            error));
+    TRY(ffd_chain_fit(&job->chain, job->document, job->threads, error));
+    return ffd_view_add_cages(&job->chain, desc->lattices, &work->scene, error);
 }
 
 /* Reads the positions of all vertices, in the order of `ffd embed`. */
@@ -243,9 +227,7 @@ static ffd_status read_positions(const view_work *work, mesh_document *document,
 {
     const size_t count = (size_t)ffd_mesh_vertex_count(document);
     size_t first = 0;
-    const ffd_status status = ffd_budget_take(&document->budget, count, 3 * sizeof **positions, error);
-    if (status)
-        return status;
+    TRY(ffd_budget_take(&document->budget, count, 3 * sizeof **positions, error));
     *positions = ffd_alloc(count, 3 * sizeof **positions);
     if (!*positions)
         return ffd_fail_memory(error);
@@ -285,17 +267,13 @@ static ffd_status read_deformed(view_work *work, ffd_error *error)
 /* Shows files as they are: one, or one before and another after. */
 static ffd_status read_files(view_work *work, ffd_error *error)
 {
-    ffd_status status = open_mesh(work, &work->desc->job->input, &work->job.document, error);
-    if (!status)
-        status = read_model(work, error);
-    if (!status)
-        status = ffd_view_take_mesh(&work->model, &work->scene, &work->faces, &work->job.log, error);
-    if (!status)
-        status = work->desc->deformed ? read_deformed(work, error)
-                                      : ffd_view_place_after(&work->model, NULL, &work->scene, error);
-    if (!status)
-        status = load_cages(work, error);
-    return status ? status : make_rigs(work, false, error);
+    TRY(open_mesh(work, &work->desc->job->input, &work->job.document, error));
+    TRY(read_model(work, error));
+    TRY(ffd_view_take_mesh(&work->model, &work->scene, &work->faces, &work->job.log, error));
+    TRY(work->desc->deformed ? read_deformed(work, error)
+                             : ffd_view_place_after(&work->model, NULL, &work->scene, error));
+    TRY(load_cages(work, error));
+    return make_rigs(work, false, error);
 }
 
 static ffd_status write_page(const view_work *work, file_output *output, ffd_error *error)
@@ -318,12 +296,10 @@ static ffd_status write_view(view_work *work, ffd_error *error)
 {
     const ffd_view_desc *const desc = work->desc;
     file_output *output;
-    ffd_status status = ffd_output_create(&output, error);
-    if (status)
-        return status;
+    TRY(ffd_output_create(&output, error));
     ffd_output_record(output, ffd_output_set_list(desc->job->output_set));
     ffd_output_redirect(output, desc->sink, desc->sink_user);
-    status = ffd_output_begin(output, desc->output, desc->force, error);
+    ffd_status status = ffd_output_begin(output, desc->output, desc->force, error);
     if (!status)
         status = is_page(desc->output) ? write_page(work, output, error) : write_picture(work, output, error);
     status = ffd_mapping_judge(work->job.losses, status, error);
@@ -379,13 +355,9 @@ static void warn_of_unused(const view_work *work)
 static ffd_status run(view_work *work, ffd_job_result *result, ffd_error *error)
 {
     const bool deforms = !work->desc->deformed && work->desc->job->lattice_count > 0;
-    ffd_status status = check_desc(work, error);
-    if (!status)
-        status = name_scene(work, error);
-    if (!status)
-        status = deforms ? run_job(work, result, error) : read_files(work, error);
-    if (status)
-        return status;
+    TRY(check_desc(work, error));
+    TRY(name_scene(work, error));
+    TRY(deforms ? run_job(work, result, error) : read_files(work, error));
     if (work->model.nodes_left)
         ffd_log_line(&work->job.log, FFD_LOG_WARNING, "not shown: the GPU instances of %zu %s",
                      work->model.nodes_left, ffd_plural(work->model.nodes_left, "node", "nodes"));
@@ -463,10 +435,8 @@ ffd_status ffd_view_run(const ffd_view_desc *callers, ffd_job_result *callers_re
     ffd_view_desc_init(&desc, sizeof desc);
     ffd_deform_desc_init(&job, sizeof job); /* stays unused for files as they are */
     ffd_result_clear(&result);
-    ffd_status status = ffd_struct_check(sizeof result, callers_result, "ffd_job_result", error);
-    if (status)
-        return status;
-    status = ffd_struct_take(&desc, sizeof desc, callers, "ffd_view_desc", &result.error);
+    TRY(ffd_struct_check(sizeof result, callers_result, "ffd_job_result", error));
+    ffd_status status = ffd_struct_take(&desc, sizeof desc, callers, "ffd_view_desc", &result.error);
     if (!status && desc.job)
         status = ffd_deform_desc_take(desc.job, &job, &result.error);
     job.morph_results = NULL; /* only jobs that write fill these */

@@ -1,7 +1,8 @@
-#include "job/view/view_inputs.h"
+/* view_inputs.c - the inputs of a view, which its output must not replace. */
 #include "base/file/input.h"
 #include "base/file/path.h"
 #include "job/reads.h"
+#include "job/view/view.h"
 
 static ffd_status refuse(const char *output, bool is_linked, ffd_error *error)
 {

@@ -1,8 +1,10 @@
-#include "job/view/view_marks.h"
+/* view_marks.c - marks of a deformation in a scene: statuses, det F, flipped faces, torn edges, the witness
+   of a fold; and the control lattices. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "job/measure/quality.h"
+#include "job/view/view.h"
 #include "lattice/file/lattice_source.h"
 #include "lattice/lattice.h"
 #include <math.h>
@@ -112,10 +114,9 @@ ffd_status ffd_view_add_marks(const deform_job *job, const ffd_job_result *resul
     scene->flipped_faces = result->flipped_faces;
     scene->tear_edges = result->tear.edges;
     scene->witness = result->folds.witness;
-    ffd_status status = add_statuses(details, model, scene, error);
-    if (!status)
-        status = add_flipped(details, model, faces, scene, error);
-    return status ? status : add_tears(details, count, scene, error);
+    TRY(add_statuses(details, model, scene, error));
+    TRY(add_flipped(details, model, faces, scene, error));
+    return add_tears(details, count, scene, error);
 }
 
 static double *copy_points(const double *points, size_t count)

@@ -1,6 +1,7 @@
-#include "job/view/view_mesh.h"
+/* view_mesh.c - makes a scene's geometry from a model and its deformed positions. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "job/view/view.h"
 #include "mesh/model_triangles.h"
 #include <math.h>
 #include <string.h>
@@ -90,11 +91,10 @@ static ffd_status take_run(mesh_taker *t, size_t r)
     const model_run *const run = &t->model->runs[r];
     const size_t first = t->triangles, end = model_run_end(t->model, r, MODEL_FACES);
     view_part *const part = &t->scene->parts[t->scene->part_count];
-    ffd_status status = FFD_OK;
-    for (size_t f = run->first[MODEL_FACES]; f < end && !status; f++)
-        status = take_face(t, f);
-    if (status || t->triangles == first)
-        return status;
+    for (size_t f = run->first[MODEL_FACES]; f < end; f++)
+        TRY(take_face(t, f));
+    if (t->triangles == first)
+        return FFD_OK;
     *part = (view_part){.name = ffd_text_copy(name_of_run(t->model, run)),
                         .material = material_of_run(t, run),
                         .first_triangle = first,

@@ -1,5 +1,7 @@
-#include "job/view/view_order.h"
+/* view_order.c - which vertices of two files of one mesh are the same: the later file may list its parts in
+   another order. */
 #include "base/memory/memory.h"
+#include "job/view/view.h"
 #include <stdlib.h>
 
 /* A part whose vertices are counted, and the number of the first. */
@@ -56,9 +58,7 @@ static ffd_status make_order(const part_list *before, const part_list *after, me
                              size_t **order, ffd_error *error)
 {
     const size_t count = (size_t)ffd_mesh_vertex_count(document);
-    const ffd_status status = ffd_budget_take(&document->budget, count, sizeof **order, error);
-    if (status)
-        return status;
+    TRY(ffd_budget_take(&document->budget, count, sizeof **order, error));
     *order = ffd_alloc(count, sizeof **order);
     if (!*order)
         return ffd_fail_memory(error);

@@ -1,8 +1,9 @@
-#include "job/view/view_rigs.h"
+/* view_rigs.c - the animations of a view: skeletons and keys of the mesh before and after. */
 #include "base/memory/intern.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "base/vector/vec.h"
+#include "job/view/view.h"
 #include <stdio.h>
 #include <string.h>
 

@@ -27,8 +27,8 @@ ffd_status ffd_lattice_parse(const char *text, size_t size, const char *name, ff
 {
     lattice_spec *spec;
     *lattice = NULL;
-    const ffd_status status = ffd_spec_parse(text, size, name, NULL, &spec, error);
-    return status ? status : build(spec, lattice, error);
+    TRY(ffd_spec_parse(text, size, name, NULL, &spec, error));
+    return build(spec, lattice, error);
 }
 
 ffd_status ffd_lattice_list_parameters(const char *text, size_t size, const char *name,
@@ -59,11 +59,9 @@ static ffd_status load_file(const char *path, const spec_settings *settings, lat
 {
     file_input input;
     const unsigned losses = ffd_mapping_losses();
-    ffd_status status = ffd_file_load(path, &input, error);
-    if (status)
-        return status;
+    TRY(ffd_file_load(path, &input, error));
     *size = input.size;
-    status = ffd_spec_parse((const char *)input.data, input.size, path, settings, spec, error);
+    ffd_status status = ffd_spec_parse((const char *)input.data, input.size, path, settings, spec, error);
     ffd_file_unload(&input);
     return ffd_mapping_judge(losses, status, error);
 }

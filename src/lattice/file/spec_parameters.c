@@ -91,21 +91,16 @@ static ffd_status read_parameter(json_cursor cursor, spec_parameter *parameter)
     static const char *const keys[] = {"default", "min", "max", "unit", SPEC_NOTES};
     parameter->min = -INFINITY;
     parameter->max = INFINITY;
-    ffd_status status = read_name(cursor, parameter);
-    if (!status)
-        status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
-    if (!status)
-        status = read_bound(cursor, "min", &parameter->min);
-    if (!status)
-        status = read_bound(cursor, "max", &parameter->max);
-    if (!status && parameter->min > parameter->max)
+    TRY(read_name(cursor, parameter));
+    TRY(ffd_spec_read_object(cursor, keys, COUNT_OF(keys)));
+    TRY(read_bound(cursor, "min", &parameter->min));
+    TRY(read_bound(cursor, "max", &parameter->max));
+    if (parameter->min > parameter->max)
         return ffd_cursor_fail(cursor, "min %s is greater than max %s", ffd_number_text(parameter->min).text,
                                ffd_number_text(parameter->max).text);
-    if (!status)
-        status = read_text(cursor, "unit", &parameter->unit);
-    if (!status)
-        status = read_text(cursor, "comment", &parameter->comment);
-    return status ? status : read_default(ffd_cursor_member(cursor, "default"), parameter);
+    TRY(read_text(cursor, "unit", &parameter->unit));
+    TRY(read_text(cursor, "comment", &parameter->comment));
+    return read_default(ffd_cursor_member(cursor, "default"), parameter);
 }
 
 ffd_status ffd_spec_parse_parameters(json_cursor cursor, lattice_spec *spec)

@@ -21,19 +21,16 @@ static ffd_status read_format(json_cursor root)
     static const char *const names[] = {SPEC_FORMAT};
     json_cursor cursor;
     size_t index;
-    const ffd_status status = ffd_json_require(root, "format", &cursor);
-    return status ? status : ffd_json_read_word(cursor, names, COUNT_OF(names), &index);
+    TRY(ffd_json_require(root, "format", &cursor));
+    return ffd_json_read_word(cursor, names, COUNT_OF(names), &index);
 }
 
 static ffd_status read_version(json_cursor root)
 {
     json_cursor cursor;
     double version;
-    ffd_status status = ffd_json_require(root, "version", &cursor);
-    if (!status)
-        status = ffd_json_read_integer(cursor, &version);
-    if (status)
-        return status;
+    TRY(ffd_json_require(root, "version", &cursor));
+    TRY(ffd_json_read_integer(cursor, &version));
     if (version > SPEC_VERSION)
         return ffd_cursor_fail_as(cursor, FFD_E_UNSUPPORTED,
                                   "version %.0f is newer than %d, the newest known here", version,
@@ -48,9 +45,7 @@ static ffd_status read_version(json_cursor root)
 static ffd_status read_direction_size(json_cursor cursor, lattice_spec *spec, size_t a)
 {
     double size;
-    const ffd_status status = ffd_json_read_integer(cursor, &size);
-    if (status)
-        return status;
+    TRY(ffd_json_read_integer(cursor, &size));
     if (size < 2)
         return ffd_cursor_fail(cursor, "is %.0f, but a direction has at least 2 control points", size);
     /* Because count <= the limit, dividing the limit avoids an overflow. */
@@ -75,9 +70,7 @@ static ffd_status read_size(json_cursor cursor, lattice_spec *spec)
 static ffd_status read_direction_degree(json_cursor cursor, lattice_spec *spec, size_t a)
 {
     double degree;
-    const ffd_status status = ffd_json_read_integer(cursor, &degree);
-    if (status)
-        return status;
+    TRY(ffd_json_read_integer(cursor, &degree));
     if (degree < 1 || degree > MAX_DEGREE)
         return ffd_cursor_fail(cursor, "degree %.0f is not between 1 and %d", degree, MAX_DEGREE);
     if (degree > (double)(spec->size[a] - 1))
@@ -103,9 +96,7 @@ static ffd_status read_degree(json_cursor cursor, lattice_spec *spec)
 static ffd_status read_knot_list(json_cursor cursor, size_t count, const char *what, lattice_spec *spec,
                                  size_t a)
 {
-    ffd_status status = ffd_json_read_array(cursor, count, what);
-    if (status)
-        return status;
+    TRY(ffd_json_read_array(cursor, count, what));
     spec->list_count[a] = count;
     spec->list[a] = ffd_alloc(count, sizeof *spec->list[a]);
     if (!spec->list[a])
@@ -118,10 +109,9 @@ static ffd_status read_closed_list(json_cursor cursor, lattice_spec *spec, size_
     static const char *const keys[] = {"closed", SPEC_NOTES};
     json_cursor list;
     spec->kind[a] = KNOTS_CLOSED_LIST;
-    ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
-    if (!status)
-        status = ffd_json_require(cursor, "closed", &list);
-    return status ? status : read_knot_list(list, spec->size[a] + 1, "breakpoints", spec, a);
+    TRY(ffd_spec_read_object(cursor, keys, COUNT_OF(keys)));
+    TRY(ffd_json_require(cursor, "closed", &list));
+    return read_knot_list(list, spec->size[a] + 1, "breakpoints", spec, a);
 }
 
 static ffd_status read_direction_knots(json_cursor cursor, lattice_spec *spec, size_t a)
@@ -136,10 +126,9 @@ static ffd_status read_direction_knots(json_cursor cursor, lattice_spec *spec, s
     if (ffd_cursor_is(cursor, JSON_OBJECT))
         return read_closed_list(cursor, spec, a);
     size_t index;
-    const ffd_status status = ffd_json_read_word(cursor, names, COUNT_OF(names), &index);
-    if (!status)
-        spec->kind[a] = kinds[index];
-    return status;
+    TRY(ffd_json_read_word(cursor, names, COUNT_OF(names), &index));
+    spec->kind[a] = kinds[index];
+    return FFD_OK;
 }
 
 /* A closed direction needs control points at rest that form a ring. */
@@ -197,20 +186,20 @@ static ffd_status read_weights(json_cursor cursor, size_t count, double **weight
 static ffd_status read_deformed(json_cursor cursor, lattice_spec *spec)
 {
     static const char *const keys[] = {"points", "offsets", "weights", SPEC_NOTES};
-    ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
+    TRY(ffd_spec_read_object(cursor, keys, COUNT_OF(keys)));
     const json_cursor points = ffd_cursor_member(cursor, "points");
     const json_cursor offsets = ffd_cursor_member(cursor, "offsets");
     const json_cursor weights = ffd_cursor_member(cursor, "weights");
-    if (!status && ffd_cursor_exists(points) && ffd_cursor_exists(offsets))
+    if (ffd_cursor_exists(points) && ffd_cursor_exists(offsets))
         return ffd_cursor_fail(cursor, "has both \"points\" and \"offsets\"; the deformed control points are "
                                        "given by one of them");
-    if (!status && ffd_cursor_exists(points))
-        status = ffd_spec_read_points(points, spec->count, &spec->deformed_points);
-    if (!status && ffd_cursor_exists(offsets))
-        status = ffd_spec_read_points(offsets, spec->count, &spec->deformed_offsets);
-    if (!status && ffd_cursor_exists(weights))
-        status = read_weights(weights, spec->count, &spec->deformed_weights);
-    return status;
+    if (ffd_cursor_exists(points))
+        TRY(ffd_spec_read_points(points, spec->count, &spec->deformed_points));
+    if (ffd_cursor_exists(offsets))
+        TRY(ffd_spec_read_points(offsets, spec->count, &spec->deformed_offsets));
+    if (ffd_cursor_exists(weights))
+        TRY(read_weights(weights, spec->count, &spec->deformed_weights));
+    return FFD_OK;
 }
 
 static ffd_status read_units(json_cursor cursor, lattice_spec *spec)
@@ -261,19 +250,18 @@ static ffd_status check_kind(json_cursor root)
 {
     if (!ffd_cursor_is(root, JSON_OBJECT))
         return ffd_cursor_fail(root, "a lattice is an object, not %s", ffd_json_describe(root).text);
-    const ffd_status status = read_format(root);
-    return status ? status : read_version(root);
+    TRY(read_format(root));
+    return read_version(root);
 }
 
 static ffd_status read_root(json_cursor root, bool with_moves, lattice_spec *spec)
 {
     const json_cursor moves = ffd_cursor_member(root, "moves");
-    ffd_status status = ffd_spec_read_object(root, top_keys, COUNT_OF(top_keys));
-    if (!status)
-        status = read_members(root, spec);
-    if (!status && with_moves && ffd_cursor_exists(moves))
-        status = ffd_spec_parse_moves(moves, spec);
-    return status;
+    TRY(ffd_spec_read_object(root, top_keys, COUNT_OF(top_keys)));
+    TRY(read_members(root, spec));
+    if (with_moves && ffd_cursor_exists(moves))
+        TRY(ffd_spec_parse_moves(moves, spec));
+    return FFD_OK;
 }
 
 /* Reads the tree of a lattice file, with values for the placeholders in its moves. */

@@ -12,9 +12,7 @@
 static ffd_status read_index(json_cursor cursor, size_t size, size_t *index)
 {
     double number;
-    const ffd_status status = ffd_json_read_integer(cursor, &number);
-    if (status)
-        return status;
+    TRY(ffd_json_read_integer(cursor, &number));
     const double resolved = number < 0 ? number + (double)size : number;
     if (resolved < 0 || resolved >= (double)size)
         return ffd_cursor_fail(cursor, "index %.0f is outside 0 to %zu (or -%zu to -1)", number, size - 1,
@@ -70,15 +68,14 @@ static ffd_status read_within(json_cursor cursor, lattice_move *move)
 {
     static const char *const keys[] = {"min", "max", SPEC_NOTES};
     move->has_within = true;
-    ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
-    if (!status)
-        status = ffd_spec_read_ends(cursor, move->within_min, move->within_max);
-    for (int c = 0; c < 3 && !status; c++)
+    TRY(ffd_spec_read_object(cursor, keys, COUNT_OF(keys)));
+    TRY(ffd_spec_read_ends(cursor, move->within_min, move->within_max));
+    for (int c = 0; c < 3; c++)
         if (move->within_max[c] < move->within_min[c])
             return ffd_cursor_fail(cursor, "max %s is less than min %s",
                                    ffd_number_text(move->within_max[c]).text,
                                    ffd_number_text(move->within_min[c]).text);
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status read_by(json_cursor cursor, lattice_move *move)
@@ -98,22 +95,19 @@ static ffd_status read_factor(json_cursor cursor, double factor[3])
 {
     if (ffd_cursor_is(cursor, JSON_ARRAY))
         return ffd_json_read_doubles(cursor, 3, factor);
-    ffd_status status = FFD_OK;
-    for (int c = 0; c < 3 && !status; c++)
-        status = ffd_json_read_double(cursor, &factor[c]);
-    return status;
+    for (int c = 0; c < 3; c++)
+        TRY(ffd_json_read_double(cursor, &factor[c]));
+    return FFD_OK;
 }
 
 static ffd_status read_scale(json_cursor cursor, lattice_move *move)
 {
     static const char *const keys[] = {"factor", "about", SPEC_NOTES};
     json_cursor factor;
-    ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
-    if (!status)
-        status = ffd_json_require(cursor, "factor", &factor);
-    if (!status)
-        status = read_factor(factor, move->vector);
-    return status ? status : read_about(cursor, move);
+    TRY(ffd_spec_read_object(cursor, keys, COUNT_OF(keys)));
+    TRY(ffd_json_require(cursor, "factor", &factor));
+    TRY(read_factor(factor, move->vector));
+    return read_about(cursor, move);
 }
 
 /* Reads an axis as it is written, without normalising it. */
@@ -129,18 +123,15 @@ static ffd_status read_raw_axis(json_cursor object, const char *key, const doubl
 static ffd_status read_axial(json_cursor cursor, const char *const *known, size_t count, const char *amount,
                              lattice_move *move)
 {
-    ffd_status status = ffd_spec_read_object(cursor, known, count);
-    if (!status)
-        status = ffd_spec_read_axis(cursor, "axis", move->axis);
-    if (!status)
-        status = read_raw_axis(cursor, "axis", move->axis, move->raw_axis);
-    if (!status && move->action == MOVE_BEND)
-        status = ffd_spec_read_axis(cursor, "toward", move->vector);
-    if (!status && move->action == MOVE_BEND)
-        status = read_raw_axis(cursor, "toward", move->vector, move->raw_toward);
-    if (!status)
-        status = ffd_json_member_double(cursor, amount, &move->amount);
-    return status ? status : read_about(cursor, move);
+    TRY(ffd_spec_read_object(cursor, known, count));
+    TRY(ffd_spec_read_axis(cursor, "axis", move->axis));
+    TRY(read_raw_axis(cursor, "axis", move->axis, move->raw_axis));
+    if (move->action == MOVE_BEND)
+        TRY(ffd_spec_read_axis(cursor, "toward", move->vector));
+    if (move->action == MOVE_BEND)
+        TRY(read_raw_axis(cursor, "toward", move->vector, move->raw_toward));
+    TRY(ffd_json_member_double(cursor, amount, &move->amount));
+    return read_about(cursor, move);
 }
 
 /* rotate, twist */
@@ -172,20 +163,17 @@ static ffd_status read_exact(json_cursor cursor, lattice_move *move)
 static ffd_status read_bend(json_cursor cursor, lattice_move *move)
 {
     static const char *const keys[] = {"axis", "toward", "degrees", "about", "exact", SPEC_NOTES};
-    ffd_status status = read_axial(cursor, keys, COUNT_OF(keys), "degrees", move);
-    if (!status)
-        status = read_exact(ffd_cursor_member(cursor, "exact"), move);
-    if (status || ffd_direction_perpendicular(move->axis, move->vector))
-        return status;
+    TRY(read_axial(cursor, keys, COUNT_OF(keys), "degrees", move));
+    TRY(read_exact(ffd_cursor_member(cursor, "exact"), move));
+    if (ffd_direction_perpendicular(move->axis, move->vector))
+        return FFD_OK;
     return ffd_cursor_fail(ffd_cursor_member(cursor, "toward"),
                            "is parallel to the axis, which it must not be");
 }
 
 static ffd_status read_matrix(json_cursor cursor, lattice_move *move)
 {
-    const ffd_status status = ffd_json_read_doubles(cursor, 16, move->matrix);
-    if (status)
-        return status;
+    TRY(ffd_json_read_doubles(cursor, 16, move->matrix));
     const double *const last = move->matrix + 12;
     if (last[0] == 0 && last[1] == 0 && last[2] == 0 && last[3] == 1)
         return FFD_OK;
@@ -197,12 +185,10 @@ static ffd_status read_matrix(json_cursor cursor, lattice_move *move)
 static ffd_status read_pull(json_cursor cursor, lattice_move *move)
 {
     static const char *const keys[] = {"point", "by", "radius", SPEC_NOTES};
-    ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
-    if (!status)
-        status = ffd_json_member_doubles(cursor, "point", 3, move->point);
-    if (!status)
-        status = ffd_json_member_doubles(cursor, "by", 3, move->vector);
-    return status ? status : ffd_spec_read_positive(cursor, "radius", &move->radius);
+    TRY(ffd_spec_read_object(cursor, keys, COUNT_OF(keys)));
+    TRY(ffd_json_member_doubles(cursor, "point", 3, move->point));
+    TRY(ffd_json_member_doubles(cursor, "by", 3, move->vector));
+    return ffd_spec_read_positive(cursor, "radius", &move->radius);
 }
 
 static const struct action_reader {
@@ -259,24 +245,21 @@ static ffd_status read_weight(json_cursor cursor, lattice_move *move)
     move->weight = 1;
     if (!ffd_cursor_exists(weight))
         return FFD_OK;
-    const ffd_status status = ffd_json_read_double(weight, &move->weight);
-    if (status || (move->weight >= 0 && move->weight <= 1))
-        return status;
+    TRY(ffd_json_read_double(weight, &move->weight));
+    if ((move->weight >= 0 && move->weight <= 1))
+        return FFD_OK;
     return ffd_cursor_fail(weight, "weight %s is not between 0 and 1", ffd_number_text(move->weight).text);
 }
 
 static ffd_status read_axis_falloff(json_cursor cursor, move_falloff *falloff)
 {
     falloff->kind = FALLOFF_AXIS;
-    ffd_status status = ffd_spec_read_axis(cursor, "axis", falloff->axis);
-    if (!status)
-        status = read_raw_axis(cursor, "axis", falloff->axis, falloff->raw_axis);
-    if (!status)
-        status = ffd_json_member_double(cursor, "from", &falloff->from);
-    if (!status)
-        status = ffd_json_member_double(cursor, "to", &falloff->to);
-    if (status || falloff->from != falloff->to)
-        return status;
+    TRY(ffd_spec_read_axis(cursor, "axis", falloff->axis));
+    TRY(read_raw_axis(cursor, "axis", falloff->axis, falloff->raw_axis));
+    TRY(ffd_json_member_double(cursor, "from", &falloff->from));
+    TRY(ffd_json_member_double(cursor, "to", &falloff->to));
+    if (falloff->from != falloff->to)
+        return FFD_OK;
     return ffd_cursor_fail(cursor, "from and to are both %s: there is nothing to fall off between",
                            ffd_number_text(falloff->to).text);
 }
@@ -296,9 +279,7 @@ static ffd_status read_falloff(json_cursor cursor, move_falloff *falloff)
     static const char *const keys[] = {"axis", "from", "to", "center", "radius", SPEC_NOTES};
     if (!ffd_cursor_exists(cursor))
         return FFD_OK;
-    ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
-    if (status)
-        return status;
+    TRY(ffd_spec_read_object(cursor, keys, COUNT_OF(keys)));
     const char *const along = first_member(cursor, keys, 3), *const round = first_member(cursor, keys + 3, 2);
     const bool is_along = ffd_cursor_exists(ffd_cursor_member(cursor, along));
     const bool is_round = ffd_cursor_exists(ffd_cursor_member(cursor, round));
@@ -312,8 +293,8 @@ static ffd_status read_falloff(json_cursor cursor, move_falloff *falloff)
     if (is_along)
         return read_axis_falloff(cursor, falloff);
     falloff->kind = FALLOFF_BALL;
-    status = ffd_json_member_doubles(cursor, "center", 3, falloff->center);
-    return status ? status : ffd_spec_read_positive(cursor, "radius", &falloff->radius);
+    TRY(ffd_json_member_doubles(cursor, "center", 3, falloff->center));
+    return ffd_spec_read_positive(cursor, "radius", &falloff->radius);
 }
 
 static ffd_status read_mirror(json_cursor cursor, lattice_move *move)
@@ -337,16 +318,12 @@ static ffd_status read_move(json_cursor cursor, const lattice_spec *spec, lattic
     const json_cursor exact = ffd_cursor_member(cursor, "exact");
     if (ffd_cursor_exists(exact)) /* a suggestion of the most similar key would mislead */
         return ffd_cursor_fail(exact, "unknown key \"exact\" of a move; it is one of \"bend\"");
-    ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
-    if (!status)
-        status = read_selection(cursor, spec, move);
-    if (!status)
-        status = read_weight(cursor, move);
-    if (!status)
-        status = read_falloff(ffd_cursor_member(cursor, "falloff"), &move->falloff);
-    if (!status)
-        status = read_mirror(ffd_cursor_member(cursor, "mirror"), move);
-    return status ? status : read_action(cursor, move);
+    TRY(ffd_spec_read_object(cursor, keys, COUNT_OF(keys)));
+    TRY(read_selection(cursor, spec, move));
+    TRY(read_weight(cursor, move));
+    TRY(read_falloff(ffd_cursor_member(cursor, "falloff"), &move->falloff));
+    TRY(read_mirror(ffd_cursor_member(cursor, "mirror"), move));
+    return read_action(cursor, move);
 }
 
 ffd_status ffd_spec_parse_moves(json_cursor cursor, lattice_spec *spec)

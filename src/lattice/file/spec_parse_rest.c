@@ -174,17 +174,17 @@ static ffd_status read_zero(json_cursor cylinder, lattice_spec *spec)
         ffd_direction_default_zero(spec->axis, spec->zero);
         return FFD_OK;
     }
-    const ffd_status status = ffd_spec_read_axis(cylinder, "zero", spec->zero);
-    if (status || ffd_direction_perpendicular(spec->axis, spec->zero))
-        return status;
+    TRY(ffd_spec_read_axis(cylinder, "zero", spec->zero));
+    if (ffd_direction_perpendicular(spec->axis, spec->zero))
+        return FFD_OK;
     return ffd_cursor_fail(zero, "is parallel to the axis, which it must not be");
 }
 
 static ffd_status read_radius(json_cursor cylinder, double radius[2])
 {
-    const ffd_status status = ffd_json_member_doubles(cylinder, "radius", 2, radius);
-    if (status || (radius[0] >= 0 && radius[0] < radius[1]))
-        return status;
+    TRY(ffd_json_member_doubles(cylinder, "radius", 2, radius));
+    if ((radius[0] >= 0 && radius[0] < radius[1]))
+        return FFD_OK;
     return ffd_cursor_fail(ffd_cursor_member(cylinder, "radius"), "radii %s and %s are not 0 <= r0 < r1",
                            ffd_number_text(radius[0]).text, ffd_number_text(radius[1]).text);
 }
@@ -196,9 +196,7 @@ static ffd_status read_angle(json_cursor cylinder, double angle[2])
     angle[1] = 360;
     if (!ffd_cursor_exists(cursor))
         return FFD_OK;
-    const ffd_status status = ffd_json_read_doubles(cursor, 2, angle);
-    if (status)
-        return status;
+    TRY(ffd_json_read_doubles(cursor, 2, angle));
     const double span = angle[1] - angle[0];
     if (span > 0 && span <= 360 + SPEC_TURN_TOLERANCE)
         return FFD_OK;
@@ -210,20 +208,13 @@ static ffd_status read_cylinder(json_cursor cursor, lattice_spec *spec)
 {
     static const char *const keys[] = {"center", "axis", "zero", "radius", "height", "angle", SPEC_NOTES};
     spec->rest = SPEC_CYLINDER;
-    ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
-    if (!status)
-        status = ffd_json_member_doubles(cursor, "center", 3, spec->center);
-    if (!status)
-        status = ffd_spec_read_axis(cursor, "axis", spec->axis);
-    if (!status)
-        status = read_zero(cursor, spec);
-    if (!status)
-        status = read_radius(cursor, spec->radius);
-    if (!status)
-        status = ffd_spec_read_positive(cursor, "height", &spec->height);
-    if (!status)
-        status = read_angle(cursor, spec->angle);
-    return status;
+    TRY(ffd_spec_read_object(cursor, keys, COUNT_OF(keys)));
+    TRY(ffd_json_member_doubles(cursor, "center", 3, spec->center));
+    TRY(ffd_spec_read_axis(cursor, "axis", spec->axis));
+    TRY(read_zero(cursor, spec));
+    TRY(read_radius(cursor, spec->radius));
+    TRY(ffd_spec_read_positive(cursor, "height", &spec->height));
+    return read_angle(cursor, spec->angle);
 }
 
 ffd_status ffd_spec_parse_rest(json_cursor cursor, lattice_spec *spec)
@@ -232,9 +223,7 @@ ffd_status ffd_spec_parse_rest(json_cursor cursor, lattice_spec *spec)
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++)
             spec->box_axes[3 * r + c] = r == c;
-    const ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
-    if (status)
-        return status;
+    TRY(ffd_spec_read_object(cursor, keys, COUNT_OF(keys)));
     const json_cursor box = ffd_cursor_member(cursor, "box"),
                       cylinder = ffd_cursor_member(cursor, "cylinder"),
                       points = ffd_cursor_member(cursor, "points");

@@ -54,10 +54,9 @@ ffd_status ffd_spec_check_notes(json_cursor object)
 
 ffd_status ffd_spec_read_object(json_cursor cursor, const char *const *known, size_t count)
 {
-    ffd_status status = refuse_foreign(cursor, known, count);
-    if (!status)
-        status = ffd_json_read_object(cursor, known, count);
-    return status ? status : ffd_spec_check_notes(cursor);
+    TRY(refuse_foreign(cursor, known, count));
+    TRY(ffd_json_read_object(cursor, known, count));
+    return ffd_spec_check_notes(cursor);
 }
 
 ffd_status ffd_spec_read_points(json_cursor cursor, size_t count, double **points)
@@ -91,15 +90,15 @@ ffd_status ffd_spec_read_path(json_cursor cursor, char **path)
 
 ffd_status ffd_spec_read_ends(json_cursor object, double min[3], double max[3])
 {
-    const ffd_status status = ffd_json_member_doubles(object, "min", 3, min);
-    return status ? status : ffd_json_member_doubles(object, "max", 3, max);
+    TRY(ffd_json_member_doubles(object, "min", 3, min));
+    return ffd_json_member_doubles(object, "max", 3, max);
 }
 
 ffd_status ffd_spec_read_positive(json_cursor object, const char *key, double *value)
 {
-    const ffd_status status = ffd_json_member_double(object, key, value);
-    if (status || *value > 0)
-        return status;
+    TRY(ffd_json_member_double(object, key, value));
+    if (*value > 0)
+        return FFD_OK;
     return ffd_cursor_fail(ffd_cursor_member(object, key), "%s %s is not more than 0", key,
                            ffd_number_text(*value).text);
 }
@@ -127,17 +126,13 @@ ffd_status ffd_spec_read_axis(json_cursor object, const char *key, double axis[3
         return status;
     if (ffd_cursor_is(cursor, JSON_STRING)) {
         size_t index;
-        status = refuse_sign(cursor);
-        if (status)
-            return status;
+        TRY(refuse_sign(cursor));
         status = ffd_json_read_word(cursor, names, COUNT_OF(names), &index);
         for (size_t c = 0; c < 3; c++)
             axis[c] = c == index;
         return status;
     }
-    status = ffd_json_read_doubles(cursor, 3, axis);
-    if (status)
-        return status;
+    TRY(ffd_json_read_doubles(cursor, 3, axis));
     return ffd_direction_unit(axis) ? FFD_OK
                                     : ffd_cursor_fail(cursor, "must not be 0 0 0: that is not a direction");
 }

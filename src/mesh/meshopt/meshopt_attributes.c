@@ -153,9 +153,7 @@ ffd_status ffd_meshopt_read_attributes(const meshopt_view *view, meshopt_stream 
 {
     attributes a = {.stream = from, .version = ffd_meshopt_version(view), .stride = (size_t)view->stride};
     const size_t most = ffd_meshopt_block(a.stride);
-    const ffd_status status = begin(&a, view, error);
-    if (status)
-        return status;
+    TRY(begin(&a, view, error));
     for (size_t left = (size_t)view->count; left > 0;) {
         const size_t count = left < most ? left : most;
         if (!read_block(&a, count, bytes))

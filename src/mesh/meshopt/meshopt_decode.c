@@ -28,12 +28,12 @@ static ffd_status read_stream(const meshopt_view *view, meshopt_stream *from, un
 ffd_status ffd_meshopt_read(const meshopt_view *view, unsigned char *bytes, ffd_error *error)
 {
     meshopt_stream from = {view->bytes + 1, view->bytes + view->size - ffd_meshopt_tail(view)};
-    const ffd_status status = read_stream(view, &from, bytes, error);
-    if (status == FFD_OK && from.at < from.end)
+    TRY(read_stream(view, &from, bytes, error));
+    if (from.at < from.end)
         return ffd_fail(error, FFD_E_INVALID, "the compressed data of mode %s has %zu %s too many",
                         ffd_meshopt_mode_name(view->mode), (size_t)(from.end - from.at),
                         ffd_plural((uint64_t)(from.end - from.at), "byte", "bytes"));
-    return status;
+    return FFD_OK;
 }
 
 static void apply_filter(const meshopt_view *view, unsigned char *bytes)
@@ -65,7 +65,7 @@ ffd_status ffd_meshopt_decode(const meshopt_view *view, unsigned char *bytes, ff
     const bool is_older = ffd_meshopt_version(view) == 0 && ffd_meshopt_library_ready(NULL) == FFD_OK;
     const ffd_status status =
         is_older ? ffd_meshopt_library_decode(view, bytes, error) : ffd_meshopt_read(view, bytes, error);
-    if (status == FFD_OK)
+    if (!status)
         apply_filter(view, bytes);
     return status;
 }

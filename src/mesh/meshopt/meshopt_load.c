@@ -12,8 +12,8 @@ ffd_status ffd_meshopt_library_ready(ffd_error *error)
 ffd_status ffd_meshopt_library_decode(const meshopt_view *view, unsigned char *bytes, ffd_error *error)
 {
     const module_head *head;
-    const ffd_status status = ffd_module_load(&meshopt, &head, error);
-    return status ? status : ((const meshopt_module *)head)->decode(view, bytes, error);
+    TRY(ffd_module_load(&meshopt, &head, error));
+    return ((const meshopt_module *)head)->decode(view, bytes, error);
 }
 
 ffd_status ffd_meshopt_simplify(const meshopt_mesh *mesh, size_t target, bool is_rough, uint32_t *result,

@@ -107,9 +107,7 @@ static ffd_status read_weight(clip_parser *p)
     const char *const begin = p->at;
     uint32_t target;
     double weight;
-    ffd_status status = read_name(p, " \t=,");
-    if (status)
-        return status;
+    TRY(read_name(p, " \t=,"));
     skip_blanks(p);
     if (*p->at != '=') {
         p->at = begin;
@@ -117,9 +115,7 @@ static ffd_status read_weight(clip_parser *p)
     }
     p->at++;
     skip_blanks(p);
-    status = read_number(p, "is not a weight", &weight);
-    if (status)
-        return status;
+    TRY(read_number(p, "is not a weight", &weight));
     const size_t known = clip->names.count;
     if (!ffd_intern(&clip->names, p->word, p->length, &target) ||
         !ffd_grow((void **)&p->last_key, &p->last_capacity, clip->names.count, sizeof *p->last_key) ||
@@ -143,9 +139,7 @@ static ffd_status read_time(clip_parser *p)
     morph_clip *const clip = p->clip;
     const char *const begin = p->at;
     double time;
-    const ffd_status status = read_number(p, "is not a time in seconds", &time);
-    if (status)
-        return status;
+    TRY(read_number(p, "is not a time in seconds", &time));
     const float rounded = (float)time + 0.0f; /* -0 becomes 0 */
     p->at = begin;
     if (time < 0)

@@ -42,7 +42,7 @@ static ffd_status take(const material_images *images, const char *name, uint64_t
     const uint64_t all = size + strlen(name) + 1 + sizeof *images->materials->images; /* both are in memory at
                                                                                          the same time */
     const ffd_status status = ffd_budget_take(images->budget, 1, all, &problem);
-    if (status == FFD_OK)
+    if (!status)
         return FFD_OK;
     ffd_name_shown(name, shown, sizeof shown);
     return ffd_fail_file(error, status, ffd_file_display_name(images->mesh.file), "the image \"%s\" %s",
@@ -58,9 +58,7 @@ ffd_status ffd_images_add(material_images *images, const char *name, const unsig
         ffd_left_add(&images->left, name, "is neither PNG nor JPEG");
         return FFD_OK;
     }
-    const ffd_status status = take(images, name, size, error);
-    if (status)
-        return status;
+    TRY(take(images, name, size, error));
     const bool grown =
         ffd_grow((void **)&m->images, &m->image_capacity, m->image_count + 1, sizeof *m->images);
     const mesh_image made = {ffd_text_copy(name), ffd_alloc(size, 1), size};
@@ -83,9 +81,9 @@ ffd_status ffd_images_load(material_images *images, const char *path, uint32_t *
     const char *left;
     ffd_error refused;
     bool is_known = false;
-    ffd_status status = ffd_images_find(images, path, &is_known, image, error);
-    if (status || is_known)
-        return status;
+    TRY(ffd_images_find(images, path, &is_known, image, error));
+    if (is_known)
+        return FFD_OK;
     if (!images->folder) {
         ffd_left_add(&images->left, path, "is a file, and standard input has no folder");
         return FFD_OK;
@@ -94,14 +92,12 @@ ffd_status ffd_images_load(material_images *images, const char *path, uint32_t *
         ffd_left_add(&images->left, path, "has tiles");
         return FFD_OK;
     }
-    status = ffd_resource_load(&from, &resource, &bytes, &left, &refused, error);
-    if (status)
-        return status;
+    TRY(ffd_resource_load(&from, &resource, &bytes, &left, &refused, error));
     if (left || refused.status) {
         ffd_left_add_unloaded(&images->left, path, left);
         return FFD_OK;
     }
-    status = ffd_images_add(images, path, bytes.data, bytes.size, image, error);
+    ffd_status status = ffd_images_add(images, path, bytes.data, bytes.size, image, error);
     ffd_file_unload(&bytes);
     return status;
 }

@@ -40,9 +40,9 @@ static ffd_status compare_copy(const resource_kind *kind, const char *target, co
                                ffd_error *error)
 {
     bool same = false;
-    const ffd_status status = ffd_file_compare(target, bytes, &same, error);
-    if (status || same)
-        return status;
+    TRY(ffd_file_compare(target, bytes, &same, error));
+    if (same)
+        return FFD_OK;
     return ffd_fail_file(
         error, FFD_E_IO, target,
         "already exists and is not the %s to be copied there ({resources=reference} copies none)",
@@ -60,7 +60,7 @@ static ffd_status write_copy(const resource_copier *c, const resource_kind *kind
     char *folder = ffd_path_folder(target);
     ffd_status status = folder ? ffd_output_folder(c->output, folder, error) : ffd_fail_memory(error);
     ffd_free(folder);
-    if (status == FFD_OK)
+    if (!status)
         status = begin_copy(c, target, &exists, error);
     if (status)
         return status;
@@ -167,9 +167,9 @@ ffd_status ffd_resource_copy(const resource_copier *c, const mesh_resource *reso
 {
     file_input bytes = {0};
     const char *left;
-    ffd_status status = ffd_resource_load(c, resource, &bytes, &left, refused, error);
-    if (status || refused->status)
-        return status;
+    TRY(ffd_resource_load(c, resource, &bytes, &left, refused, error));
+    if (refused->status)
+        return FFD_OK;
     if (left) {
         char shown[RESOURCE_SHOWN];
         ffd_name_shown(resource->path, shown, sizeof shown);
@@ -177,7 +177,7 @@ ffd_status ffd_resource_copy(const resource_copier *c, const mesh_resource *reso
                      shown, left);
         return FFD_OK;
     }
-    status = copy_loaded(c, resource, &bytes, error);
+    ffd_status status = copy_loaded(c, resource, &bytes, error);
     ffd_file_unload(&bytes);
     return status;
 }

@@ -15,22 +15,22 @@ ffd_status ffd_png_decode(const unsigned char *bytes, size_t size, const memory_
                           ffd_error *error)
 {
     const image_module *table;
-    const ffd_status status = load(&table, error);
-    return status ? status : table->png_decode(bytes, size, budget, result, error);
+    TRY(load(&table, error));
+    return table->png_decode(bytes, size, budget, result, error);
 }
 
 ffd_status ffd_jpeg_decode(const unsigned char *bytes, size_t size, const memory_budget *budget,
                            image *result, ffd_error *error)
 {
     const image_module *table;
-    const ffd_status status = load(&table, error);
-    return status ? status : table->jpeg_decode(bytes, size, budget, result, error);
+    TRY(load(&table, error));
+    return table->jpeg_decode(bytes, size, budget, result, error);
 }
 
 ffd_status ffd_png_write(const uint8_t *pixels, uint32_t width, uint32_t height, image_sink sink,
                          void *context, ffd_error *error)
 {
     const image_module *table;
-    const ffd_status status = load(&table, error);
-    return status ? status : table->png_write(pixels, width, height, sink, context, error);
+    TRY(load(&table, error));
+    return table->png_write(pixels, width, height, sink, context, error);
 }

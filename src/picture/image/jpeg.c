@@ -103,9 +103,7 @@ static ffd_status read_pixels(struct jpeg_decompress_struct *jpeg, jpeg_task *ta
     jpeg->progress = &task->progress;
     jpeg_mem_src(jpeg, bytes, (unsigned long)size);
     jpeg_read_header(jpeg, TRUE);
-    const ffd_status status = check(jpeg, budget, error);
-    if (status)
-        return status;
+    TRY(check(jpeg, budget, error));
     jpeg->out_color_space = JCS_RGB;
     jpeg->dct_method = JDCT_ISLOW;
     jpeg->do_fancy_upsampling = FALSE;

@@ -107,9 +107,7 @@ static ffd_status read_pixels(png_structp png, png_infop info, png_task *task, c
     png_set_read_fn(png, task, read_some);
     png_read_info(png, info);
     const uint32_t width = png_get_image_width(png, info), height = png_get_image_height(png, info);
-    const ffd_status status = ffd_image_check(width, height, 4, budget, error);
-    if (status)
-        return status;
+    TRY(ffd_image_check(width, height, 4, budget, error));
     const int passes = ask_for_colors(png, info);
     if (png_get_rowbytes(png, info) != (size_t)4 * width)
         png_error(png, "its rows have an unexpected size");

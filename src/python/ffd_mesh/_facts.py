@@ -20,7 +20,7 @@ def _text() -> Iterator[Any]:
     try:
         yield text
     finally:
-        lib.ffd_text_free(text)
+        lib.ffd_free(text)
 
 
 def _place(source: Any, structure: Any, input_format: str | None, memory: int | None, strict: bool) -> None:

@@ -182,9 +182,7 @@ static bool put_weights(clip_writer *w, const uint32_t *names, size_t count, uin
 static ffd_status add_sampler(clip_writer *w, const uint32_t *names, size_t count, uint32_t default_value)
 {
     const uint64_t numbers = (uint64_t)w->clip->key_count * count;
-    const ffd_status status = ffd_budget_take(&w->budget, numbers, sizeof(float), w->error);
-    if (status)
-        return status;
+    TRY(ffd_budget_take(&w->budget, numbers, sizeof(float), w->error));
     if (w->input == GLTF_NONE)
         add_times(w);
     const size_t output = add_accessor(w, (size_t)numbers, "");
@@ -206,9 +204,7 @@ static ffd_status add_channel(clip_writer *w, size_t node, uint32_t *names)
         if (!find_driven(w, mesh, names, count))
             return FFD_OK;
         sampler = w->sampler_count;
-        const ffd_status status = add_sampler(w, names, count, ffd_gltf_first_weight(d, mesh, node));
-        if (status)
-            return status;
+        TRY(add_sampler(w, names, count, ffd_gltf_first_weight(d, mesh, node)));
         if (!own)
             w->samplers[mesh] = sampler;
     }
@@ -270,9 +266,7 @@ static ffd_status place_clip(clip_writer *w, uint32_t animations)
     char shown[80];
     byte_buffer text = {0};
     ffd_name_shown(w->clip->name, shown, sizeof shown);
-    const ffd_status status = old == JSON_NONE ? FFD_OK : warn_of_replaced(w, old, shown);
-    if (status)
-        return status;
+    TRY(old == JSON_NONE ? FFD_OK : warn_of_replaced(w, old, shown));
     ffd_buffer_text(&text, old == JSON_NONE && w->added.size > 0 ? ",{\"name\":" : "{\"name\":");
     put_name(w->clip->name, &text);
     ffd_buffer_text(&text, ",\"channels\":[");

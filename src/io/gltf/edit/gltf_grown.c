@@ -102,7 +102,7 @@ static ffd_status write_file(gltf_grown *w, file_input *made, ffd_error *error)
         status = ffd_fail_memory(error);
     else if (file->size > UINT32_MAX)
         status = ffd_fail_file(error, FFD_E_LIMIT, d->name, "would have more than 4294967295 bytes");
-    if (status == FFD_OK) {
+    if (!status) {
         *made =
             (file_input){.data = (const unsigned char *)file->data, .size = file->size, .block = file->data};
         *file = (byte_buffer){0};

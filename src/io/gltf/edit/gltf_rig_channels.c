@@ -125,10 +125,8 @@ static ffd_status make_content(const channel_work *w, const change_key *key,
                                 .width = key->path == GLTF_ROTATION ? 4 : 3};
     bool changes;
     *number = GLTF_NONE;
-    ffd_status status = ffd_gltf_make_elements(w->rig, &content, w->error);
-    if (status)
-        return status;
-    status = fill_values(w, key, sampler, &content, &changes);
+    TRY(ffd_gltf_make_elements(w->rig, &content, w->error));
+    ffd_status status = fill_values(w, key, sampler, &content, &changes);
     if (status || !changes) {
         ffd_gltf_free_elements(w->rig, &content);
         return status;
@@ -189,7 +187,7 @@ static ffd_status follow_channels(channel_work *w, const gltf_animation *animati
     bool *const taken = ffd_alloc_zero(animation->sampler_count, sizeof *taken);
     intern_table copies = {0};
     ffd_status status = taken ? FFD_OK : ffd_fail_memory(w->error);
-    for (size_t c = 0; c < animation->channel_count && status == FFD_OK; c++) {
+    for (size_t c = 0; c < animation->channel_count && !status; c++) {
         const gltf_channel *const channel = &animation->channels[c];
         size_t content = GLTF_NONE;
         change->channels[c] = channel->sampler;
@@ -197,8 +195,8 @@ static ffd_status follow_channels(channel_work *w, const gltf_animation *animati
             continue;
         if (is_concerned(w->rig, channel))
             status = find_content(w, channel, &animation->samplers[channel->sampler], &content);
-        if (status == FFD_OK && !choose_sampler(animation, channel->sampler, content, taken, &copies, change,
-                                                &change->channels[c]))
+        if (!status && !choose_sampler(animation, channel->sampler, content, taken, &copies, change,
+                                       &change->channels[c]))
             status = ffd_fail_memory(w->error);
     }
     ffd_intern_free(&copies);
@@ -215,9 +213,9 @@ static ffd_status follow_animation(channel_work *w, gltf_animation *animation, g
     change->channels = ffd_alloc(animation->channel_count, sizeof *change->channels);
     if (!change->contents || !change->channels)
         status = ffd_fail_memory(w->error);
-    for (size_t s = 0; s < animation->sampler_count && status == FFD_OK; s++)
+    for (size_t s = 0; s < animation->sampler_count && !status; s++)
         change->contents[s] = GLTF_NONE;
-    if (status == FFD_OK)
+    if (!status)
         status = follow_channels(w, animation, change);
     ffd_gltf_unload_animation(w->document, animation);
     return status;
@@ -246,7 +244,7 @@ ffd_status ffd_gltf_follow_animations(gltf_document *d, gltf_rig *rig, ffd_error
     rig->changes = ffd_alloc_zero(rig->animations.count, sizeof *rig->changes);
     if (!rig->changes)
         return ffd_fail_memory(error);
-    for (size_t a = 0; a < rig->animations.count && status == FFD_OK; a++) {
+    for (size_t a = 0; a < rig->animations.count && !status; a++) {
         gltf_animation *const animation = &rig->animations.list[a];
         bool concerned = false;
         for (size_t c = 0; c < animation->channel_count; c++) {

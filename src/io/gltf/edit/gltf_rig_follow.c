@@ -135,7 +135,7 @@ static ffd_status list_staying(const gltf_document *d, const mesh_places *places
 {
     const bool is_old = ffd_gltf_has_extension(d, 0, "VRM");
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < places->count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < places->count && !status; i++) {
         const mesh_place *const place = &places->list[i];
         const bool has_shape = place->kinds & PLACE_BIT(FFD_BEHIND_PHYSICS_SHAPE);
         const size_t moved = rig->motions[place->number].moved;
@@ -152,7 +152,7 @@ static ffd_status list_staying(const gltf_document *d, const mesh_places *places
                       {moves && place->holds & PLACE_HOLDS_AIM, &found->aims},
                       /* Also nodes that stay below one that turns. */
                       {is_old && moved != GLTF_NONE && is_turned(d, &rig->nodes[moved]), &found->turned}};
-        for (size_t g = 0; g < sizeof groups / sizeof *groups && status == FFD_OK; g++)
+        for (size_t g = 0; g < sizeof groups / sizeof *groups && !status; g++)
             if (groups[g].is_one)
                 status = add_place(d, place->number, groups[g].group, error);
         following->unscaled += groups[0].is_one || groups[1].is_one || groups[2].is_one || groups[3].is_one;
@@ -224,11 +224,9 @@ static ffd_status warn_of_left(const gltf_document *d, const gltf_rig *rig, cons
     const uint64_t count = following->unselected;
     if (rig->left == GLTF_NONE)
         return FFD_OK;
-    ffd_status status = add_place(d, rig->left, &left, error);
-    if (status == FFD_OK && rig->left_below != GLTF_NONE && rig->left_below != rig->left)
-        status = add_place(d, rig->left_below, &above, error);
-    if (status)
-        return status;
+    TRY(add_place(d, rig->left, &left, error));
+    if (rig->left_below != GLTF_NONE && rig->left_below != rig->left)
+        TRY(add_place(d, rig->left_below, &above, error));
     if (following->unselected_by > 0)
         snprintf(off, sizeof off, ", up to %g from where", following->unselected_by);
     ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " %s%s %s %s %s: %s%s%s", count,
@@ -251,7 +249,7 @@ static ffd_status warn_of_left_skins(const gltf_document *d, const gltf_rig *rig
     bool *const listed = ffd_alloc_zero(d->model.node_count, sizeof *listed);
     if (!listed)
         return ffd_fail_memory(error);
-    for (size_t i = 0; i < d->base.part_count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < d->base.part_count && !status; i++) {
         double by;
         const size_t node = d->parts[i].node;
         status = left_by_joints(d, rig, i, &by, error);
@@ -266,7 +264,7 @@ static ffd_status warn_of_left_skins(const gltf_document *d, const gltf_rig *rig
     end_group(&left);
     following->unselected += left.count;
     following->unselected_by = most > following->unselected_by ? most : following->unselected_by;
-    if (status == FFD_OK && left.count > 0)
+    if (!status && left.count > 0)
         ffd_log_line(log, FFD_LOG_WARNING, "%zu skinned %s, though joints %s on move, by up to %g%s",
                      left.count,
                      ffd_plural(left.count, SPELLED("mesh that {only} does not select stays where it is"),
@@ -285,9 +283,7 @@ static ffd_status warn_of_rig(const gltf_document *d, const mesh_places *places,
     staying found = {0};
     if (rig->node_count == 0)
         return FFD_OK;
-    const ffd_status status = find_staying(d, places, rig, &found, following, error);
-    if (status)
-        return status;
+    TRY(find_staying(d, places, rig, &found, following, error));
     log_changes(d, rig, log);
     ffd_status warned = warn_of_left(d, rig, following, log, error);
     if (warned == FFD_OK)
@@ -330,19 +326,17 @@ ffd_status ffd_gltf_follow(mesh_document *document, const mesh_places *places, m
     gltf_document *const d = (gltf_document *)document;
     ffd_gltf_free_rig(d);
     *following = (mesh_following){0};
-    ffd_status status = check_memory(d, error);
-    if (status)
-        return status;
+    TRY(check_memory(d, error));
     d->rig = ffd_alloc_zero(1, sizeof *d->rig);
     if (!d->rig)
         return ffd_fail_memory(error);
     d->rig->budget = &d->base.budget;
-    status = ffd_gltf_follow_nodes(d, places, moves, d->rig, following, error);
-    if (status == FFD_OK)
+    ffd_status status = ffd_gltf_follow_nodes(d, places, moves, d->rig, following, error);
+    if (!status)
         status = ffd_gltf_follow_skins(d, places, moves, d->rig, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_gltf_follow_animations(d, d->rig, error);
-    if (status == FFD_OK)
+    if (!status)
         status = warn_of_rig(d, places, d->rig, log, following, error);
     if (status)
         ffd_gltf_free_rig(d);

@@ -191,9 +191,7 @@ static ffd_status make_matrices(const gltf_document *d, size_t s, const affine *
         if (!find_change(d, rig, skin->joints[j], similarity, &change))
             continue;
         if (!content->values) {
-            const ffd_status status = ffd_gltf_make_elements(rig, content, error);
-            if (status)
-                return status;
+            TRY(ffd_gltf_make_elements(rig, content, error));
             read_matrices(d, skin, content);
         }
         if (!put_matrix(&change, content->values + 16 * j))
@@ -272,7 +270,7 @@ ffd_status ffd_gltf_follow_skins(gltf_document *d, const mesh_places *places, co
     ffd_status status = allocated ? FFD_OK : ffd_fail_memory(error);
     if (allocated)
         mark_skins(d, shown, staying);
-    for (size_t s = 0; s < count && status == FFD_OK; s++) {
+    for (size_t s = 0; s < count && !status; s++) {
         affine similarity = still;
         const gltf_skin *const skin = &d->skins[s];
         const size_t first = skin->joint_count ? find_place(places, skin->joints[0]) : SIZE_MAX;
@@ -283,9 +281,9 @@ ffd_status ffd_gltf_follow_skins(gltf_document *d, const mesh_places *places, co
         if (shown[s] || (staying[s] && ffd_gltf_has_joint_matrices(d, skin)))
             status = follow_skin(d, s, &similarity, rig, error);
     }
-    if (status == FFD_OK)
+    if (!status)
         carry_parts(d, rig, inverses);
-    for (size_t i = 0; i < d->base.part_count && status == FFD_OK; i++)
+    for (size_t i = 0; i < d->base.part_count && !status; i++)
         if (d->mesh_parts[i].carried && d->mesh_parts[i].skipped)
             status = ffd_gltf_add_results(d, i, error);
     ffd_free(inverses);

@@ -53,9 +53,7 @@ ffd_status ffd_glb_parse(const unsigned char *data, size_t size, const char *nam
 
     glb_chunk chunk = {0};
     size_t at = GLB_HEADER_SIZE;
-    ffd_status status = read_chunk(data, layout->end, name, &at, &chunk, error);
-    if (status)
-        return status;
+    TRY(read_chunk(data, layout->end, name, &at, &chunk, error));
     if (chunk.type != GLB_CHUNK_JSON)
         return ffd_fail_file(error, FFD_E_INVALID, name, "GLB: the first chunk has type 0x%08lx, not JSON",
                              (unsigned long)chunk.type);
@@ -63,9 +61,7 @@ ffd_status ffd_glb_parse(const unsigned char *data, size_t size, const char *nam
     layout->json_size = chunk.size;
     layout->rest_begin = at;
     for (bool first = true; at < layout->end; first = false) {
-        status = read_chunk(data, layout->end, name, &at, &chunk, error);
-        if (status)
-            return status;
+        TRY(read_chunk(data, layout->end, name, &at, &chunk, error));
         if (!first || chunk.type != GLB_CHUNK_BIN)
             continue;
         layout->has_bin = true;

@@ -163,11 +163,11 @@ ffd_status ffd_gltf_load_buffer(const json_tree *tree, uint32_t value, const uns
         buffer->data = bin;
         buffer->size = bin_size;
     }
-    if (status == FFD_OK && buffer->kind != BUFFER_EMPTY && buffer->size < buffer->length) {
+    if (!status && buffer->kind != BUFFER_EMPTY && buffer->size < buffer->length) {
         buffer->flaws |= BUFFER_SHORT;
         buffer->length = buffer->size;
     }
-    if (status == FFD_OK && buffer->kind != BUFFER_EMPTY && buffer->size - buffer->length > padding)
+    if (!status && buffer->kind != BUFFER_EMPTY && buffer->size - buffer->length > padding)
         buffer->flaws |= BUFFER_LONG;
     if (status)
         ffd_gltf_free_buffer(buffer);

@@ -151,11 +151,8 @@ static ffd_status make_arrays(gltf_document *d, gltf_animations *of, gltf_animat
 {
     const size_t samplers = count_of(d, animation->value, "samplers");
     const size_t channels = count_of(d, animation->value, "channels");
-    ffd_status status = take(d, of, samplers, sizeof *animation->samplers, error);
-    if (!status)
-        status = take(d, of, channels, sizeof *animation->channels, error);
-    if (status)
-        return status;
+    TRY(take(d, of, samplers, sizeof *animation->samplers, error));
+    TRY(take(d, of, channels, sizeof *animation->channels, error));
     animation->samplers = ffd_alloc_zero(samplers, sizeof *animation->samplers);
     animation->sampler_count = animation->samplers ? samplers : 0;
     animation->channels = ffd_alloc_zero(channels, sizeof *animation->channels);
@@ -182,7 +179,7 @@ static ffd_status read_animation(gltf_document *d, gltf_animations *of, gltf_ani
                                                             .input = accessor_of(d, v, "input"),
                                                             .output = accessor_of(d, v, "output"),
                                                             .interpolation = interpolation_of(d, v)};
-    for (uint32_t v = ffd_gltf_first(d, animation->value, "channels"); v != JSON_NONE && status == FFD_OK;
+    for (uint32_t v = ffd_gltf_first(d, animation->value, "channels"); v != JSON_NONE && !status;
          v = ffd_json_tree_after(tree, v))
         status = read_channel(d, animation, v, error);
     return status;
@@ -198,7 +195,7 @@ ffd_status ffd_gltf_list_animations(gltf_document *d, gltf_animations *animation
     animations->list = ffd_alloc_zero(count, sizeof *animations->list);
     if (!animations->list)
         return ffd_fail_memory(error);
-    for (uint32_t v = ffd_gltf_first(d, 0, "animations"); v != JSON_NONE && status == FFD_OK;
+    for (uint32_t v = ffd_gltf_first(d, 0, "animations"); v != JSON_NONE && !status;
          v = ffd_json_tree_after(&d->tree, v)) {
         gltf_animation *const animation = &animations->list[animations->count++];
         animation->value = v;
@@ -294,11 +291,8 @@ static ffd_status measure(const gltf_document *d, gltf_animation_sampler *sample
 
 static ffd_status check_sampler(const gltf_document *d, gltf_animation_sampler *sampler, ffd_error *error)
 {
-    ffd_status status = check_accessor(d, sampler, "input", sampler->input, error);
-    if (status == FFD_OK)
-        status = check_accessor(d, sampler, "output", sampler->output, error);
-    if (status)
-        return status;
+    TRY(check_accessor(d, sampler, "input", sampler->input, error));
+    TRY(check_accessor(d, sampler, "output", sampler->output, error));
     const gltf_accessor *const input = &d->model.accessors[sampler->input];
     if (input->columns * input->rows != 1 || input->component != GLTF_FLOAT)
         return refuse(d, sampler->value, "input", error,
@@ -341,14 +335,14 @@ static ffd_status check_values(const gltf_document *d, const gltf_animation_samp
 static ffd_status load_sampler(gltf_document *d, gltf_animation *animation, gltf_animation_sampler *sampler,
                                ffd_error *error)
 {
-    ffd_status status = sampler->times ? FFD_OK : check_sampler(d, sampler, error);
-    if (status || sampler->times)
-        return status;
+    TRY(sampler->times ? FFD_OK : check_sampler(d, sampler, error));
+    if (sampler->times)
+        return FFD_OK;
     const size_t elements = (size_t)d->model.accessors[sampler->output].count;
     const size_t rows = (size_t)d->model.accessors[sampler->output].rows, keys = sampler->key_count;
     const uint64_t before = d->base.budget.taken;
-    status = ffd_budget_take(&d->base.budget, keys, sizeof *sampler->times, error);
-    if (status == FFD_OK)
+    ffd_status status = ffd_budget_take(&d->base.budget, keys, sizeof *sampler->times, error);
+    if (!status)
         status = ffd_budget_take(&d->base.budget, elements, rows * sizeof *sampler->values, error);
     animation->taken += d->base.budget.taken - before;
     if (status)
@@ -359,8 +353,8 @@ static ffd_status load_sampler(gltf_document *d, gltf_animation *animation, gltf
         return ffd_fail_memory(error);
     ffd_gltf_read(d, sampler->input, 0, keys, 1, sampler->times);
     ffd_gltf_read(d, sampler->output, 0, elements, rows, sampler->values);
-    status = check_times(d, sampler, error);
-    return status ? status : check_values(d, sampler, elements * rows, error);
+    TRY(check_times(d, sampler, error));
+    return check_values(d, sampler, elements * rows, error);
 }
 
 /* Checks that the values of a channel's sampler have as many numbers as the property it drives. Channels of
@@ -385,8 +379,8 @@ static ffd_status load_channel(gltf_document *d, gltf_animation *animation, cons
         return refuse(d, channel->value, "sampler", error, "the channel's sampler is none of the %zu",
                       animation->sampler_count);
     gltf_animation_sampler *const sampler = &animation->samplers[channel->sampler];
-    const ffd_status status = load_sampler(d, animation, sampler, error);
-    return status ? status : check_width(d, channel, sampler, error);
+    TRY(load_sampler(d, animation, sampler, error));
+    return check_width(d, channel, sampler, error);
 }
 
 /* Finds the times of the first and the last key. */
@@ -408,10 +402,10 @@ static void find_span(gltf_animation *animation)
 ffd_status ffd_gltf_load_animation(gltf_document *d, gltf_animation *animation, ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    for (size_t c = 0; c < animation->channel_count && status == FFD_OK; c++)
+    for (size_t c = 0; c < animation->channel_count && !status; c++)
         if (ffd_gltf_channel_drives(&animation->channels[c]))
             status = load_channel(d, animation, &animation->channels[c], error);
-    if (status == FFD_OK)
+    if (!status)
         find_span(animation);
     else
         ffd_gltf_unload_animation(d, animation);

@@ -83,9 +83,7 @@ static ffd_status count_all(const gltf_document *d, mesh_faces *faces, ffd_error
     uint64_t triangles = 0, lines = 0, points = 0;
     for (size_t i = 0; i < d->instance_count; i++) {
         const gltf_primitive *const primitive = d->instances[i].primitive;
-        const ffd_status status = refuse_primitive(d, primitive, error);
-        if (status)
-            return status;
+        TRY(refuse_primitive(d, primitive, error));
         const drawing counted = count_drawing(d, primitive);
         triangles += counted.triangles;
         lines += counted.lines;
@@ -172,7 +170,7 @@ static ffd_status add_primitive(const gltf_document *d, const gltf_primitive *pr
     uint32_t *corners;
     size_t count;
     const ffd_status status = ffd_gltf_read_corners(d, primitive, &corners, &count, error);
-    for (size_t n = 0; n < uses->node_count && status == FFD_OK; n++) {
+    for (size_t n = 0; n < uses->node_count && !status; n++) {
         const gltf_instance *instance = &ffd_gltf_instances(d, primitive)[n];
         for (size_t t = 0; t < counted.triangles; t++) {
             uint32_t *triangle = to + 3 * (*added)++;
@@ -199,21 +197,19 @@ uint64_t ffd_gltf_most_corners(const gltf_document *d)
 static ffd_status check_budget(const gltf_document *d, const mesh_faces *faces, ffd_error *error)
 {
     memory_budget budget = d->base.budget;
-    const ffd_status status = ffd_mesh_faces_take(faces, 3 * (uint64_t)faces->face_count, &budget, error);
-    return status ? status : ffd_budget_check(&budget, ffd_gltf_most_corners(d), sizeof(uint32_t), error);
+    TRY(ffd_mesh_faces_take(faces, 3 * (uint64_t)faces->face_count, &budget, error));
+    return ffd_budget_check(&budget, ffd_gltf_most_corners(d), sizeof(uint32_t), error);
 }
 
 ffd_status ffd_gltf_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error)
 {
     const gltf_document *d = ffd_gltf_of(document);
     *faces = (mesh_faces){0};
-    ffd_status status = count_all(d, faces, error);
-    if (status)
-        return status;
+    TRY(count_all(d, faces, error));
     for (size_t i = 0; i < d->base.part_count; i++)
         faces->vertex_count += d->mesh_parts[i].repeats_positions ? 0 : d->mesh_parts[i].vertex_count;
-    status = check_budget(d, faces, error);
-    if (status == FFD_OK)
+    ffd_status status = check_budget(d, faces, error);
+    if (!status)
         status = ffd_mesh_faces_make(document, faces, 3 * faces->face_count, error);
     if (status)
         return status;
@@ -226,7 +222,7 @@ ffd_status ffd_gltf_faces(const mesh_document *document, mesh_faces *faces, ffd_
             faces->start[i] = 3 * i;
     }
     size_t added = 0;
-    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++)
+    for (size_t i = 0; i < d->model.primitive_count && !status; i++)
         status = add_primitive(d, &d->model.primitives[i], base, faces->corners, &added, error);
     ffd_free(base);
     if (status)
@@ -258,11 +254,11 @@ ffd_status ffd_gltf_corner_normals(const mesh_document *document, const mesh_fac
     ffd_status status =
         first_normals ? ffd_parts_number(document, &first_vertices, error) : ffd_fail_memory(error);
     size_t index = 0, corner = 0;
-    for (size_t i = 0; i < d->base.part_count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < d->base.part_count && !status; i++) {
         first_normals[i] = index;
         index += d->mesh_parts[i].normal_count;
     }
-    for (size_t i = 0; i < d->instance_count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < d->instance_count && !status; i++) {
         const size_t count = 3 * count_drawing(d, d->instances[i].primitive).triangles;
         if (count > 0)
             number_corners(&d->instances[i], first_vertices, first_normals, faces->corners + corner, count,
@@ -352,11 +348,8 @@ static ffd_status mark_indices(drawn_primitive *primitive, ffd_error *error)
     const size_t count = ffd_gltf_drawn_count(d, primitive->primitive);
     for (size_t n = 0; n < primitive->nodes; n++) {
         gltf_part *const part = part_of(primitive, n);
-        const ffd_status status = part && !part->used
-                                      ? ffd_used_make(&d->base, vertices_of(primitive, n), &part->used, error)
-                                      : FFD_OK;
-        if (status)
-            return status;
+        TRY(part && !part->used ? ffd_used_make(&d->base, vertices_of(primitive, n), &part->used, error)
+                                : FFD_OK);
     }
     ffd_parallel_tiles(count, CORNERS_TILE, d->threads, mark_tile, primitive);
     return FFD_OK;
@@ -374,11 +367,8 @@ static ffd_status mark_primitive(gltf_document *d, const gltf_primitive *primiti
     const bool failed =
         primitive->indices < 0 || ffd_gltf_refuse_unreadable(d, primitive, primitive->indices, NULL);
     atomic_init(&drawn.failed, failed);
-    if (!failed) {
-        const ffd_status status = mark_indices(&drawn, error);
-        if (status)
-            return status;
-    }
+    if (!failed)
+        TRY(mark_indices(&drawn, error));
     if (atomic_load(&drawn.failed))
         mark_all(&drawn);
     return FFD_OK;

@@ -81,10 +81,10 @@ static ffd_status warn_of_weights(const gltf_document *d, const mesh_log *log, f
 {
     fault_list list = {.document = d};
     ffd_status status = FFD_OK;
-    for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++)
+    for (size_t m = 0; m < d->model.mesh_count && !status; m++)
         if (!has_sound_weights(d, d->mesh_values.values[m], d->mesh_uses[m].target_count))
             status = add_name(&list, d->mesh_values.values[m], "mesh", m, error);
-    for (size_t n = 0; n < d->model.node_count && status == FFD_OK; n++) {
+    for (size_t n = 0; n < d->model.node_count && !status; n++) {
         const int mesh = d->model.nodes[n].mesh;
         if (!has_sound_weights(d, d->node_values.values[n], mesh < 0 ? 0 : d->mesh_uses[mesh].target_count))
             status = add_name(&list, d->node_values.values[n], "node", n, error);
@@ -167,12 +167,12 @@ static ffd_status check_animations(fault_list *list, ffd_error *error)
     const json_tree *const tree = &d->tree;
     ffd_status status = FFD_OK;
     for (uint32_t a = ffd_gltf_first(d, 0, "animations"); a != JSON_NONE; a = ffd_json_tree_after(tree, a))
-        for (uint32_t c = ffd_gltf_first(d, a, "channels"); c != JSON_NONE && status == FFD_OK;
+        for (uint32_t c = ffd_gltf_first(d, a, "channels"); c != JSON_NONE && !status;
              c = ffd_json_tree_after(tree, c)) {
             size_t node;
             uint32_t fault;
             status = ffd_gltf_animated_node(d, ffd_json_tree_member(tree, c, "target"), &node, &fault, error);
-            if (status == FFD_OK && fault != JSON_NONE)
+            if (!status && fault != JSON_NONE)
                 add_value(list, fault);
         }
     return status;
@@ -185,7 +185,7 @@ ffd_status ffd_gltf_warn_of_faults(const mesh_document *document, const mesh_log
     char places[sizeof list.shown + 60];
     ffd_status status = warn_of_weights(d, log, error);
     check_nodes(&list);
-    if (status == FFD_OK)
+    if (!status)
         status = check_animations(&list, error);
     check_textures(&list);
     if (status || list.count == 0)

@@ -83,10 +83,10 @@ static ffd_status find_instances(const gltf_document *d, size_t node, gltf_insta
     found->count = UINT64_MAX;
     ffd_status status =
         find_attribute(d, attributes, "TRANSLATION", 3, is_float, &found->translation, &found->count, error);
-    if (status == FFD_OK)
+    if (!status)
         status =
             find_attribute(d, attributes, "ROTATION", 4, is_rotation, &found->rotation, &found->count, error);
-    if (status == FFD_OK)
+    if (!status)
         status = find_attribute(d, attributes, "SCALE", 3, is_float, &found->scale, &found->count, error);
     /* Only these attributes move vertices; without any of them the node has one instance. */
     if (found->count == UINT64_MAX)
@@ -138,9 +138,7 @@ static ffd_status describe_instanced_node(survey *s, size_t node, gltf_instanced
 {
     const gltf_document *d = s->document;
     *instanced = (gltf_instanced_node){.node = node};
-    const ffd_status status = find_instances(d, node, instanced, error);
-    if (status)
-        return status;
+    TRY(find_instances(d, node, instanced, error));
     s->instances += instanced->count;
     instanced->unknown_bounds =
         !find_mesh_bounds(s, (size_t)d->model.nodes[node].mesh, &instanced->mesh_bounds) ||
@@ -171,7 +169,7 @@ static ffd_status describe_instanced_nodes(survey *s, ffd_error *error)
 {
     gltf_document *d = s->document;
     ffd_status status = FFD_OK;
-    for (size_t n = 0; n < d->model.node_count && status == FFD_OK; n++)
+    for (size_t n = 0; n < d->model.node_count && !status; n++)
         if (is_instanced(d, n)) {
             skip_node(d, n);
             status = describe_instanced_node(s, n, &d->instanced_nodes[d->instanced_node_count++], error);

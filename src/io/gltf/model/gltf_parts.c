@@ -27,7 +27,7 @@ static ffd_status count_instances(gltf_document *d, size_t *total, ffd_error *er
     ffd_status status = FFD_OK;
     uint64_t targets = 0;
     *total = 0;
-    for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++) {
+    for (size_t m = 0; m < d->model.mesh_count && !status; m++) {
         const uint64_t instances =
             (uint64_t)d->model.meshes[m].primitive_count * d->mesh_uses[m].node_count; /* each below 2^31 */
         d->mesh_uses[m].first_instance = *total;
@@ -36,7 +36,7 @@ static ffd_status count_instances(gltf_document *d, size_t *total, ffd_error *er
         for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, m, p));)
             targets += (uint64_t)p->target_count * d->mesh_uses[m].node_count;
         /* Each is looked at, and has a number in the end. */
-        if (status == FFD_OK)
+        if (!status)
             status = ffd_budget_check(&d->base.budget, targets, sizeof *d->targets, error);
     }
     return status;

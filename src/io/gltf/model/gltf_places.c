@@ -110,9 +110,9 @@ static ffd_status mark_animated(const survey *s, ffd_error *error)
 {
     const json_tree *tree = &s->document->tree;
     ffd_status status = FFD_OK;
-    for (uint32_t a = ffd_gltf_first(s->document, 0, "animations"); a != JSON_NONE && status == FFD_OK;
+    for (uint32_t a = ffd_gltf_first(s->document, 0, "animations"); a != JSON_NONE && !status;
          a = ffd_json_tree_after(tree, a))
-        for (uint32_t c = ffd_gltf_first(s->document, a, "channels"); c != JSON_NONE && status == FFD_OK;
+        for (uint32_t c = ffd_gltf_first(s->document, a, "channels"); c != JSON_NONE && !status;
              c = ffd_json_tree_after(tree, c))
             status = mark_target(s, ffd_json_tree_member(tree, c, "target"), error);
     return status;
@@ -298,14 +298,14 @@ ffd_status ffd_gltf_list_places(const mesh_document *document, bool all, mesh_pl
                 .holds = ffd_alloc_zero(count, sizeof *s.holds),
                 .pending = ffd_alloc(count, sizeof *s.pending)};
     ffd_status status = s.nodes && s.holds && s.pending ? FFD_OK : ffd_fail_memory(error);
-    if (status == FFD_OK) {
+    if (!status) {
         mark_shown(&s);
         mark_chosen(&s);
         mark_shapes(&s);
         ffd_gltf_visit_vrm(d, mark_vrm, &s);
         status = mark_animated(&s, error);
     }
-    if (status == FFD_OK)
+    if (!status)
         status = list_nodes(&s, all, places, error);
     ffd_free(s.nodes);
     ffd_free(s.holds);

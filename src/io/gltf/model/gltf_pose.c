@@ -227,9 +227,7 @@ static ffd_status count_weights(const gltf_document *d, gltf_pose *pose, ffd_err
         total += ffd_gltf_node_targets(d, n);
     }
     pose->first_weight[d->model.node_count] = total;
-    const ffd_status status = ffd_budget_check(&d->base.budget, total, sizeof *pose->weights, error);
-    if (status)
-        return status;
+    TRY(ffd_budget_check(&d->base.budget, total, sizeof *pose->weights, error));
     pose->weights = ffd_alloc_zero(total, sizeof *pose->weights);
     return pose->weights ? FFD_OK : ffd_fail_memory(error);
 }
@@ -245,12 +243,10 @@ ffd_status ffd_gltf_make_pose(const gltf_document *d, gltf_pose *pose, ffd_error
         return ffd_fail_memory(error);
     if (count > 0)
         memcpy(pose->world, d->world, count * 12 * sizeof *pose->world);
-    ffd_status status = order_nodes(d, pose, error);
-    if (status == FFD_OK)
-        status = count_weights(d, pose, error);
-    if (status == FFD_OK)
-        ffd_gltf_set_pose(d, NULL, 0, pose);
-    return status;
+    TRY(order_nodes(d, pose, error));
+    TRY(count_weights(d, pose, error));
+    ffd_gltf_set_pose(d, NULL, 0, pose);
+    return FFD_OK;
 }
 
 void ffd_gltf_free_pose(gltf_pose *pose)

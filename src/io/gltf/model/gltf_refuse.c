@@ -314,11 +314,11 @@ static ffd_status refuse_primitive(const gltf_document *d, const gltf_primitive 
 {
     if (primitive->accessor[GLTF_POSITION] < 0)
         return FFD_OK;
-    ffd_status status = ffd_gltf_refuse_unreadable(d, primitive, primitive->accessor[GLTF_POSITION], error);
-    for (size_t s = GLTF_DEFORMED; s < gltf_vector_slots(primitive) && status == FFD_OK; s++)
+    TRY(ffd_gltf_refuse_unreadable(d, primitive, primitive->accessor[GLTF_POSITION], error));
+    for (size_t s = GLTF_DEFORMED; s < gltf_vector_slots(primitive); s++)
         if (gltf_slot_accessor(primitive, s) >= 0)
-            status = ffd_gltf_refuse_unreadable(d, primitive, gltf_slot_accessor(primitive, s), error);
-    return status;
+            TRY(ffd_gltf_refuse_unreadable(d, primitive, gltf_slot_accessor(primitive, s), error));
+    return FFD_OK;
 }
 
 /* Refuses a skin whose joints or weights cannot be read: they move the vertices of the node. */
@@ -328,14 +328,14 @@ static ffd_status refuse_skin(const gltf_document *d, size_t node, ffd_error *er
     const gltf_skin *skin = d->model.nodes[node].skin < 0 ? NULL : &d->skins[d->model.nodes[node].skin];
     ffd_status status = FFD_OK;
     for (const gltf_primitive *primitive = NULL;
-         skin && status == FFD_OK && (primitive = ffd_gltf_next_primitive(d, m, primitive));) {
+         skin && !status && (primitive = ffd_gltf_next_primitive(d, m, primitive));) {
         if (primitive->accessor[GLTF_POSITION] < 0)
             continue; /* nothing to move, and nobody has checked its influences */
         if (skin->inverse_bind >= 0)
             status = ffd_gltf_refuse_unreadable(d, primitive, skin->inverse_bind, error);
-        for (size_t i = 0; i < primitive->influence_count && status == FFD_OK; i++) {
+        for (size_t i = 0; i < primitive->influence_count && !status; i++) {
             status = ffd_gltf_refuse_unreadable(d, primitive, primitive->influences[i].joints, error);
-            if (status == FFD_OK)
+            if (!status)
                 status = ffd_gltf_refuse_unreadable(d, primitive, primitive->influences[i].weights, error);
         }
     }
@@ -372,28 +372,27 @@ static ffd_status refuse_newer_version(const gltf_document *d, ffd_error *error)
 /* Refuses geometry that an extension holds, with or without --allow-extension. */
 static ffd_status refuse_held(const gltf_document *d, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++)
+    for (size_t i = 0; i < d->model.primitive_count; i++)
         if (d->mesh_uses[d->model.primitives[i].mesh].node_count > 0)
-            status = refuse_held_by(d, &d->model.primitives[i], error);
-    return status;
+            TRY(refuse_held_by(d, &d->model.primitives[i], error));
+    return FFD_OK;
 }
 
 ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
 {
     ffd_status status = refuse_newer_version(d, error);
-    if (status == FFD_OK)
+    if (!status)
         status = refuse_shared_child(d, error);
-    if (status == FFD_OK)
+    if (!status)
         status = refuse_held(d, error);
-    if (status == FFD_OK)
+    if (!status)
         status = refuse_required(d, error);
-    if (status == FFD_OK && d->skins_status) {
+    if (!status && d->skins_status) {
         if (error)
             *error = d->skins_error;
         return d->skins_status;
     }
-    if (status == FFD_OK && d->instancing_status) {
+    if (!status && d->instancing_status) {
         if (error)
             *error = d->instancing_error;
         return d->instancing_status;
@@ -401,9 +400,9 @@ ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
     for (size_t m = 0; m < d->model.mesh_count; m++) {
         const gltf_mesh_uses *uses = &d->mesh_uses[m];
         for (const gltf_primitive *p = NULL;
-             uses->node_count > 0 && status == FFD_OK && (p = ffd_gltf_next_primitive(d, m, p));)
+             uses->node_count > 0 && !status && (p = ffd_gltf_next_primitive(d, m, p));)
             status = refuse_primitive(d, p, error);
-        for (size_t n = 0; uses->nodes && n < uses->node_count && status == FFD_OK; n++)
+        for (size_t n = 0; uses->nodes && n < uses->node_count && !status; n++)
             status = refuse_skin(d, uses->nodes[n], error);
     }
     return status;
@@ -421,9 +420,7 @@ ffd_status ffd_gltf_refuse_store(const gltf_document *d, bool normals, bool tang
             const int accessor = gltf_slot_accessor(primitive, s);
             if (!wanted[s % GLTF_DEFORMED] || accessor < 0)
                 continue;
-            const ffd_status status = ffd_gltf_refuse_unreadable(d, primitive, accessor, error);
-            if (status)
-                return status;
+            TRY(ffd_gltf_refuse_unreadable(d, primitive, accessor, error));
         }
     }
     return FFD_OK;

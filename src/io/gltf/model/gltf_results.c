@@ -121,9 +121,7 @@ static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic seman
     if (stream->accessor == GLTF_NONE)
         return FFD_OK;
     if (!stream->result) {
-        const ffd_status status = ffd_budget_take(&d->base.budget, count, 3 * sizeof *stream->result, error);
-        if (status)
-            return status;
+        TRY(ffd_budget_take(&d->base.budget, count, 3 * sizeof *stream->result, error));
         stream->result = ffd_alloc_whole(count, 3 * sizeof *stream->result);
         if (!stream->result)
             return ffd_fail_memory(error);
@@ -154,7 +152,7 @@ ffd_status ffd_gltf_add_results(gltf_document *d, size_t part, ffd_error *error)
     const size_t shapes = d->base.part_count + d->parts[part].first_shape;
     ffd_status status = FFD_OK;
     for (size_t k = 0; k <= d->mesh_parts[part].shape_count; k++)
-        for (int s = 0; s < GLTF_DEFORMED && status == FFD_OK; s++) {
+        for (int s = 0; s < GLTF_DEFORMED && !status; s++) {
             const bool repeats = k == 0 && s == GLTF_POSITION && d->mesh_parts[part].repeats_positions;
             if (!repeats && (s == GLTF_POSITION || d->morph_normals))
                 status = make_result(d, k == 0 ? part : shapes + k - 1, (gltf_semantic)s, error);
@@ -167,13 +165,13 @@ ffd_status ffd_gltf_begin_results(mesh_document *document, bool normals, bool ta
     gltf_document *d = (gltf_document *)document;
     const bool wanted[GLTF_DEFORMED] = {true, normals, tangents};
     ffd_status status = ffd_gltf_refuse_read(d, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_gltf_refuse_store(d, normals, tangents, error);
     d->morph_normals = normals;
     /* Converted meshes have no morph targets. */
     const bool targets = !d->morph_name && !d->base.converted;
     for (size_t i = 0; i < (targets ? ffd_gltf_shape_end(d) : d->base.part_count); i++)
-        for (int s = 0; s < GLTF_DEFORMED && status == FFD_OK; s++)
+        for (int s = 0; s < GLTF_DEFORMED && !status; s++)
             if (!wanted[s])
                 drop_result(d, i, (gltf_semantic)s);
             else if (!d->mesh_parts[i].skipped && !(s == GLTF_POSITION && d->mesh_parts[i].repeats_positions))

@@ -123,7 +123,7 @@ static ffd_status refuse_cycles(const gltf_document *d, const size_t *parents, s
         }
     }
     ffd_status status = FFD_OK;
-    for (size_t n = 0; n < d->model.node_count && reached < d->model.node_count && status == FFD_OK; n++)
+    for (size_t n = 0; n < d->model.node_count && reached < d->model.node_count && !status; n++)
         if (!seen[n])
             status = ffd_json_tree_fail(&d->tree, d->node_values.values[n], d->name, FFD_E_INVALID, error,
                                         "the node is its own ancestor, or below one that is");
@@ -189,7 +189,7 @@ static ffd_status mark_named(gltf_document *d, const gltf_scene *scene, const si
                              const size_t *order, bool *named, ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < scene->node_count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < scene->node_count && !status; i++) {
         const size_t root = (size_t)scene->nodes[i];
         if (named[root])
             status = ffd_gltf_flaw(d, d->node_values.values[root], error, "the scene names the node twice");
@@ -211,7 +211,7 @@ static ffd_status add_scene(gltf_document *d, const size_t *parents, size_t *pen
     if (!named)
         return ffd_fail_memory(error);
     const ffd_status status = mark_named(d, scene, parents, pending, named, error);
-    for (size_t i = 0; i < scene->node_count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < scene->node_count && !status; i++) {
         const size_t root = (size_t)scene->nodes[i];
         const bool is_below = parents[root] != GLTF_NONE && named[parents[root]];
         if (!is_below && !d->in_scene[root])
@@ -319,7 +319,7 @@ static ffd_status add_stand_ins(gltf_document *d, size_t *parents, size_t *queue
     for (size_t n = 0; n < d->model.node_count; n++)
         if (d->in_scene[n])
             queue[added++] = n;
-    for (size_t i = 0; i < added && status == FFD_OK; i++)
+    for (size_t i = 0; i < added && !status; i++)
         if (!d->collides[queue[i]])
             status = add_below(d, queue[i], parents, queue, &added, error);
     return status;
@@ -401,7 +401,7 @@ static void count_targets(gltf_document *d)
 static ffd_status note_unequal_targets(gltf_document *d, ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < d->model.primitive_count && !status; i++) {
         const gltf_primitive *const primitive = &d->model.primitives[i];
         const size_t count = primitive->target_count, most = d->mesh_uses[primitive->mesh].target_count;
         if (count < most)
@@ -434,10 +434,10 @@ ffd_status ffd_gltf_make_scene(gltf_document *d, ffd_error *error)
     count_targets(d);
     find_parents(d, &twice);
     status = note_unequal_targets(d, error);
-    if (status == FFD_OK && twice != GLTF_NONE)
+    if (!status && twice != GLTF_NONE)
         status = ffd_gltf_flaw(d, d->node_values.values[twice], error,
                                "node %zu names the node twice as its child", d->parents[twice]);
-    if (status == FFD_OK)
+    if (!status)
         status = refuse_cycles(d, d->parents, pending, error);
     if (status)
         goto done;
@@ -453,11 +453,11 @@ ffd_status ffd_gltf_make_scene(gltf_document *d, ffd_error *error)
         status = add_scene(d, d->parents, pending, error);
     else
         add_roots(d, d->parents, pending);
-    if (status == FFD_OK)
+    if (!status)
         status = add_stand_ins(d, d->parents, pending, error);
-    if (status == FFD_OK)
+    if (!status)
         status = refuse_infinite(d, error);
-    if (status == FFD_OK)
+    if (!status)
         status = list_nodes(d, error);
 done:
     ffd_free(pending);

@@ -128,7 +128,7 @@ static ffd_status draw_primitive(const surveying *s, const gltf_primitive *primi
     if (count == 0 || instances[first].part[GLTF_POSITION] == GLTF_NONE)
         return FFD_OK;
     const ffd_status status = ffd_gltf_read_corners(d, primitive, &corners, &corner_count, s->error);
-    for (size_t n = first; n < first + count && status == FFD_OK; n++) {
+    for (size_t n = first; n < first + count && !status; n++) {
         ffd_listing_draw(s->listing, instances[n].part[GLTF_POSITION], corners, corner_count);
         ffd_listing_draw_faces(s->listing, ffd_gltf_count_triangles(d, primitive));
     }
@@ -169,7 +169,7 @@ static ffd_status draw_pending(const surveying *s, size_t waiting)
 {
     const gltf_document *d = s->document;
     ffd_status status = FFD_OK;
-    while (waiting > 0 && status == FFD_OK) {
+    while (waiting > 0 && !status) {
         const size_t index = s->pending[--waiting];
         const gltf_node *const node = &d->model.nodes[index];
         const gltf_mesh_uses *const uses = node->mesh >= 0 ? &d->mesh_uses[node->mesh] : NULL;
@@ -206,12 +206,11 @@ static ffd_status draw_uses(const surveying *s, size_t mesh)
 static ffd_status draw_material(const surveying *s, size_t material)
 {
     const gltf_document *d = s->document;
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++)
+    for (size_t i = 0; i < d->model.primitive_count; i++)
         if (s->materials[i] == material)
-            status = draw_primitive(s, &d->model.primitives[i], 0,
-                                    d->mesh_uses[d->model.primitives[i].mesh].node_count);
-    return status;
+            TRY(draw_primitive(s, &d->model.primitives[i], 0,
+                               d->mesh_uses[d->model.primitives[i].mesh].node_count));
+    return FFD_OK;
 }
 
 static ffd_status draw(const surveying *s, selector_kind kind, size_t index)
@@ -266,17 +265,17 @@ static ffd_status list_names(const surveying *s, const kind_names *k)
     ffd_status status = first ? FFD_OK : ffd_fail_memory(s->error);
     if (first)
         link_names(k, first);
-    for (uint32_t n = 0; n < k->names.count && status == FFD_OK; n++) {
+    for (uint32_t n = 0; n < k->names.count && !status; n++) {
         const char *const name = ffd_intern_key(&k->names, n);
         status = ffd_listing_add(s->listing, k->kind, name, strlen(name), 0, s->error);
-        for (size_t i = first[n]; i != GLTF_NONE && status == FFD_OK; i = k->next[i])
+        for (size_t i = first[n]; i != GLTF_NONE && !status; i = k->next[i])
             status = draw(s, k->kind, i);
     }
-    for (size_t i = 0; i < k->count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < k->count && !status; i++) {
         if (k->name[i] != NO_NAME)
             continue;
         status = ffd_listing_add(s->listing, k->kind, NULL, 0, i, s->error);
-        if (status == FFD_OK)
+        if (!status)
             status = draw(s, k->kind, i);
     }
     ffd_free(first);
@@ -305,7 +304,7 @@ static ffd_status list_all(const surveying *s)
                  {SELECT_MESH, &d->mesh_values},
                  {SELECT_MATERIAL, &d->material_values}};
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds && status == FFD_OK; i++) {
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds && !status; i++) {
         kind_names k = {.kind = kinds[i].kind};
         status = read_names(d, kinds[i].values, &k) ? list_names(s, &k) : ffd_fail_memory(s->error);
         ffd_intern_free(&k.names);
@@ -482,9 +481,7 @@ static ffd_status mark_vertices(gltf_document *d, const gltf_instance *instance,
         const size_t part = instance->part[s];
         if (part == GLTF_NONE || part == before)
             continue;
-        const ffd_status status = open_part(d, part, error);
-        if (status)
-            return status;
+        TRY(open_part(d, part, error));
         for (size_t i = 0; i < count; i++)
             d->parts[part].selected[corners[i]] = 1;
         before = part;
@@ -512,7 +509,7 @@ static ffd_status select_primitive(const selecting *s, const gltf_primitive *pri
     uint32_t *corners;
     size_t count;
     ffd_status status = ffd_gltf_read_corners(d, primitive, &corners, &count, error);
-    for (size_t n = 0; n < uses->node_count && status == FFD_OK; n++)
+    for (size_t n = 0; n < uses->node_count && !status; n++)
         if (instances[n].selected)
             status = mark_vertices(d, &instances[n], corners, count, error);
     ffd_free(corners);
@@ -523,7 +520,7 @@ static ffd_status select_all(selecting *s, ffd_error *error)
 {
     gltf_document *d = s->document;
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < s->count && status == FFD_OK; i++)
+    for (size_t i = 0; i < s->count && !status; i++)
         status = mark_named(s, &s->selectors[i], error);
     if (status)
         return status;
@@ -532,7 +529,7 @@ static ffd_status select_all(selecting *s, ffd_error *error)
         d->mesh_parts[i].skipped = true;
     for (size_t i = 0; i < d->instanced_node_count; i++)
         d->instanced_nodes[i].deselected = true;
-    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++)
+    for (size_t i = 0; i < d->model.primitive_count && !status; i++)
         status = select_primitive(s, &d->model.primitives[i], error);
     return status;
 }

@@ -52,9 +52,7 @@ static ffd_status count_targets(gltf_document *d, size_t *total, ffd_error *erro
     for (size_t i = 0; i < d->instance_count; i++) {
         const size_t count = d->instances[i].primitive->target_count;
         d->instances[i].first_target = *total;
-        const ffd_status status = ffd_budget_take(&d->base.budget, count, TARGET_BYTES, error);
-        if (status)
-            return status;
+        TRY(ffd_budget_take(&d->base.budget, count, TARGET_BYTES, error));
         *total += count;
     }
     return FFD_OK;
@@ -232,7 +230,7 @@ ffd_status ffd_gltf_make_shapes(gltf_document *d, ffd_error *error)
     if (table.slots && table.targets && d->targets) {
         find_targets(d, &table);
         status = add_shapes(d, &table, total, error);
-        if (status == FFD_OK)
+        if (!status)
             status = set_weights(d, error);
     } else {
         status = ffd_fail_memory(error);

@@ -40,7 +40,7 @@ static ffd_status settle_sets(gltf_document *d, gltf_primitive *primitive, ffd_e
             return FFD_OK;
     const gltf_influence first = primitive->influence_count ? primitive->influences[0] : none;
     ffd_status status = FFD_OK;
-    for (size_t i = whole; i < primitive->influence_count && whole > 0 && status == FFD_OK; i++)
+    for (size_t i = whole; i < primitive->influence_count && whole > 0 && !status; i++)
         status = note_half(d, primitive->value, &primitive->influences[i], i, error);
     primitive->influence_count = whole;
     if (whole == 0)
@@ -68,11 +68,11 @@ static void settle_nodes(gltf_document *d, size_t m)
 ffd_status ffd_gltf_settle_skins(gltf_document *d, ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++) {
+    for (size_t m = 0; m < d->model.mesh_count && !status; m++) {
         gltf_mesh *const mesh = &d->model.meshes[m];
         if (!ffd_gltf_has_skin(d, &d->mesh_uses[m]))
             continue;
-        for (size_t p = 0; p < mesh->primitive_count && status == FFD_OK; p++)
+        for (size_t p = 0; p < mesh->primitive_count && !status; p++)
             if (mesh->primitives[p].accessor[GLTF_POSITION] >= 0)
                 status = settle_sets(d, &mesh->primitives[p], error);
         settle_nodes(d, m);
@@ -148,9 +148,9 @@ ffd_status ffd_gltf_list_skins(gltf_document *d, ffd_error *error)
     d->skins = ffd_alloc_zero(d->skin_values.count, sizeof *d->skins);
     if (!d->skins)
         return ffd_fail_memory(error);
-    for (size_t s = 0; s < d->skin_values.count && status == FFD_OK; s++) {
+    for (size_t s = 0; s < d->skin_values.count && !status; s++) {
         status = list_joints(d, d->skin_values.values[s], &d->skins[s], error);
-        if (status == FFD_OK)
+        if (!status)
             status = find_inverse_bind(d, d->skin_values.values[s], &d->skins[s], error);
     }
     return status;
@@ -214,10 +214,9 @@ static ffd_status make_joint_matrix(const gltf_document *d, const gltf_skin *ski
 ffd_status ffd_gltf_joint_matrices(const gltf_document *d, const gltf_skin *skin, const double *worlds,
                                    double *matrices, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t j = 0; j < skin->joint_count && status == FFD_OK; j++)
-        status = make_joint_matrix(d, skin, j, worlds, matrices + 12 * j, error);
-    return status;
+    for (size_t j = 0; j < skin->joint_count; j++)
+        TRY(make_joint_matrix(d, skin, j, worlds, matrices + 12 * j, error));
+    return FFD_OK;
 }
 
 bool ffd_gltf_has_joint_matrices(const gltf_document *d, const gltf_skin *skin)
@@ -348,7 +347,7 @@ static ffd_status check_primitive(gltf_document *d, const gltf_skin *skin, const
         return ffd_json_tree_fail(&d->tree, value, d->name, FFD_E_LIMIT, error,
                                   "%zu sets of joints are more than the %zu that are supported",
                                   primitive->influence_count, MOST_SETS);
-    for (size_t i = 0; i < primitive->influence_count && status == FFD_OK; i++)
+    for (size_t i = 0; i < primitive->influence_count && !status; i++)
         status = check_set(d, skin, value, &primitive->influences[i], i, largest, error);
     return status;
 }
@@ -370,7 +369,7 @@ ffd_status ffd_gltf_prepare_skins(gltf_document *d, ffd_error *error)
     if (!largest)
         return ffd_fail_memory(error);
     for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t n = 0; d->mesh_uses[m].nodes && n < d->mesh_uses[m].node_count && status == FFD_OK; n++)
+        for (size_t n = 0; d->mesh_uses[m].nodes && n < d->mesh_uses[m].node_count && !status; n++)
             if (d->model.nodes[d->mesh_uses[m].nodes[n]].skin >= 0)
                 status = prepare_skin(d, d->mesh_uses[m].nodes[n], largest, error);
     ffd_free(largest);

@@ -105,7 +105,7 @@ static ffd_status find_flaws(gltf_document *d, const gltf_primitive *primitive, 
             ffd_gltf_flaw(d, ffd_json_tree_member(&d->tree, attributes, SPLATTING ":SCALE"), error,
                           "scales of Gaussian splats are negative: they are read as logarithms, as in drafts "
                           "of " SPLATTING);
-    for (int i = harmonics_count(found->form.degree); i < HARMONICS_MOST && status == FFD_OK; i++)
+    for (int i = harmonics_count(found->form.degree); i < HARMONICS_MOST && !status; i++)
         if (found->accessors[GLTF_SPLAT_HARMONICS + i] != GLTF_NONE)
             return ffd_gltf_flaw(
                 d, attributes, error,
@@ -120,9 +120,7 @@ static ffd_status keep_accessors(gltf_document *d, gltf_primitive *primitive, co
                                  ffd_error *error)
 {
     const size_t groups = groups_of(&found->form), slots = GLTF_DEFORMED * groups;
-    const ffd_status status = ffd_budget_take(&d->base.budget, groups, GROUP_BYTES, error);
-    if (status)
-        return status;
+    TRY(ffd_budget_take(&d->base.budget, groups, GROUP_BYTES, error));
     primitive->splat_accessors = ffd_alloc(slots, sizeof *primitive->splat_accessors);
     if (!primitive->splat_accessors)
         return ffd_fail_memory(error);
@@ -181,7 +179,7 @@ static ffd_status mark_primitives(gltf_document *d, part_owner *owners, ffd_erro
         splat_attributes found = find_attributes(d, primitive);
         if (found.all_usable && d->mesh_uses[primitive->mesh].node_count > 0)
             status = find_flaws(d, primitive, &found, error);
-        if (status == FFD_OK && found.all_usable && d->mesh_uses[primitive->mesh].node_count > 0)
+        if (!status && found.all_usable && d->mesh_uses[primitive->mesh].node_count > 0)
             status = keep_accessors(d, primitive, &found, error);
         if (status)
             return status;
@@ -249,9 +247,9 @@ ffd_status ffd_gltf_find_splats(gltf_document *d, ffd_error *error)
     if (!owners)
         return ffd_fail_memory(error);
     ffd_status status = mark_primitives(d, owners, error);
-    if (status == FFD_OK)
+    if (!status)
         status = add_groups(d, owners, error);
-    if (status == FFD_OK)
+    if (!status)
         find_results(d);
     ffd_free(owners);
     return status;
@@ -278,9 +276,7 @@ static ffd_status make_result(gltf_document *d, size_t count, gltf_stream *strea
     if (stream->result)
         return FFD_OK;
     const size_t size = stream->components * sizeof *stream->result;
-    const ffd_status status = ffd_budget_take(&d->base.budget, count, size, error);
-    if (status)
-        return status;
+    TRY(ffd_budget_take(&d->base.budget, count, size, error));
     stream->result = ffd_alloc_whole(count, size);
     return stream->result ? FFD_OK : ffd_fail_memory(error);
 }
@@ -297,11 +293,11 @@ ffd_status ffd_gltf_begin_splats(gltf_document *d, ffd_error *error)
 {
     ffd_status status = FFD_OK;
     atomic_store(&d->unturned, 0);
-    for (size_t i = 0; i < d->base.part_count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < d->base.part_count && !status; i++) {
         const mesh_part *const part = &d->mesh_parts[i];
         const bool follows = (!part->skipped || part->carried) && !part->singular &&
                              !part->repeats_positions && !d->morph_name && !d->base.converted;
-        for (size_t a = 0; part->has_ellipsoids && a < attribute_count(d, i) && status == FFD_OK; a++)
+        for (size_t a = 0; part->has_ellipsoids && a < attribute_count(d, i) && !status; a++)
             if (follows)
                 status = make_result(d, part->vertex_count, stream_of(d, i, a), error);
             else

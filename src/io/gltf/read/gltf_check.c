@@ -60,7 +60,7 @@ static ffd_status check_view(gltf_document *d, size_t i, ffd_error *error)
     const uint32_t value = d->view_values.values[i];
     ffd_status status =
         check_index(d, value, "buffer", view->buffer, d->buffer_values.count, "buffer", error);
-    if (status == FFD_OK)
+    if (!status)
         status = read_stride(d, i, error);
     if (status)
         return status;
@@ -108,9 +108,7 @@ static ffd_status check_range(gltf_document *d, size_t i, const gltf_view *view,
         return refuse(d, value, "bufferView", error,
                       "its elements have %zu bytes, more than the byteStride %zu", layout->element_size,
                       layout->stride);
-    const ffd_status status = check_alignment(d, value, accessor->offset, view->offset, size, error);
-    if (status)
-        return status;
+    TRY(check_alignment(d, value, accessor->offset, view->offset, size, error));
     const uint64_t needed =
         accessor->count ? accessor->offset + (accessor->count - 1) * layout->stride + layout->element_size
                         : accessor->offset;
@@ -126,13 +124,9 @@ static ffd_status check_range(gltf_document *d, size_t i, const gltf_view *view,
 static ffd_status check_sparse_view(gltf_document *d, uint32_t value, int index, uint64_t offset,
                                     uint64_t bytes, size_t alignment, ffd_error *error)
 {
-    ffd_status status = check_index(d, value, "bufferView", index, d->model.view_count, "bufferView", error);
-    if (status)
-        return status;
+    TRY(check_index(d, value, "bufferView", index, d->model.view_count, "bufferView", error));
     const gltf_view *view = &d->model.views[index];
-    status = check_alignment(d, value, offset, view->offset, alignment, error);
-    if (status)
-        return status;
+    TRY(check_alignment(d, value, offset, view->offset, alignment, error));
     if (offset > view->length || bytes > view->length - offset)
         return refuse(d, value, "bufferView", error, "%llu %s needed of bufferView %d, which has %llu",
                       (unsigned long long)(offset + bytes),
@@ -178,14 +172,11 @@ static ffd_status check_sparse(gltf_document *d, size_t i, ffd_error *error)
         return refuse(d, indices, "componentType", error, "sparse indices cannot have component type %d",
                       sparse->indices_type);
     const size_t size = ffd_gltf_component_size(sparse->indices_type);
-    ffd_status status = check_sparse_view(d, indices, sparse->indices_view, sparse->indices_offset,
-                                          sparse->count * size, size, error);
-    if (status == FFD_OK)
-        status = check_sparse_view(d, values, sparse->values_view, sparse->values_offset,
-                                   sparse->count * layout->element_size,
-                                   ffd_gltf_component_size(accessor->component), error);
-    if (status)
-        return status;
+    TRY(check_sparse_view(d, indices, sparse->indices_view, sparse->indices_offset, sparse->count * size,
+                          size, error));
+    TRY(check_sparse_view(d, values, sparse->values_view, sparse->values_offset,
+                          sparse->count * layout->element_size, ffd_gltf_component_size(accessor->component),
+                          error));
     layout->readable = layout->readable && ffd_gltf_view_bytes(d, (size_t)sparse->indices_view) &&
                        ffd_gltf_view_bytes(d, (size_t)sparse->values_view);
     return check_sparse_indices(d, accessor, value, error);
@@ -199,17 +190,13 @@ static ffd_status check_accessor(gltf_document *d, size_t i, ffd_error *error)
     layout->readable = true; /* zeros, unless it has a view */
     if (accessor->view >= 0 ||
         ffd_json_tree_member(&d->tree, d->accessor_values.values[i], "bufferView") != JSON_NONE) {
-        ffd_status status = check_index(d, d->accessor_values.values[i], "bufferView", accessor->view,
-                                        d->model.view_count, "bufferView", error);
-        if (status)
-            return status;
+        TRY(check_index(d, d->accessor_values.values[i], "bufferView", accessor->view, d->model.view_count,
+                        "bufferView", error));
         const gltf_view *view = &d->model.views[accessor->view];
         const unsigned char *bytes = ffd_gltf_view_bytes(d, (size_t)accessor->view);
         if (view->stride)
             layout->stride = (size_t)view->stride;
-        status = check_range(d, i, view, error);
-        if (status)
-            return status;
+        TRY(check_range(d, i, view, error));
         if (ffd_gltf_meshopt_value(d, (size_t)accessor->view) != JSON_NONE)
             layout->packing = GLTF_MESHOPT;
         layout->readable = bytes != NULL;
@@ -236,7 +223,7 @@ static ffd_status check_shapes(const gltf_document *d, uint32_t value, int tange
                                ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    for (int s = 0; s < GLTF_DEFORMED && status == FFD_OK; s++)
+    for (int s = 0; s < GLTF_DEFORMED && !status; s++)
         if (accessors[s] >= 0 &&
             ffd_json_tree_member(&d->tree, value, ffd_gltf_semantic_names[s]) == JSON_NONE)
             status =
@@ -313,13 +300,13 @@ static ffd_status check_primitive(gltf_document *d, gltf_primitive *primitive, f
     uint64_t vertices = UINT64_MAX;
     ffd_status status =
         check_attributes(d, attributes, primitive->attributes, primitive->attribute_count, &vertices, error);
-    if (status == FFD_OK)
+    if (!status)
         status = check_attributes(d, targets, primitive->targets, primitive->target_attribute_count,
                                   &vertices, error);
-    if (status == FFD_OK)
+    if (!status)
         status = check_shapes(d, attributes, 4, primitive->accessor, error);
     const int *accessors = primitive->target_accessors;
-    for (uint32_t v = ffd_json_tree_first(&d->tree, targets); v != JSON_NONE && status == FFD_OK;
+    for (uint32_t v = ffd_json_tree_first(&d->tree, targets); v != JSON_NONE && !status;
          v = ffd_json_tree_after(&d->tree, v), accessors += GLTF_DEFORMED)
         status = check_shapes(d, v, 3, accessors, error);
     return status ? status : check_indices(d, primitive, error);
@@ -346,7 +333,7 @@ static ffd_status limit_zeros(const gltf_document *d, ffd_error *error)
 {
     memory_budget budget = d->base.budget;
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < d->model.accessor_count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < d->model.accessor_count && !status; i++) {
         const gltf_accessor *accessor = &d->model.accessors[i];
         ffd_error problem = {0};
         if (accessor->view >= 0 || d->layouts[i].data || !d->layouts[i].readable)
@@ -381,11 +368,11 @@ static ffd_status check_node(gltf_document *d, size_t n, size_t skins, ffd_error
     ffd_status status = FFD_OK;
     if (ffd_json_tree_member(&d->tree, value, "mesh") != JSON_NONE)
         status = check_index(d, value, "mesh", node->mesh, d->model.mesh_count, "mesh", error);
-    if (status == FFD_OK && ffd_json_tree_member(&d->tree, value, "skin") != JSON_NONE)
+    if (!status && ffd_json_tree_member(&d->tree, value, "skin") != JSON_NONE)
         status = check_index(d, value, "skin", node->skin, skins, "skin", error);
-    for (size_t i = 0; i < node->child_count && status == FFD_OK; i++)
+    for (size_t i = 0; i < node->child_count && !status; i++)
         status = check_index(d, value, "children", node->children[i], d->model.node_count, "node", error);
-    if (status == FFD_OK && node->has_matrix)
+    if (!status && node->has_matrix)
         status = check_matrix(d, value, node->matrix, error);
     return status;
 }
@@ -396,10 +383,10 @@ static ffd_status check_scenes(const gltf_document *d, ffd_error *error)
     ffd_status status = FFD_OK;
     uint32_t value = ffd_json_tree_first(&d->tree, scenes);
     for (size_t s = 0; s < d->model.scene_count; s++, value = ffd_json_tree_after(&d->tree, value))
-        for (size_t i = 0; i < d->model.scenes[s].node_count && status == FFD_OK; i++)
+        for (size_t i = 0; i < d->model.scenes[s].node_count && !status; i++)
             status = check_index(d, value, "nodes", d->model.scenes[s].nodes[i], d->model.node_count, "node",
                                  error);
-    if (status == FFD_OK && ffd_json_tree_member(&d->tree, 0, "scene") != JSON_NONE)
+    if (!status && ffd_json_tree_member(&d->tree, 0, "scene") != JSON_NONE)
         status = check_index(d, 0, "scene", d->model.scene, d->model.scene_count, "scene", error);
     return status;
 }
@@ -407,24 +394,24 @@ static ffd_status check_scenes(const gltf_document *d, ffd_error *error)
 ffd_status ffd_gltf_check(gltf_document *d, ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < d->model.view_count && status == FFD_OK; i++)
+    for (size_t i = 0; i < d->model.view_count && !status; i++)
         status = check_view(d, i, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_gltf_decode_views(d, error);
-    for (size_t i = 0; i < d->model.accessor_count && status == FFD_OK; i++)
+    for (size_t i = 0; i < d->model.accessor_count && !status; i++)
         status = check_accessor(d, i, error);
-    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < d->model.primitive_count && !status; i++) {
         status = check_primitive(d, &d->model.primitives[i], error);
-        if (status == FFD_OK)
+        if (!status)
             mark_compressed(d, &d->model.primitives[i]);
     }
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_gltf_decode_draco(d, error);
-    if (status == FFD_OK)
+    if (!status)
         status = limit_zeros(d, error);
     const uint32_t skins = ffd_json_tree_member(&d->tree, 0, "skins");
     const size_t skin_count = ffd_json_tree_count(&d->tree, skins);
-    for (size_t i = 0; i < d->model.node_count && status == FFD_OK; i++)
+    for (size_t i = 0; i < d->model.node_count && !status; i++)
         status = check_node(d, i, skin_count, error);
     return status ? status : check_scenes(d, error);
 }

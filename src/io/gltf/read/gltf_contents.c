@@ -35,7 +35,7 @@ ffd_status ffd_gltf_check_contents(const gltf_document *d, ffd_error *error)
         mark_view(d, accessor->sparse.present ? accessor->sparse.indices_view : -1, is_read);
         mark_view(d, accessor->sparse.present ? accessor->sparse.values_view : -1, is_read);
     }
-    for (size_t i = 0; i < d->buffer_values.count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < d->buffer_values.count && !status; i++) {
         const gltf_buffer *const buffer = &d->buffers[i];
         const content_kind *const kind =
             buffer->data ? ffd_content_sure_kind(buffer->data, buffer->size) : NULL;
@@ -230,10 +230,10 @@ ffd_status ffd_gltf_check_stated(gltf_document *d, ffd_error *error)
     bool *is_checked = ffd_alloc_zero(d->model.accessor_count, sizeof *is_checked);
     if (!is_checked)
         return ffd_fail_memory(error);
-    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < d->model.primitive_count && !status; i++) {
         const gltf_primitive *const primitive = &d->model.primitives[i];
         status = check(d, primitive->accessor[GLTF_POSITION], is_checked, error);
-        for (size_t t = 0; t < primitive->target_count && status == FFD_OK; t++)
+        for (size_t t = 0; t < primitive->target_count && !status; t++)
             status =
                 check(d, primitive->target_accessors[GLTF_DEFORMED * t + GLTF_POSITION], is_checked, error);
     }
@@ -288,10 +288,9 @@ static ffd_status judge_block(gltf_document *d, const gltf_primitive *primitive,
             sums[i / 4].least = fmin(sums[i / 4].least, weights[i]);
         }
     }
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < count && status == FFD_OK; i++)
-        status = judge(d, (size_t)primitive->influences[0].weights, first + i, &sums[i], error);
-    return status;
+    for (size_t i = 0; i < count; i++)
+        TRY(judge(d, (size_t)primitive->influences[0].weights, first + i, &sums[i], error));
+    return FFD_OK;
 }
 
 static bool is_readable(const gltf_document *d, const gltf_primitive *primitive)
@@ -312,7 +311,7 @@ static ffd_status judge_mesh(gltf_document *d, size_t mesh, bool *judged, ffd_er
             continue;
         judged[primitive->influences[0].weights] = true;
         const size_t count = (size_t)d->model.accessors[primitive->influences[0].weights].count;
-        for (size_t at = 0; at < count && status == FFD_OK; at += VERTICES)
+        for (size_t at = 0; at < count && !status; at += VERTICES)
             status = judge_block(d, primitive, at, count - at < VERTICES ? count - at : VERTICES, error);
     }
     return status;
@@ -324,7 +323,7 @@ ffd_status ffd_gltf_judge_weights(gltf_document *d, ffd_error *error)
     bool *const judged = ffd_alloc_zero(d->model.accessor_count, sizeof *judged);
     if (!judged)
         return ffd_fail_memory(error);
-    for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++)
+    for (size_t m = 0; m < d->model.mesh_count && !status; m++)
         if (ffd_gltf_has_skin(d, &d->mesh_uses[m]))
             status = judge_mesh(d, m, judged, error);
     ffd_free(judged);

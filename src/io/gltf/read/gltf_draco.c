@@ -162,18 +162,17 @@ static ffd_status unpack_primitive(const unpacker *u, const packed_primitive *pa
     const uint32_t value = packed->primitive->value;
     const uint32_t draco = ffd_gltf_draco_value(d, packed->primitive);
     const uint32_t attributes = ffd_json_tree_member(&d->tree, value, "attributes");
-    ffd_status status = FFD_OK;
     for (uint32_t v = ffd_json_tree_first(&d->tree, ffd_json_tree_member(&d->tree, draco, "attributes"));
-         v != JSON_NONE && status == FFD_OK; v = ffd_json_tree_after(&d->tree, v)) {
+         v != JSON_NONE; v = ffd_json_tree_after(&d->tree, v)) {
         const size_t accessor = find_accessor(d, attributes, v);
         if (accessor == GLTF_NONE)
             return fail(d, v, FFD_E_INVALID, u->error, "the primitive has no such attribute");
-        status = unpack_accessor(u, v, accessor, integer(d, v));
+        TRY(unpack_accessor(u, v, accessor, integer(d, v)));
     }
-    if (status == FFD_OK && primitive->indices >= 0)
-        status = unpack_accessor(u, ffd_json_tree_member(&d->tree, value, "indices"),
-                                 (size_t)primitive->indices, INDICES_SOURCE);
-    return status;
+    if (primitive->indices >= 0)
+        TRY(unpack_accessor(u, ffd_json_tree_member(&d->tree, value, "indices"), (size_t)primitive->indices,
+                            INDICES_SOURCE));
+    return FFD_OK;
 }
 
 /* Reads what the glTF file states about a primitive's mesh. */
@@ -227,7 +226,7 @@ static ffd_status decode_primitive(gltf_document *d, const packed_primitive *pac
 {
     ffd_status status = *mesh ? FFD_OK : decode_mesh(d, packed, claim, mesh, error);
     const unpacker u = {d, *mesh, packed->view, error};
-    if (status == FFD_OK)
+    if (!status)
         status = unpack_primitive(&u, packed);
     return status;
 }
@@ -299,7 +298,7 @@ static ffd_status decode_all(gltf_document *d, const packed_primitive *list, siz
     draco_mesh *mesh = NULL;
     draco_claim last = {0, 0};
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < count && !status; i++) {
         draco_claim claim = {0, 0};
         ffd_error problem = {0};
         status = read_claim(d, &list[i], &claim, &problem);
@@ -307,7 +306,7 @@ static ffd_status decode_all(gltf_document *d, const packed_primitive *list, siz
             ffd_draco_free(mesh);
             mesh = NULL;
         }
-        if (status == FFD_OK)
+        if (!status)
             status = decode_primitive(d, &list[i], &claim, &mesh, &problem);
         status = keep_problem(d, &list[i], status, &problem, error);
         last = claim;
@@ -374,10 +373,10 @@ ffd_status ffd_gltf_decode_draco(gltf_document *d, ffd_error *error)
     d->draco_problems = ffd_alloc_zero(d->model.primitive_count, sizeof *d->draco_problems);
     d->unpacked = ffd_alloc_zero(d->model.accessor_count, sizeof *d->unpacked);
     ffd_status status = list && d->draco_problems && d->unpacked ? FFD_OK : ffd_fail_memory(error);
-    if (status == FFD_OK) {
+    if (!status) {
         const size_t count = list_packed(d, list);
         status = decode_all(d, list, count, error);
-        if (status == FFD_OK && count > 0)
+        if (!status && count > 0)
             status = mark_clashes(d, error);
     }
     ffd_free(list);

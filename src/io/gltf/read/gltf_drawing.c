@@ -48,10 +48,9 @@ static ffd_status read_drawing(gltf_document *d, gltf_primitive *primitive, ffd_
 
 ffd_status ffd_gltf_read_drawings(gltf_document *d, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++)
-        status = read_drawing(d, &d->model.primitives[i], error);
-    return status;
+    for (size_t i = 0; i < d->model.primitive_count; i++)
+        TRY(read_drawing(d, &d->model.primitives[i], error));
+    return FFD_OK;
 }
 
 static bool is_declared(const gltf_document *d)
@@ -267,9 +266,9 @@ static ffd_status check_indices(gltf_document *d, gltf_primitive *primitive, uin
     uint64_t found = largest[indices];
     if (restarts(d, primitive)) {
         uint32_t index;
-        const ffd_status status = unroll_drawing(d, primitive, &index, error);
-        if (status || index < vertices)
-            return status;
+        TRY(unroll_drawing(d, primitive, &index, error));
+        if (index < vertices)
+            return FFD_OK;
         found = index;
     }
     return ffd_gltf_drop_drawing(
@@ -287,7 +286,7 @@ ffd_status ffd_gltf_check_indices(gltf_document *d, ffd_error *error)
         return ffd_fail_memory(error);
     for (size_t a = 0; a < d->model.accessor_count; a++)
         largest[a] = UINT64_MAX;
-    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++)
+    for (size_t i = 0; i < d->model.primitive_count && !status; i++)
         status = check_indices(d, &d->model.primitives[i], largest, error);
     ffd_free(largest);
     return status;

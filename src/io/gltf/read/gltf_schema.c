@@ -224,12 +224,10 @@ static ffd_status check_shape(const checker *c, uint32_t value)
 
 static ffd_status check_members(const checker *c, uint32_t container, const rule *member)
 {
-    ffd_status status = FFD_OK;
     const json_tree *tree = c->tree;
-    for (uint32_t v = ffd_json_tree_first(tree, container); v != JSON_NONE && status == FFD_OK;
-         v = ffd_json_tree_after(tree, v))
-        status = check_value(c, v, member);
-    return status;
+    for (uint32_t v = ffd_json_tree_first(tree, container); v != JSON_NONE; v = ffd_json_tree_after(tree, v))
+        TRY(check_value(c, v, member));
+    return FFD_OK;
 }
 
 static ffd_status check_object(const checker *c, uint32_t object, const rule *rules)
@@ -241,9 +239,7 @@ static ffd_status check_object(const checker *c, uint32_t object, const rule *ru
         if (member == JSON_NONE)
             return ffd_json_tree_fail(c->tree, object, c->name, FFD_E_INVALID, c->error, "\"%s\" is missing",
                                       r->key);
-        const ffd_status status = check_value(c, member, r);
-        if (status)
-            return status;
+        TRY(check_value(c, member, r));
     }
     return FFD_OK;
 }
@@ -359,6 +355,6 @@ ffd_status ffd_gltf_check_schema(const json_tree *tree, const char *name, json_e
     const checker c = {.tree = tree, .name = name, .integers = integers, .error = error};
     if (tree->values[0].kind != JSON_OBJECT)
         return ffd_fail_file(error, FFD_E_INVALID, name, "is not glTF: the JSON is not an object");
-    const ffd_status status = check_object(&c, 0, root_rules);
-    return status ? status : check_version(&c);
+    TRY(check_object(&c, 0, root_rules));
+    return check_version(&c);
 }

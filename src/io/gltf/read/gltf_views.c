@@ -100,14 +100,11 @@ static ffd_status read_compression(const gltf_document *d, size_t i, meshopt_vie
     const uint32_t value = ffd_gltf_meshopt_value(d, i);
     const uint64_t length = d->model.views[i].length;
     *view = (meshopt_view){.count = integer(d, value, "count"), .stride = integer(d, value, "byteStride")};
-    ffd_status status = read_words(d, value, view, error);
-    if (status == FFD_OK)
-        status = find_bytes(d, value, view, error);
-    if (status)
-        return status;
+    TRY(read_words(d, value, view, error));
+    TRY(find_bytes(d, value, view, error));
     ffd_error problem;
-    status = ffd_meshopt_check(view, &problem);
-    if (status == FFD_OK)
+    ffd_status status = ffd_meshopt_check(view, &problem);
+    if (!status)
         status = ffd_meshopt_ready(view, &problem);
     if (status)
         return ffd_json_tree_fail(&d->tree, value, d->name, status, error, "%s", problem.message);
@@ -125,10 +122,8 @@ static ffd_status decode_view(gltf_document *d, size_t i, ffd_error *error)
     const uint32_t value = ffd_gltf_meshopt_value(d, i);
     meshopt_view view;
     ffd_error problem = {0};
-    ffd_status status = read_compression(d, i, &view, error);
-    if (status)
-        return status;
-    status = ffd_budget_take(&d->base.budget, d->model.views[i].length, 1, &problem);
+    TRY(read_compression(d, i, &view, error));
+    ffd_status status = ffd_budget_take(&d->base.budget, d->model.views[i].length, 1, &problem);
     if (status)
         return ffd_json_tree_fail(&d->tree, value, d->name, status, error, "%s", problem.message);
     d->decoded_views[i] = ffd_alloc_zero((size_t)d->model.views[i].length, 1);

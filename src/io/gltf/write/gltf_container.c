@@ -177,7 +177,7 @@ ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error)
     ffd_status status = FFD_OK;
     if (!stream && !saver->in_place)
         status = refuse_own_file(saver, saver->options->path, error);
-    for (size_t b = 0; b < d->buffer_values.count && status == FFD_OK; b++) {
+    for (size_t b = 0; b < d->buffer_values.count && !status; b++) {
         if (saver->buffers[b].kind != BUFFER_FILE || (saver->in_place && !saver->buffers[b].changed))
             continue;
         if (stream)

@@ -157,11 +157,11 @@ static ffd_status add_append(const gltf_saver *saver, size_t b, gltf_append appe
 static ffd_status list_unpacked(gltf_saver *saver, ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < saver->unpacking_count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < saver->unpacking_count && !status; i++) {
         gltf_unpacking *u = &saver->unpackings[i];
         const gltf_append append = {.size = u->size, .version = GLTF_NONE, .unpacking = i};
         status = add_append(saver, u->buffer, append, error);
-        if (status == FFD_OK)
+        if (!status)
             u->offset = saver->buffers[u->buffer].length - u->size;
     }
     return status;
@@ -170,8 +170,7 @@ static ffd_status list_unpacked(gltf_saver *saver, ffd_error *error)
 static ffd_status list_appends(gltf_saver *saver, ffd_error *error)
 {
     const gltf_document *d = saver->document;
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < saver->plan.appended_count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < saver->plan.appended_count; i++) {
         const size_t index = saver->plan.appended[i];
         const gltf_version *version = &saver->plan.versions[index];
         const size_t stride = ffd_gltf_align(element_size(d, version));
@@ -181,27 +180,21 @@ static ffd_status list_appends(gltf_saver *saver, ffd_error *error)
                                     .stride = stride,
                                     .version = index,
                                     .sparse = sparse->bytes};
-        status = add_append(saver, ffd_gltf_append_buffer(d, version->accessor), append, error);
+        TRY(add_append(saver, ffd_gltf_append_buffer(d, version->accessor), append, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_gltf_make_content(gltf_saver *saver, ffd_error *error)
 {
-    ffd_status status = ffd_gltf_list_unpackings(saver, error);
-    if (status == FFD_OK)
-        status = ffd_gltf_mend_weights(saver, error);
-    if (status == FFD_OK)
-        status = ffd_gltf_list_sparse(saver, error);
-    if (status == FFD_OK)
-        status = make_buffers(saver, error);
-    if (status == FFD_OK)
-        status = list_appends(saver, error);
-    if (status == FFD_OK)
-        status = list_unpacked(saver, error);
-    if (status == FFD_OK)
-        list_overwrites(saver);
-    return status;
+    TRY(ffd_gltf_list_unpackings(saver, error));
+    TRY(ffd_gltf_mend_weights(saver, error));
+    TRY(ffd_gltf_list_sparse(saver, error));
+    TRY(make_buffers(saver, error));
+    TRY(list_appends(saver, error));
+    TRY(list_unpacked(saver, error));
+    list_overwrites(saver);
+    return FFD_OK;
 }
 
 void ffd_gltf_free_content(gltf_saver *saver)

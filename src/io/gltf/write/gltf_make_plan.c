@@ -267,7 +267,7 @@ static ffd_status split_meshes(const gltf_document *d, gltf_plan *plan, ffd_erro
     ffd_status status = FFD_OK;
     if (!variants || !groups || !order || !plan->base_uses || !plan->copies || !plan->changes)
         status = ffd_fail_memory(error);
-    for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++) {
+    for (size_t m = 0; m < d->model.mesh_count && !status; m++) {
         const size_t first_copy = plan->copy_count, first_change = plan->change_count;
         split_mesh(d, m, variants, plan);
         order_copies(plan, first_copy, first_change);
@@ -366,13 +366,13 @@ ffd_status ffd_gltf_make_plan(const gltf_document *d, gltf_plan *plan, ffd_error
 {
     *plan = (gltf_plan){0};
     ffd_status status = make_versions(d, plan, error);
-    if (status == FFD_OK)
+    if (!status)
         status = split_meshes(d, plan, error);
-    if (status == FFD_OK)
+    if (!status)
         status = choose_in_place(d, plan, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_gltf_resolve_overlaps(d, plan, error);
-    if (status == FFD_OK)
+    if (!status)
         status = append_rest(d, plan, error);
     if (status)
         ffd_gltf_free_plan(plan);

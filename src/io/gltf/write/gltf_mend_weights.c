@@ -64,9 +64,7 @@ static ffd_status open_list(mending *m, size_t a, influence_list *list)
         return FFD_OK;
     gltf_unpacking *const unpacking = &m->saver->unpackings[index];
     if (!unpacking->own) {
-        const ffd_status status = ffd_budget_take(&m->budget, unpacking->size, 1, m->error);
-        if (status)
-            return status;
+        TRY(ffd_budget_take(&m->budget, unpacking->size, 1, m->error));
         unpacking->own = ffd_alloc(unpacking->size, 1);
         if (!unpacking->own)
             return ffd_fail_memory(m->error);
@@ -215,9 +213,9 @@ static ffd_status open_sets(mending *m, const gltf_primitive *primitive, influen
     *mends = of->set_count > 0;
     for (size_t s = 0; s < of->set_count && *mends; s++)
         *mends = set_mends(m, &primitive->influences[s]);
-    for (size_t s = 0; s < of->set_count && *mends && status == FFD_OK; s++) {
+    for (size_t s = 0; s < of->set_count && *mends && !status; s++) {
         status = open_list(m, (size_t)primitive->influences[s].joints, &of->joints[s]);
-        if (status == FFD_OK)
+        if (!status)
             status = open_list(m, (size_t)primitive->influences[s].weights, &of->weights[s]);
         m->done[primitive->influences[s].weights] = true;
     }
@@ -228,9 +226,9 @@ static ffd_status mend_primitive(mending *m, const gltf_primitive *primitive)
 {
     influences of;
     bool mends;
-    const ffd_status status = open_sets(m, primitive, &of, &mends);
-    if (status || !mends)
-        return status;
+    TRY(open_sets(m, primitive, &of, &mends));
+    if (!mends)
+        return FFD_OK;
     for (size_t v = 0; v < of.weights[0].accessor->count; v++)
         m->mended += mend_vertex(&of, v);
     return FFD_OK;
@@ -246,13 +244,13 @@ ffd_status ffd_gltf_mend_weights(gltf_saver *saver, ffd_error *error)
     m.done = ffd_alloc_zero(count, sizeof *m.done);
     m.partner = ffd_alloc(count, sizeof *m.partner);
     ffd_status status = m.done && m.partner ? FFD_OK : ffd_fail_memory(error);
-    for (size_t i = 0; i < count && status == FFD_OK; i++)
+    for (size_t i = 0; i < count && !status; i++)
         m.partner[i] = GLTF_NONE;
-    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++)
+    for (size_t i = 0; i < d->model.primitive_count && !status; i++)
         note_partners(&m, &d->model.primitives[i]);
-    for (size_t i = 0; i < d->model.primitive_count && status == FFD_OK; i++)
+    for (size_t i = 0; i < d->model.primitive_count && !status; i++)
         status = mend_primitive(&m, &d->model.primitives[i]);
-    if (status == FFD_OK && m.mended > 0)
+    if (!status && m.mended > 0)
         ffd_log_line(saver->log, FFD_LOG_INFO,
                      "the skin weights of %zu %s, which were compressed, are written so that they sum to 1",
                      m.mended, ffd_plural(m.mended, "vertex", "vertices"));

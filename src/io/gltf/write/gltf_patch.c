@@ -304,9 +304,7 @@ ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error)
     add_views(saver);
     add_accessors(saver);
     add_meshes(saver);
-    const ffd_status status = ffd_gltf_follow_meshes(saver, error);
-    if (status)
-        return status;
+    TRY(ffd_gltf_follow_meshes(saver, error));
     ffd_gltf_warn_of_stale(saver);
     edit_rig(saver);
     edit_buffers(saver);

@@ -139,14 +139,12 @@ ffd_status ffd_gltf_find_named(const char *path, const file_input *bytes, const 
 ffd_status ffd_gltf_list_images(const mesh_document *document, path_list *files, ffd_error *error)
 {
     const gltf_document *d = ffd_gltf_of(document);
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < d->image_values.count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < d->image_values.count; i++) {
         char *relative = NULL;
-        status = image_path(d, i, &relative, error);
-        if (!status)
-            status = ffd_gltf_add_sibling(&d->base.folder, relative, files, error);
+        TRY(image_path(d, i, &relative, error));
+        TRY(ffd_gltf_add_sibling(&d->base.folder, relative, files, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_gltf_list_linked(const mesh_document *document, path_list *files, ffd_error *error)
@@ -159,9 +157,9 @@ static ffd_status copy_image(const resources *r, const mesh_resource *image, ffd
 {
     const gltf_document *d = r->saver->document;
     ffd_error refused;
-    const ffd_status status = ffd_resource_copy(&r->copier, image, &refused, error);
-    if (status || !refused.status)
-        return status;
+    TRY(ffd_resource_copy(&r->copier, image, &refused, error));
+    if (!refused.status)
+        return FFD_OK;
     return ffd_json_tree_fail(
         &d->tree, d->image_values.values[image->number], d->name, FFD_E_IO, error,
         "the image \"%s\" cannot be copied: %s; {resources=reference} refers to it where it is", image->path,
@@ -219,9 +217,7 @@ static ffd_status embed_image(resources *r, size_t index, char *path, ffd_error 
     const char *left = ffd_resource_is_outside(&r->copier, path) ? "is outside the model's folder" : NULL;
     ffd_error refused = {0};
     file_input bytes = {0};
-    ffd_status status = left ? FFD_OK : ffd_resource_load(&r->copier, &image, &bytes, &left, &refused, error);
-    if (status)
-        return status;
+    TRY(left ? FFD_OK : ffd_resource_load(&r->copier, &image, &bytes, &left, &refused, error));
     if (refused.status)
         return ffd_json_tree_fail(&d->tree, d->image_values.values[index], d->name, FFD_E_IO, error,
                                   "the image \"%s\" cannot be put into the output: %s; {resources=reference} "
@@ -234,7 +230,7 @@ static ffd_status embed_image(resources *r, size_t index, char *path, ffd_error 
                      left);
         return FFD_OK;
     }
-    status = put_data_uri(r, index, &bytes, error);
+    ffd_status status = put_data_uri(r, index, &bytes, error);
     if (!status)
         status = ffd_resource_note(&r->copier, &image, error);
     ffd_file_unload(&bytes);
@@ -294,7 +290,7 @@ static ffd_status refuse_image_name(const resources *r, size_t index, bool own_c
         return status;
     if (!saver->in_place && !ffd_output_is_stream(saver->options->path))
         status = ffd_resource_check_target(&r->copier, &image, own_copy, saver->options->path, error);
-    for (size_t b = 0; b < saver->document->buffer_values.count && status == FFD_OK; b++)
+    for (size_t b = 0; b < saver->document->buffer_values.count && !status; b++)
         if (saver->buffers[b].target)
             status = ffd_resource_check_target(&r->copier, &image, own_copy, saver->buffers[b].target, error);
     ffd_free(image.path);
@@ -333,7 +329,7 @@ static ffd_status leave_linked(const resources *r, left_out *left, ffd_error *er
     intern_table known = {0};
     ffd_status status = FFD_OK;
     uint32_t extension, v = ffd_gltf_next_linked(tree, 0, &extension);
-    for (; v != JSON_NONE && status == FFD_OK; v = ffd_gltf_next_linked(tree, v + 1, &extension))
+    for (; v != JSON_NONE && !status; v = ffd_gltf_next_linked(tree, v + 1, &extension))
         status = leave_file(r, v, extension, &known, left, error);
     ffd_intern_free(&known);
     return status;
@@ -343,11 +339,10 @@ static ffd_status leave_linked(const resources *r, left_out *left, ffd_error *er
 static ffd_status warn_of_left(const resources *r, ffd_error *error)
 {
     left_out left = {0};
-    const ffd_status status = leave_linked(r, &left, error);
-    if (status == FFD_OK)
-        ffd_left_out_log(&left, "file that an extension names is not copied",
-                         "files that extensions name are not copied", r->saver->log);
-    return status;
+    TRY(leave_linked(r, &left, error));
+    ffd_left_out_log(&left, "file that an extension names is not copied",
+                     "files that extensions name are not copied", r->saver->log);
+    return FFD_OK;
 }
 
 /* Names what goes along with a file, but not with standard input. */
@@ -358,19 +353,19 @@ static ffd_status warn_of_stream(gltf_saver *saver, ffd_error *error)
     left_out left = {0};
     resource_list images = {0};
     ffd_status status = r.to ? FFD_OK : ffd_fail_memory(error);
-    for (size_t i = 0; i < d->image_values.count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < d->image_values.count && !status; i++) {
         char *path;
         status = image_path(d, i, &path, error);
         if (path)
             status = ffd_resources_add(&images, &ffd_resource_image, i, path, error);
     }
-    for (size_t i = 0; i < images.count && status == FFD_OK; i++)
+    for (size_t i = 0; i < images.count && !status; i++)
         status = ffd_left_add_unreached(&left, saver->options->to_sink ? NULL : r.to,
                                         images.resources[i].path, "of images", error);
     ffd_resources_free(&images);
-    if (status == FFD_OK)
+    if (!status)
         status = leave_linked(&r, &left, error);
-    if (status == FFD_OK)
+    if (!status)
         ffd_left_out_log_stream(&left, saver->log);
     ffd_free(r.to);
     return status;
@@ -400,14 +395,14 @@ ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error)
     ffd_status status = r.from && r.to ? FFD_OK : ffd_fail_memory(error);
     const bool stay = status == FFD_OK && (saver->in_place || ffd_save_meets(saver->options, r.from, r.to));
     const bool own_copies = stay || (copies && !embeds);
-    for (size_t i = 0; i < d->image_values.count && status == FFD_OK; i++)
+    for (size_t i = 0; i < d->image_values.count && !status; i++)
         status = refuse_image_name(&r, i, own_copies, error);
-    for (size_t i = 0; i < d->image_values.count && status == FFD_OK && (!stay || embeds); i++)
+    for (size_t i = 0; i < d->image_values.count && !status && (!stay || embeds); i++)
         status = bring_image(&r, i, error);
     ffd_resources_sort(&r.copies);
-    for (size_t i = 0; i < r.copies.count && status == FFD_OK; i++)
+    for (size_t i = 0; i < r.copies.count && !status; i++)
         status = copy_image(&r, &r.copies.resources[i], error);
-    if (status == FFD_OK && !stay && !ffd_output_is_stream(saver->options->path))
+    if (!status && !stay && !ffd_output_is_stream(saver->options->path))
         status = warn_of_left(&r, error);
     ffd_resources_free(&r.copies);
     ffd_free(r.from);

@@ -53,11 +53,9 @@ static ffd_status put_json(const gltf_saver *saver, size_t end, ffd_error *error
     const char *text = saver->document->tree.text;
     size_t at = json_begin(saver);
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < saver->edits.count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < saver->edits.count && !status; i++) {
         const json_edit *edit = &saver->edits.edits[i];
-        status = put(saver, text + at, edit->begin - at, error);
-        if (status)
-            return status;
+        TRY(put(saver, text + at, edit->begin - at, error));
         if (edit->buffer != EDIT_NO_BUFFER)
             status = ffd_gltf_write_content(saver, (size_t)edit->buffer, true, error);
         else if (edit->text_size > 0)
@@ -117,13 +115,11 @@ static glb_sizes measure_glb(const gltf_saver *saver)
 static ffd_status put_bin(const gltf_saver *saver, const glb_sizes *sizes, ffd_error *error)
 {
     const gltf_document *d = saver->document;
-    ffd_status status = put_chunk_header(saver, sizes->bin_chunk, GLB_CHUNK_BIN, error);
-    if (status)
-        return status;
+    TRY(put_chunk_header(saver, sizes->bin_chunk, GLB_CHUNK_BIN, error));
     if (!sizes->own_bin)
         return put(saver, d->input.data + d->glb.bin_begin, d->glb.bin_size, error);
-    status = ffd_gltf_write_content(saver, 0, false, error);
-    return status ? status : put_padding(saver, sizes->bin_chunk - sizes->bin, 0, error);
+    TRY(ffd_gltf_write_content(saver, 0, false, error));
+    return put_padding(saver, sizes->bin_chunk - sizes->bin, 0, error);
 }
 
 static ffd_status put_glb(const gltf_saver *saver, ffd_error *error)
@@ -138,19 +134,19 @@ static ffd_status put_glb(const gltf_saver *saver, ffd_error *error)
     store_u32(header + 4, GLB_VERSION);
     store_u32(header + 8, (uint32_t)sizes.total);
     ffd_status status = put(saver, header, sizeof header, error);
-    if (status == FFD_OK)
+    if (!status)
         status = put_chunk_header(saver, sizes.json_chunk, GLB_CHUNK_JSON, error);
-    if (status == FFD_OK)
+    if (!status)
         status = put_json(saver, sizes.json_end, error);
-    if (status == FFD_OK)
+    if (!status)
         status = put_padding(saver, sizes.json_chunk - sizes.json, ' ', error);
-    if (status == FFD_OK && sizes.has_bin)
+    if (!status && sizes.has_bin)
         status = put_bin(saver, &sizes, error);
-    if (status == FFD_OK && d->binary)
+    if (!status && d->binary)
         status = put(saver, d->input.data + d->glb.rest_begin, sizes.rest, error);
     /* Bytes beyond the stated length are kept only if nothing else changes. */
     const bool still = saver->plan.version_count == 0 && !(d->rig && d->rig->node_count > 0);
-    if (status == FFD_OK && d->binary && still)
+    if (!status && d->binary && still)
         status = put(saver, d->input.data + d->glb.end, d->input.size - d->glb.end, error);
     return status;
 }
@@ -162,15 +158,13 @@ static bool overwrites(const gltf_saver *saver)
 
 static ffd_status put_buffer_files(const gltf_saver *saver, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t b = 0; b < saver->document->buffer_values.count && status == FFD_OK; b++) {
+    for (size_t b = 0; b < saver->document->buffer_values.count; b++) {
         if (!saver->buffers[b].target)
             continue;
-        status = ffd_output_begin(saver->output, saver->buffers[b].target, overwrites(saver), error);
-        if (status == FFD_OK)
-            status = ffd_gltf_write_content(saver, b, false, error);
+        TRY(ffd_output_begin(saver->output, saver->buffers[b].target, overwrites(saver), error));
+        TRY(ffd_gltf_write_content(saver, b, false, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status put_files(gltf_saver *saver, ffd_error *error)
@@ -178,16 +172,13 @@ static ffd_status put_files(gltf_saver *saver, ffd_error *error)
     const gltf_document *d = saver->document;
     const char *path = saver->options->path;
     ffd_status status = ffd_gltf_bring_images(saver, error);
-    if (status == FFD_OK && ffd_edits_failed(&saver->edits))
+    if (!status && ffd_edits_failed(&saver->edits))
         status = ffd_fail_memory(error);
     ffd_edits_sort(&saver->edits);
     if (status || !saver->output)
         return status;
-    status = put_buffer_files(saver, error);
-    if (status == FFD_OK)
-        status = ffd_output_begin(saver->output, path, overwrites(saver), error);
-    if (status)
-        return status;
+    TRY(put_buffer_files(saver, error));
+    TRY(ffd_output_begin(saver->output, path, overwrites(saver), error));
     if (saver->binary)
         return put_glb(saver, error);
     return put_json(saver, d->binary ? d->tree.values[0].end : d->tree.size, error);
@@ -212,19 +203,19 @@ ffd_status ffd_gltf_save_results(mesh_document *document, const mesh_save_option
     saver.in_place = !ffd_output_is_stream(options->path) && !ffd_file_is_stream(d->path) &&
                      ffd_save_meets(options, d->path, options->path);
     ffd_status status = ffd_gltf_make_plan(d, &saver.plan, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_gltf_make_content(&saver, error);
-    if (status == FFD_OK) {
+    if (!status) {
         ffd_gltf_choose_buffer_kinds(&saver);
         warn_of_chunks(&saver);
     }
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_gltf_make_edits(&saver, error);
-    if (status == FFD_OK)
+    if (!status)
         status = ffd_gltf_name_buffers(&saver, error);
-    if (status == FFD_OK)
+    if (!status)
         ffd_gltf_announce(&saver);
-    if (status == FFD_OK)
+    if (!status)
         status = put_files(&saver, error);
     ((gltf_document *)document)->is_present = status == FFD_OK && d->keeps_pages;
     ffd_gltf_free_content(&saver);

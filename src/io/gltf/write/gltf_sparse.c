@@ -42,9 +42,7 @@ static ffd_status store(const float *values, size_t count, memory_budget *budget
     sparse->index_size = count <= SHORT_INDICES ? 2 : 4;
     sparse->values_at = ffd_gltf_align(sparse->count * sparse->index_size);
     sparse->size = sparse->values_at + sparse->count * VECTOR;
-    const ffd_status status = ffd_budget_take(budget, sparse->size, 1, error);
-    if (status)
-        return status;
+    TRY(ffd_budget_take(budget, sparse->size, 1, error));
     sparse->bytes = ffd_alloc_zero(sparse->size, 1);
     if (!sparse->bytes)
         return ffd_fail_memory(error);

@@ -164,14 +164,12 @@ static ffd_status read_file(reader *r, const char *path)
     file_input bytes = {0};
     const char *left;
     ffd_error refused;
-    ffd_status status = ffd_resource_load(&r->from, &library, &bytes, &left, &refused, r->error);
-    if (status)
-        return status;
+    TRY(ffd_resource_load(&r->from, &library, &bytes, &left, &refused, r->error));
     if (left || refused.status) {
         ffd_left_add_unloaded(&r->left, path, left);
         return FFD_OK;
     }
-    status = read_statements(r, path, &bytes);
+    ffd_status status = read_statements(r, path, &bytes);
     ffd_file_unload(&bytes);
     return status;
 }

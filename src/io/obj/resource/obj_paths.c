@@ -41,10 +41,10 @@ ffd_status ffd_obj_find_map(const file_folder *folder, const char *library, cons
                             ffd_error *error)
 {
     char *other = NULL;
-    ffd_status status = ffd_obj_find_path(folder, library, name, path, error);
-    if (status || !*path || is_there(folder, *path))
-        return status;
-    status = ffd_obj_find_path(folder, "", name, &other, error);
+    TRY(ffd_obj_find_path(folder, library, name, path, error));
+    if (!*path || is_there(folder, *path))
+        return FFD_OK;
+    ffd_status status = ffd_obj_find_path(folder, "", name, &other, error);
     if (status || !other || !is_there(folder, other)) {
         ffd_free(other);
         other = NULL;

@@ -28,11 +28,11 @@ static ffd_status add_tiles(const resource_copier *c, resource_list *list, const
 {
     const size_t before = list->count;
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < IMAGE_TILES && status == FFD_OK; i++) {
+    for (size_t i = 0; i < IMAGE_TILES && !status; i++) {
         char *path = NULL, *const tile = ffd_image_tile(name, i);
         status = tile ? ffd_obj_find_map(&c->mesh, library, tile, &path, error) : ffd_fail_memory(error);
         ffd_free(tile);
-        if (status == FFD_OK && path && ffd_folder_has(&c->mesh, path))
+        if (!status && path && ffd_folder_has(&c->mesh, path))
             status = ffd_resources_add(list, &ffd_resource_image, list->count, path, error);
         else
             ffd_free(path);
@@ -56,10 +56,10 @@ static ffd_status add_maps(const resource_copier *c, resource_list *list, const 
     const char *left;
     ffd_error refused;
     intern_table names = {0};
-    ffd_status status = ffd_resource_load(c, library, &bytes, &left, &refused, error);
-    if (status || left || refused.status)
-        return status;
-    status = ffd_mtl_list_maps(bytes.data, bytes.size, library->path, &names, error);
+    TRY(ffd_resource_load(c, library, &bytes, &left, &refused, error));
+    if (left || refused.status)
+        return FFD_OK;
+    ffd_status status = ffd_mtl_list_maps(bytes.data, bytes.size, library->path, &names, error);
     size_t tiled = 0;
     for (uint32_t i = 0; i < names.count && !status; i++) {
         tiled += ffd_image_has_tiles(ffd_intern_key(&names, i));
@@ -213,8 +213,8 @@ ffd_status ffd_obj_find_named(const char *path, const file_input *bytes, const m
                               ffd_error *error)
 {
     const size_t before = named->files->count;
-    ffd_status status = ffd_obj_find_resources(path, bytes, named->files, error);
-    for (size_t i = before; named->copies && i < named->files->count && !status; i++)
-        status = ffd_paths_add(named->copies, named->files->paths[i], error);
-    return status;
+    TRY(ffd_obj_find_resources(path, bytes, named->files, error));
+    for (size_t i = before; named->copies && i < named->files->count; i++)
+        TRY(ffd_paths_add(named->copies, named->files->paths[i], error));
+    return FFD_OK;
 }
