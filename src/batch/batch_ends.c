@@ -1,12 +1,12 @@
 /* batch_ends.c - handles ended jobs of a batch: prints, counts, records and reports them. */
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
-#include "base/one_line.h"
 #include "batch/batch_run.h"
 #include "batch/manifest/settings.h"
 #include "job/figures/figure_values.h"
 #include "job/report/report.h"
 #include "job/report/report_file.h"
+#include <ffd/program.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>

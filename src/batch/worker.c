@@ -3,7 +3,6 @@
 #include "base/file/mapping.h"
 #include "base/file/output.h"
 #include "base/memory/memory.h"
-#include "base/one_line.h"
 #include "base/system/interrupt.h"
 #include "batch/fingerprint.h"
 #include "batch/job_picture.h"

@@ -1,5 +1,4 @@
 /* check.c - ffd check: what a deformation would do, without writing it. */
-#include "base/file/folder.h"
 #include "cli/job.h"
 #include <stdio.h>
 

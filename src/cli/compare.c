@@ -1,7 +1,6 @@
 /* compare.c - ffd compare: are two files the same mesh? */
 #include "cli/command.h"
 #include "cli/member.h"
-#include "io/format_names.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -35,8 +34,8 @@ static const cli_option options[] = {
     {"json", 0, NULL, "the result as JSON", cli_set_flag, AT(json), NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_member, AT(job), NULL},
     {"strict", 0, NULL, CLI_STRICT, cli_set_member, AT(job), NULL},
-    {"input-format", 0, "FORMAT", FORMAT_NAMES "; format of the input named -, else of both", cli_set_member,
-     AT(job), NULL},
+    {"input-format", 0, "FORMAT", FFD_FORMAT_NAMES "; format of the input named -, else of both",
+     cli_set_member, AT(job), NULL},
     {"quiet", 'q', NULL, "only errors and the exit code (and --json)", cli_set_flag, AT(logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},

@@ -1,7 +1,6 @@
 /* info.c - ffd info: what is in a mesh or lattice file. */
 #include "cli/command.h"
 #include "cli/member.h"
-#include "io/format_names.h"
 #include <stdio.h>
 
 typedef struct settings {
@@ -20,7 +19,7 @@ static const cli_option options[] = {
      AT(job), NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_member, AT(job), NULL},
     {"strict", 0, NULL, CLI_STRICT, cli_set_member, AT(job), NULL},
-    {"input-format", 0, "FORMAT", FORMAT_NAMES "; needed for -", cli_set_member, AT(job), NULL},
+    {"input-format", 0, "FORMAT", FFD_FORMAT_NAMES "; needed for -", cli_set_member, AT(job), NULL},
     {"quiet", 'q', NULL, "print only errors besides the text", cli_set_flag, AT(logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},

@@ -1,6 +1,5 @@
 /* jacobian.c - ffd jacobian: the derivative of positions by control points or by placeholders. */
 #include "cli/job.h"
-#include "io/format_names.h"
 #include <ffd/jacobian.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -66,7 +65,7 @@ static const cli_option options[] = {
     {"timeout", 0, "SECONDS", CLI_TIMEOUT, cli_set_member, AT(job.desc), NULL},
     {"allow-extension", 0, "NAME", CLI_ALLOW_EXTENSION, cli_set_member, AT(job.desc), NULL},
     {"strict", 0, NULL, CLI_STRICT, cli_set_member, AT(job.desc), NULL},
-    {"input-format", 0, "FORMAT", FORMAT_NAMES "; needed for -", cli_set_member, AT(job.desc), NULL},
+    {"input-format", 0, "FORMAT", FFD_FORMAT_NAMES "; needed for -", cli_set_member, AT(job.desc), NULL},
     {"force", 0, NULL, "overwrite an existing output", cli_set_flag, AT(force), NULL},
     {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(job.logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(job.logging.verbose), NULL},

@@ -1,6 +1,4 @@
 #include "cli/job.h"
-#include "base/file/folder.h"
-#include "io/format_names.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -55,7 +53,7 @@ const cli_option cli_job_options[] = {
     {"timeout", 0, "SECONDS", CLI_TIMEOUT, cli_set_member, AT(desc), NULL},
     {"allow-extension", 0, "NAME", CLI_ALLOW_EXTENSION, cli_set_member, AT(desc), NULL},
     {"strict", 0, NULL, CLI_STRICT, cli_set_member, AT(desc), NULL},
-    {"input-format", 0, "FORMAT", FORMAT_NAMES "; needed for -", cli_set_member, AT(desc), NULL},
+    {"input-format", 0, "FORMAT", FFD_FORMAT_NAMES "; needed for -", cli_set_member, AT(desc), NULL},
     {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},

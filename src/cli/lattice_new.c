@@ -1,8 +1,6 @@
 /* lattice_new.c - ffd lattice new: a lattice round meshes. */
-#include "base/text/words.h"
 #include "cli/command.h"
 #include "cli/member.h"
-#include "io/format_names.h"
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -190,7 +188,7 @@ static const cli_option options[] = {
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_member, AT(job), NULL},
     {"allow-extension", 0, "NAME", CLI_ALLOW_EXTENSION, cli_set_member, AT(job), NULL},
     {"strict", 0, NULL, CLI_STRICT, cli_set_member, AT(job), NULL},
-    {"input-format", 0, "FORMAT", FORMAT_NAMES "; needed for -", cli_set_member, AT(job), NULL},
+    {"input-format", 0, "FORMAT", FFD_FORMAT_NAMES "; needed for -", cli_set_member, AT(job), NULL},
     {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},

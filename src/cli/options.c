@@ -1,7 +1,6 @@
 #include "cli/options.h"
-#include "base/one_line.h"
-#include "base/text/words.h"
 #include <ffd/ffd.h>
+#include <ffd/program.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -127,13 +126,19 @@ const cli_option *cli_next_option(cli_option_walk *walk)
     }
 }
 
+/* The most options of a command that are compared with an unknown one. */
+#define MOST_OPTIONS 128
+
 static bool unknown_option(const cli_table *options, const char *name, size_t length)
 {
-    nearest_word nearest = {.word = name, .length = length};
+    const char *known[MOST_OPTIONS];
+    char word[64];
+    size_t count = 0;
     cli_option_walk walk = cli_begin_walk(options);
-    for (const cli_option *option; (option = cli_next_option(&walk));)
-        ffd_nearest_offer(&nearest, option->name);
-    const char *const meant = ffd_nearest_meant(&nearest);
+    for (const cli_option *option; count < MOST_OPTIONS && (option = cli_next_option(&walk));)
+        known[count++] = option->name;
+    snprintf(word, sizeof word, "%.*s", (int)(length < sizeof word ? length : sizeof word - 1), name);
+    const char *const meant = ffd_word_meant(word, known, count);
     cli_complain("unknown option --%.*s (%s%s)", (int)(length < 60 ? length : 60), name,
                  meant ? "nearest: --" : "--help lists the known ones", meant ? meant : "");
     return false;

@@ -360,6 +360,7 @@ typedef enum ffd_format {
     FFD_FORMAT_STL
 } ffd_format;
 ffd_format ffd_format_from_name(const char *name);
+ffd_status ffd_format_check_name(const char *name, ffd_error *error);
 typedef enum ffd_normals { FFD_NORMALS_TRANSFORM = 0, FFD_NORMALS_KEEP, FFD_NORMALS_RECOMPUTE } ffd_normals;
 typedef enum ffd_space { FFD_SPACE_SCENE = 0, FFD_SPACE_MESH } ffd_space;
 typedef enum ffd_rig { FFD_RIG_KEEP = 0, FFD_RIG_FOLLOW } ffd_rig;
@@ -462,6 +463,8 @@ typedef struct ffd_deform_desc {
 } ffd_deform_desc;
 void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size);
 ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *desc, ffd_error *error);
+ffd_status ffd_deform_check_many(const ffd_deform_desc *job, const char *const *inputs,
+                                 const char *const *outputs, size_t count, ffd_error *error);
 ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
 ffd_status ffd_check_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
 typedef enum ffd_view_color {
@@ -747,6 +750,12 @@ void ffd_cleanup_on_signals(void);
 void ffd_guard_inputs(void);
 typedef void (*ffd_spell_function)(const char *member, const char *value, char *text, size_t capacity);
 void ffd_spell_members(ffd_spell_function spell);
+void ffd_make_one_line(char *text, size_t size);
+const char *ffd_nearest_word(const char *word, const char *const *known, size_t count);
+const char *ffd_word_meant(const char *word, const char *const *known, size_t count);
+bool ffd_paths_meet(const char *a, const char *b);
+ffd_status ffd_output_path(const char *folder, const char *input, const char *ending, char **path,
+                           ffd_error *error);
 bool ffd_worker_main(int argc, char **argv, int *exit_code);
 typedef enum ffd_member_kind {
     FFD_MEMBER_FLAG = 0,

@@ -121,7 +121,7 @@ static ffd_status read_format(const reading *r)
     snprintf(name, sizeof name, "x.%s", r->text[0] == '.' ? r->text + 1 : r->text);
     const ffd_format format = strlen(r->text) < 16 ? ffd_format_from_name(name) : FFD_FORMAT_AUTO;
     if (format == FFD_FORMAT_AUTO)
-        return refuse(r, ": ", "\"%s\" is not one of " FORMAT_NAMES, r->text);
+        return refuse(r, ": ", "\"%s\" is not one of " FFD_FORMAT_NAMES, r->text);
     *(ffd_format *)(void *)r->at = format;
     return FFD_OK;
 }
