@@ -24,7 +24,8 @@ extern "C" {
 /* Gives a job as a line of a manifest (JSON, UTF-8, terminated by 0), with paths relative to the current
    folder. index: of the job, counted from 0, each one more than the last. *line: NULL, as it is before the
    call, if there are no more jobs; it must stay valid until the next call. Called in the thread that runs the
-   batch, for as many jobs ahead as there are workers. A result other than FFD_OK ends the batch with this
+   batch, for as many jobs ahead as there are workers; with repeats for all of them before the first one
+   begins, and for some again. A result other than FFD_OK ends the batch with this
    status, after the jobs that have begun (FFD_E_IO if it is not an ffd_status). */
 typedef ffd_status (*ffd_batch_next_function)(void *user, uint64_t index, const char **line);
 
