@@ -314,6 +314,10 @@ static void a_text_that_does_not_fit_is_refused_with_the_member(void **state)
         {"input.memory", "4Q", "input.memory: \"4Q\" is not a size in bytes, as 700M or 4G"},
         {"outside", "exten", "outside: \"exten\" is not one of keep, extend, error (nearest: extend)"},
         {"fail_on", "flipped=1.5", "fail_on: \"1.5\" is not a number of the gate flipped"},
+        {"fail_on", "folds,tear=2,quick",
+         "fail_on: unknown gate \"quick\" (known: folds, outside, multiple, singular, invalid, tear, "
+         "flipped, edges)"},
+        {"fail_on", "outsid", "fail_on: unknown gate \"outsid\" (nearest: outside)"},
         {"as_morph", "b", "as_morph is given twice: \"a\" and \"b\""},
         {"set", "A=2", "set: \"A\" is set twice"},
         {"set", "=2", "set: \"=2\" is not NAME=VALUE"},
@@ -331,6 +335,7 @@ static void a_text_that_does_not_fit_is_refused_with_the_member(void **state)
         assert_int_equal(ffd_member_read(find(cases[i][0]), &desc, cases[i][1], &error), FFD_E_ARGUMENT);
         assert_string_equal(error.message, cases[i][2]);
     }
+    assert_int_equal(desc.fail_on, 0);
     assert_int_equal(desc.set_count, 1);
     assert_int_equal(desc.lattice_count, 1);
     ffd_deform_desc_clear(&desc);

@@ -181,6 +181,18 @@ static bool is_gate(const char *name, const char *word, size_t length)
     return (has_limit ? length >= size : length == size) && memcmp(name, word, size) == 0;
 }
 
+/* Lists the gates: "folds, tear, edges". Those with and without a limit follow each other. */
+static void list_gates(const char *const *words, char *text, size_t capacity)
+{
+    size_t used = 0;
+    for (size_t i = 0; words[i] && used < capacity; i++) {
+        const size_t length = strcspn(words[i], "=");
+        if (i == 0 || strncmp(words[i], words[i - 1], length) != 0)
+            used += (size_t)snprintf(text + used, capacity - used, "%s%.*s", i ? ", " : "", (int)length,
+                                     words[i]);
+    }
+}
+
 static ffd_status add_gate(const reading *r, ffd_deform_desc *desc, const char *word, size_t length)
 {
     nearest_word nearest = {.word = word, .length = strcspn(word, "=,")};
@@ -197,21 +209,24 @@ static ffd_status add_gate(const reading *r, ffd_deform_desc *desc, const char *
         }
         ffd_nearest_offer(&nearest, name);
     }
+    char known[200];
+    list_gates(r->member->words, known, sizeof known);
     const char *const meant = ffd_nearest_meant(&nearest);
     return refuse(r, ": ", "unknown gate \"%.*s\" (%s%s)", (int)(length < 60 ? length : 60), word,
-                  meant ? "nearest: "
-                        : "known: folds, outside, multiple, singular, invalid, tear, flipped, edges",
-                  meant ? meant : "");
+                  meant ? "nearest: " : "known: ", meant ? meant : known);
 }
 
 /* Reads a list such as "folds,outside". */
 static ffd_status read_gates(const reading *r)
 {
     ffd_deform_desc *const desc = (ffd_deform_desc *)(void *)(r->at - offsetof(ffd_deform_desc, fail_on));
+    const ffd_deform_desc before = *desc;
     const char *word = r->text;
     for (;;) {
         const size_t length = strcspn(word, ",");
         const ffd_status status = add_gate(r, desc, word, length);
+        if (status)
+            *desc = before;
         if (status || !word[length])
             return status;
         word += length + 1;
