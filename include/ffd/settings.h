@@ -56,6 +56,9 @@ typedef struct ffd_member {
 /* Returns a member of the table, by its number from 0; NULL behind the last. Thread-safe. */
 FFD_API const ffd_member *ffd_deform_member(size_t index);
 
+/* Returns the member of an option, or NULL. Thread-safe. */
+FFD_API const ffd_member *ffd_deform_member_of(const char *option);
+
 /* Sets a member to what a text says, in the form that options of `ffd` have: "4G", "0.1r", "folds,tear=2",
    "NAME=VALUE". Lists grow by an element, gates add up, a text is set once, all others to the last value.
    desc may be another struct that has such a member at these offsets. text stays in use, as part of desc;

@@ -41,17 +41,7 @@ void cli_spell(const char *member, const char *value, char *text, size_t capacit
     snprintf(text, capacity, "%s%s%s", option ? option : made, value ? " " : "", value ? value : "");
 }
 
-const ffd_member *cli_find_member(const char *option)
-{
-    const ffd_member *member;
-    size_t index = 0;
-    while ((member = ffd_deform_member(index)) != NULL &&
-           !(member->option && strcmp(member->option, option) == 0))
-        index++;
-    return member;
-}
-
 bool cli_set_member(void *settings, const cli_option *option, const char *value)
 {
-    return cli_read(cli_find_member(option->name), (char *)settings + option->offset, option, value);
+    return cli_read(ffd_deform_member_of(option->name), (char *)settings + option->offset, option, value);
 }

@@ -11,7 +11,4 @@ void cli_spell(const char *member, const char *value, char *text, size_t capacit
 /* A setter: of the member that is called as the option is, in the ffd_deform_desc at the option's offset. */
 bool cli_set_member(void *settings, const cli_option *option, const char *value);
 
-/* Returns the member of an option; NULL: there is none. */
-const ffd_member *cli_find_member(const char *option);
-
 #endif

@@ -787,6 +787,7 @@ typedef struct ffd_member {
     unsigned traits;
 } ffd_member;
 const ffd_member *ffd_deform_member(size_t index);
+const ffd_member *ffd_deform_member_of(const char *option);
 ffd_status ffd_member_read(const ffd_member *member, void *desc, const char *text, ffd_error *error);
 void ffd_deform_desc_clear(ffd_deform_desc *desc);
 ffd_status ffd_deform_desc_check(const ffd_deform_desc *desc, ffd_error *error);

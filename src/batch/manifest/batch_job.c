@@ -147,16 +147,6 @@ static bool add_morphs(job_maker *maker)
     return true;
 }
 
-static const ffd_member *find_member(const char *option)
-{
-    const ffd_member *member;
-    size_t index = 0;
-    while ((member = ffd_deform_member(index)) != NULL &&
-           !(member->option && strcmp(member->option, option) == 0))
-        index++;
-    return member;
-}
-
 /* Sets a member to what an option of the job says. text: NULL if it has no value. */
 static bool read_member(job_maker *maker, const ffd_member *member, const char *text)
 {
@@ -182,7 +172,7 @@ static bool add_clips(job_maker *maker)
         return refuse(maker, "%s", wrong);
     for (size_t i = 0; i < description->count; i++)
         if (description->statements[i].part == JOB_CLIP &&
-            !read_member(maker, find_member("clip"),
+            !read_member(maker, ffd_deform_member_of("clip"),
                          ffd_description_value(description, &description->statements[i])))
             return false;
     return true;
@@ -211,8 +201,9 @@ static bool check_option_name(const job_maker *maker, const char *name)
     if (ffd_word_is_known(name, reserved, RESERVED) || ffd_word_is_known(name, others, OTHERS))
         return refuse(maker, "\"%s\" is not an option of a job", name);
     const char *const meant = nearest_option(name);
-    return find_member(name) || refuse(maker, "unknown option %.60s%s%s%s", name, meant ? " (nearest: " : "",
-                                       meant ? meant : "", meant ? ")" : "");
+    return ffd_deform_member_of(name) ||
+           refuse(maker, "unknown option %.60s%s%s%s", name, meant ? " (nearest: " : "", meant ? meant : "",
+                  meant ? ")" : "");
 }
 
 static bool add_options(job_maker *maker)
@@ -227,7 +218,7 @@ static bool add_options(job_maker *maker)
         if (is_option(statement) && !check_option_name(maker, name))
             return false;
         if ((statement->part == JOB_FLAG || statement->part == JOB_OPTION) &&
-            !read_member(maker, find_member(name), statement->part == JOB_FLAG ? NULL : value))
+            !read_member(maker, ffd_deform_member_of(name), statement->part == JOB_FLAG ? NULL : value))
             return false;
     }
     return true;
@@ -246,7 +237,7 @@ static bool has_setting(const job_description *description, const char *name)
 
 static bool add_setting(job_maker *maker, const char *name, const char *value)
 {
-    ffd_setting *const setting = ffd_setting_list_add(find_member("set"), &maker->job->desc);
+    ffd_setting *const setting = ffd_setting_list_add(ffd_deform_member_of("set"), &maker->job->desc);
     if (!setting)
         return fail_memory(maker);
     *setting = (ffd_setting){name, value};

@@ -77,7 +77,8 @@ static pages_value parse(const char *text)
 pages_value pages_option_value(const cli_option *option)
 {
     pages_value value = parse(option->value);
-    const ffd_member *const member = option->set == cli_set_member ? cli_find_member(option->name) : NULL;
+    const ffd_member *const member =
+        option->set == cli_set_member ? ffd_deform_member_of(option->name) : NULL;
     const char *const *const words =
         member && member->kind == FFD_MEMBER_GATES ? member->words : option->choices;
     if (!words || option->set == cli_set_choice)

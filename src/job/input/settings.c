@@ -88,6 +88,14 @@ const ffd_member *ffd_deform_member(size_t index)
     return index < MEMBERS ? &members[index] : NULL;
 }
 
+const ffd_member *ffd_deform_member_of(const char *option)
+{
+    size_t m = 0;
+    while (m < MEMBERS && !(members[m].option && strcmp(members[m].option, option) == 0))
+        m++;
+    return m < MEMBERS ? &members[m] : NULL;
+}
+
 bool ffd_member_is_list(const ffd_member *member)
 {
     return member->kind >= FFD_MEMBER_TEXTS && member->kind <= FFD_MEMBER_MORPHS;
