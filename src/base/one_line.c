@@ -1,4 +1,5 @@
-/* one_line.c - texts that become one line of a message, whatever names are in them (public: ffd/program.h). */
+/* one_line.c - texts that become one line of a message, whatever names are in them (public: ffd/program.h).
+ */
 #include <ffd/program.h>
 #include <string.h>
 
