@@ -785,7 +785,7 @@ def jobs_that_are_refused(run):
     jobs_with_morphs(run, *({**job, "out": f"{k}{job['out']}"} for k, job in enumerate(jobs)))
     batch(run, "jobs.jsonl", done=1, failed=[
         '"lattice" and "morph" cannot be used together', '"morph" is an empty object', '"morph" is not an object',
-        '"morph": "a" is not the name of a lattice file', '"clip" is not a text or a list of texts', "is not NAME=LATTICE", '"morph" is empty',
+        '"morph": "a" is not the name of a lattice file', '"clip" is not a text or a list of texts', '"morph" has a name that is empty', '"morph" is empty',
         'there is no morph target "b"', '"0" is where ":" after', '"morph" is not an option of a job', "--as-morph cannot be used with --morph",
         "--clip needs --morph", "cannot hold a morph target", 'unknown key "morphs" .nearest: "morph"'])
     run.write("view.jsonl", lines_of([good]))
