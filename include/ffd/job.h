@@ -36,6 +36,11 @@ typedef enum ffd_format {
 /* Returns the format of a file name by its ending (or of a bare ending, "obj"), in upper or lower case;
    FFD_FORMAT_AUTO if the ending is unknown. Thread-safe. */
 FFD_API ffd_format ffd_format_from_name(const char *name);
+/* The endings that it knows, in words. */
+#define FFD_FORMAT_NAMES "obj, gltf, glb, vrm, ply, off or stl"
+/* Checks that it knows the ending of a file name. Thread-safe. Errors: FFD_E_ARGUMENT (the message has the
+   ending, and FFD_FORMAT_NAMES; of "-": that the format must be given). */
+FFD_API ffd_status ffd_format_check_name(const char *name, ffd_error *error);
 
 /* Normals and tangents: TRANSFORM multiplies normals by the cofactor matrix of the deformation gradient and
    tangents by the gradient (src/maths.md 9.1); KEEP leaves them as they are; RECOMPUTE computes them from the
@@ -308,6 +313,12 @@ FFD_API void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size);
    before the first of them runs. Errors: those of reading the mesh; FFD_E_ARGUMENT for standard input, which
    cannot be read twice. */
 FFD_API ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *desc, ffd_error *error);
+
+/* Checks several jobs that differ in their meshes and outputs only, before the first of them runs: that no
+   two write one file, and that none reads what another one writes. job: their settings; outputs: NULL if they
+   are in place. Errors: FFD_E_ARGUMENT (two have one name), FFD_E_INVALID, FFD_E_MEMORY. */
+FFD_API ffd_status ffd_deform_check_many(const ffd_deform_desc *job, const char *const *inputs,
+                                         const char *const *outputs, size_t count, ffd_error *error);
 
 /* Runs a job. It makes all checks before it writes anything; the output is complete or absent. result is
    filled in every case, also after a failure. Returns result->status. Errors: any; with FFD_E_GATE the

@@ -1,9 +1,12 @@
-/* program.h - what holds for the whole process: handlers of signals, and how messages name settings. For
-   programs, not for libraries that use this one; the library never sets any of it by itself. */
+/* program.h - what programs need beside the library. First what holds for the whole process: handlers of
+   signals, and how messages name settings; it is not for libraries that use this one, and the library never
+   sets any of it by itself. Then words and paths, as the program `ffd` has them. */
 #ifndef FFD_PROGRAM_H
 #define FFD_PROGRAM_H
 
+#include <ffd/error.h>
 #include <ffd/export.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 #ifdef __cplusplus
@@ -30,6 +33,31 @@ typedef void (*ffd_spell_function)(const char *member, const char *value, char *
    program's function; "falloff needs outside = extend" by default, and again after NULL. To be called
    before all other functions. */
 FFD_API void ffd_spell_members(ffd_spell_function spell);
+
+/* Replaces what breaks a line, controls a terminal or turns the direction of a text, each byte by '?':
+   control characters (ASCII and U+0080 to U+009F), U+2028 to U+202E and U+2066 to U+2069. All other bytes
+   stay. Thread-safe. */
+FFD_API void ffd_make_one_line(char *text, size_t size);
+
+/* Returns the entry of known (count words) that is most similar to word by edit distance, the first one if
+   there are several; NULL if count is 0. Thread-safe. */
+FFD_API const char *ffd_nearest_word(const char *word, const char *const *known, size_t count);
+/* Returns that entry if it is what an unknown word means; NULL if it is not similar enough, or others are as
+   similar. Thread-safe. */
+FFD_API const char *ffd_word_meant(const char *word, const char *const *known, size_t count);
+
+/* Returns whether both paths lead to the same file, which need not exist yet; false if memory runs out.
+   Thread-safe. */
+FFD_API bool ffd_paths_meet(const char *a, const char *b);
+
+/* Makes the path of an output in a folder that keeps the name of its input; ending: which it gets instead of
+   its own, or NULL. The caller frees *path with ffd_free. Thread-safe. Errors: FFD_E_MEMORY. */
+FFD_API ffd_status ffd_output_path(const char *folder, const char *input, const char *ending, char **path,
+                                   ffd_error *error);
+
+/* Does the work of this process if ffd_batch_run has started it (ffd/batch.h), and sets *exit_code. Returns
+   false otherwise. The program `ffd` calls it with the arguments of main, after ffd_cleanup_on_signals. */
+FFD_API bool ffd_worker_main(int argc, char **argv, int *exit_code);
 
 #ifdef __cplusplus
 }

@@ -1,7 +1,7 @@
 #include "base/fail.h"
-#include "base/one_line.h"
 #include "base/spelling.h"
 #include <errno.h>
+#include <ffd/program.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,6 @@
-#include "base/one_line.h"
+/* one_line.c - texts that become one line of a message, whatever names are in them (public: ffd/program.h).
+ */
+#include <ffd/program.h>
 #include <string.h>
 
 /* Returns the size of the character to replace at the start of a text; 0 if it may stay. */

@@ -1,12 +1,12 @@
 /* batch_ends.c - handles ended jobs of a batch: prints, counts, records and reports them. */
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
-#include "base/one_line.h"
 #include "batch/batch_run.h"
 #include "batch/manifest/settings.h"
 #include "job/figures/figure_values.h"
 #include "job/report/report.h"
 #include "job/report/report_file.h"
+#include <ffd/program.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -14,7 +14,7 @@
 const char *ffd_run_manifest(const batch_run *run)
 {
     const job_source_desc *const jobs = &run->desc->jobs;
-    return jobs->manifest || jobs->table ? ffd_jobs_name(run->source) : NULL;
+    return jobs->manifest || jobs->next || jobs->table ? ffd_jobs_name(run->source) : NULL;
 }
 
 void ffd_run_log_error(batch_run *run, const ffd_error *error)
@@ -48,7 +48,7 @@ static void append_place(const batch_job *job, const char *manifest, byte_buffer
 static void append_settings(const batch_job *job, byte_buffer *text)
 {
     const size_t before = text->size;
-    ffd_settings_show(job->words.data, job->word_count, text);
+    ffd_settings_show(&job->desc, text);
     if (text->size == before)
         return;
     ffd_make_one_line(text->data + before, text->size - before);
@@ -95,9 +95,9 @@ static void append_entry(const pool_task *task, const row_array *rows, bool stab
     ffd_result_clear(&result);
     result.status = task->failure.status;
     result.error = task->failure;
-    ffd_settings_json(job->words.data, job->word_count, &set);
-    const bool skipped = task->outcome == OUTCOME_SKIPPED;
-    result.picture = task->has_picture ? task->picture : NULL;
+    ffd_settings_json(&job->desc, &set);
+    const bool skipped = task->end.outcome == OUTCOME_SKIPPED;
+    result.picture = task->end.has_picture ? task->picture : NULL;
     const report_entry entry = {.line = job->line,
                                 .input = job->input,
                                 .output = ffd_job_output_name(job),
@@ -124,9 +124,9 @@ static void append_entry(const pool_task *task, const row_array *rows, bool stab
 static ffd_status note_state(file_table *states, pool_task *task, ffd_error *error)
 {
     uint64_t known;
-    if (!task->has_mesh_state)
+    if (!task->end.has_state)
         return FFD_OK;
-    const uint64_t state = load_u64(task->mesh_state.bytes) >> (64 - STATE_BITS) << 1;
+    const uint64_t state = load_u64(task->end.state.bytes) >> (64 - STATE_BITS) << 1;
     if (!ffd_files_find(states, &task->mesh, &known))
         return ffd_files_put(states, &task->mesh, state, error);
     if (known & TOLD || known == state)
@@ -143,7 +143,7 @@ static ffd_status note_state(file_table *states, pool_task *task, ffd_error *err
 
 static const row_array *rows_of(const batch_run *run)
 {
-    return run->desc->positions ? &run->rows.array : NULL;
+    return run->desc->given->positions ? &run->rows.array : NULL;
 }
 
 /* rows: of positions, or NULL. */
@@ -151,7 +151,7 @@ static void print_plan(const pool_task *task, const row_array *rows)
 {
     const batch_job *const job = &task->job;
     const char *const output = ffd_job_output_name(job);
-    printf("%s %s -> ", task->outcome == OUTCOME_SKIPPED ? "up to date:" : "to do:", job->input);
+    printf("%s %s -> ", task->end.outcome == OUTCOME_SKIPPED ? "up to date:" : "to do:", job->input);
     if (output)
         printf("%s%s", output, rows ? ", " : "\n");
     if (rows)
@@ -162,7 +162,7 @@ static void print_plan(const pool_task *task, const row_array *rows)
 static ffd_status complete_entry(const batch_run *run, pool_task *task, ffd_error *error)
 {
     if (!task->entry.size)
-        append_entry(task, rows_of(run), run->desc->pool.stable, &task->entry);
+        append_entry(task, rows_of(run), run->desc->pool.wishes.stable, &task->entry);
     return task->entry.failed ? ffd_fail_memory(error) : FFD_OK;
 }
 
@@ -185,8 +185,10 @@ static ffd_status log_task(batch_run *run, const pool_task *task, ffd_error *err
     append_lines(task, ffd_run_manifest(run), &lines);
     ffd_buffer_append(&lines, "", 1);
     const ffd_status status = lines.failed ? ffd_fail_memory(error) : FFD_OK;
-    if (!status)
+    if (!status) {
         ffd_progress_print(&run->progress, lines.data);
+        ffd_run_call_ended(run, task, lines.data);
+    }
     ffd_buffer_free(&lines);
     return status;
 }
@@ -196,7 +198,7 @@ static void clear_row(const batch_run *run, const pool_task *task)
 {
     const batch_desc *const desc = run->desc;
     const bool replaces = run->rows.goes_on && (desc->force || desc->jobs.resume);
-    if (desc->positions && !desc->pool.dry && (task->took_row || replaces) &&
+    if (desc->given->positions && !desc->pool.wishes.dry && (task->end.took_row || replaces) &&
         task->job.row < run->rows.array.rows)
         ffd_row_clear(&run->rows.array, task->job.row);
 }
@@ -204,9 +206,9 @@ static void clear_row(const batch_run *run, const pool_task *task)
 /* Records what the job has made: its results, and its picture if it has no output. */
 static void put_records(const batch_run *run, const pool_task *task)
 {
-    const job_record drawn = {task->record.inputs, task->drawn};
-    ffd_journal_put(run->journal, &task->target, &task->record, task->figures.data, task->figures.size);
-    if (task->has_drawn)
+    const job_record drawn = {task->end.record.inputs, task->end.drawn};
+    ffd_journal_put(run->journal, &task->target, &task->end.record, task->figures.data, task->figures.size);
+    if (task->end.has_drawn)
         ffd_journal_put(run->journal, &task->picture_target, &drawn, "", 0);
 }
 
@@ -214,9 +216,9 @@ static void put_records(const batch_run *run, const pool_task *task)
 static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
 {
     uint64_t *const counts[] = {&run->counts.done, &run->counts.skipped, &run->counts.failed};
-    ++*counts[task->outcome];
+    ++*counts[task->end.outcome];
     task->noted = true;
-    if (task->outcome == OUTCOME_FAILED)
+    if (task->end.outcome == OUTCOME_FAILED)
         clear_row(run, task);
     ffd_status status = ffd_run_learn(run, task, error);
     if (!status)
@@ -224,11 +226,11 @@ static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
     if (!status)
         status = log_task(run, task, error);
     uint32_t index;
-    if (!status && task->own_box && !ffd_intern(&run->boxed, &task->mesh, sizeof task->mesh, &index))
+    if (!status && task->end.own_box && !ffd_intern(&run->boxed, &task->mesh, sizeof task->mesh, &index))
         status = ffd_fail_memory(error);
-    if (task->outcome == OUTCOME_FAILED && run->desc->stop)
+    if (task->end.outcome == OUTCOME_FAILED && run->desc->given->stop)
         run->ending = true;
-    if (run->journal && task->outcome == OUTCOME_DONE && task->has_record)
+    if (run->journal && task->end.outcome == OUTCOME_DONE && task->end.has_record)
         put_records(run, task);
     if (!status && run->report && !ffd_report_is_ordered(run->report))
         status = report_task(run, run->report, task, error);
@@ -260,7 +262,7 @@ ffd_status ffd_run_note_ends(batch_run *run, ffd_error *error)
 /* Does what must happen in the order of the jobs. */
 static ffd_status emit_task(batch_run *run, pool_task *task, ffd_error *error)
 {
-    if (run->desc->pool.dry && task->outcome != OUTCOME_FAILED)
+    if (run->desc->given->is_program && run->desc->pool.wishes.dry && task->end.outcome != OUTCOME_FAILED)
         print_plan(task, rows_of(run));
     if (run->depfile && task->rule.size) {
         ffd_depfile_add(run->depfile, &task->rule);
@@ -276,7 +278,7 @@ static ffd_status emit_task(batch_run *run, pool_task *task, ffd_error *error)
 /* Whether any output is in the order of the jobs. */
 static bool emits_in_order(const batch_run *run)
 {
-    return run->desc->pool.dry || run->depfile || run->view ||
+    return run->desc->pool.wishes.dry || run->depfile || run->view ||
            (run->report && ffd_report_is_ordered(run->report));
 }
 

@@ -4,6 +4,7 @@
 #include "base/memory/memory.h"
 #include "base/spelling.h"
 #include "base/system/interrupt.h"
+#include "base/system/processors.h"
 #include "base/text/words.h"
 #include "batch/measure.h"
 #include "batch/own_files.h"
@@ -27,7 +28,7 @@
 static void check_row(const batch_run *run, batch_job *job)
 {
     const row_array *const array = &run->rows.array;
-    if (!job->error.status && run->desc->positions && job->row >= array->rows)
+    if (!job->error.status && run->desc->given->positions && job->row >= array->rows)
         ffd_fail_file(&job->error, FFD_E_INVALID, job->input,
                       "came after the jobs were counted: %s has %" PRIu64 " rows", array->path, array->rows);
 }
@@ -35,7 +36,7 @@ static void check_row(const batch_run *run, batch_job *job)
 static void add_task(batch_run *run, pool_task *task)
 {
     batch_job *const job = &task->job;
-    file_stamp stamp; /* of the mesh, whose path is the first word */
+    file_stamp stamp; /* of the mesh */
     run->tasks[run->count++] = task;
     task->number = run->jobs++;
     check_row(run, job);
@@ -44,16 +45,29 @@ static void add_task(batch_run *run, pool_task *task)
         return;
     }
     task->mesh = ffd_hash(job->input, strlen(job->input));
-    task->is_large = ffd_file_stamp(job->words.data, &stamp) && stamp.size > MOST_SHARED;
+    task->is_large = ffd_file_stamp(job->desc.input.path, &stamp) && stamp.size > MOST_SHARED;
     task->has_mesh_name = !job->target || ffd_format_from_name(job->target) != FFD_FORMAT_AUTO;
     task->state = TASK_ORDERED;
     run->waiting++;
 }
 
+/* The most jobs that are read ahead. A caller is asked for no more than workers need: the next job may depend
+   on those that have ended. */
+static size_t count_ahead(const batch_run *run)
+{
+    const job_source_desc *const jobs = &run->desc->jobs;
+    const int workers = run->desc->pool.workers;
+    if (!jobs->next || jobs->repeats)
+        return AHEAD;
+    const size_t wanted = (size_t)(workers > 0 ? workers : ffd_processor_count());
+    return wanted < AHEAD ? wanted : AHEAD;
+}
+
 static ffd_status read_jobs(batch_run *run, ffd_error *error)
 {
+    const size_t ahead = count_ahead(run);
     run->starved = false;
-    while (!run->ended && !run->ending && run->count < BATCH_WINDOW && run->waiting < AHEAD) {
+    while (!run->ended && !run->ending && run->count < BATCH_WINDOW && run->waiting < ahead) {
         line_state state;
         pool_task *const task = ffd_alloc_zero(1, sizeof *task);
         if (!task)
@@ -85,7 +99,7 @@ static void drop_waiting(batch_run *run)
 
 static void check_interrupts(batch_run *run)
 {
-    const bool stops = ffd_interrupt_requested();
+    const bool stops = run->cancelled || ffd_interrupt_requested();
     run->ending = run->ending || stops;
     if (run->ending)
         drop_waiting(run);
@@ -112,7 +126,7 @@ static ffd_status wait_for_ends(batch_run *run, ffd_error *error)
 {
     if (ffd_pool_running(run->pool) > 0 || run->starved)
         ffd_pool_wait(run->pool, run->starved ? ffd_jobs_descriptor(run->source) : -1, POLL);
-    if (run->ending || run->desc->stop || ffd_interrupt_requested())
+    if (run->ending || run->desc->given->stop || ffd_interrupt_requested())
         return FFD_OK;
     const ffd_status status = ffd_pool_assign(run->pool, run->tasks, run->count, error);
     run->ending = status;
@@ -124,12 +138,12 @@ static void log_memory_shortage(batch_run *run)
 {
     const pool_shortage *const shortage = ffd_pool_shortage(run->pool);
     ffd_error note;
-    if (!shortage || run->logged_shortage || run->desc->quiet)
+    if (!shortage || run->logged_shortage || run->desc->given->quiet)
         return;
     run->logged_shortage = true;
     ffd_fail_file(&note, FFD_E_LIMIT, ffd_jobs_name(run->source),
                   "%d %s at a time on %d processors: the cgroup allows %" PRIu64
-                  " MB of memory, and %s may take %" PRIu64 " MB ({input.memory}); {jobs} sets the number",
+                  " MB of memory, and %s may take %" PRIu64 " MB ({input.memory}); {workers} sets the number",
                   shortage->running, ffd_plural((uint64_t)shortage->running, "job", "jobs"),
                   shortage->processors, shortage->limit / 1000000, shortage->name,
                   shortage->needed / 1000000);
@@ -140,7 +154,7 @@ static ffd_status run_jobs(batch_run *run, ffd_error *error)
 {
     ffd_status status = FFD_OK, first = FFD_OK;
     while (!status) {
-        run->ending = run->ending || ffd_interrupt_requested();
+        run->ending = run->ending || run->cancelled || ffd_interrupt_requested();
         if (!first)
             first = begin_jobs(run, error);
         const ffd_status waited = wait_for_ends(run, first ? NULL : error);
@@ -152,7 +166,8 @@ static ffd_status run_jobs(batch_run *run, ffd_error *error)
             status = ffd_run_note_ends(run, first ? NULL : error); /* of those that were just stopped */
         if (!status)
             status = ffd_run_take_ended(run, first ? NULL : error);
-        ffd_progress_show(&run->progress, &run->counts, ffd_run_fraction(run));
+        run->cancelled =
+            !ffd_progress_show(&run->progress, &run->counts, ffd_run_fraction(run)) || run->cancelled;
         if (run->count == 0 && (run->ended || run->ending))
             break;
     }
@@ -163,11 +178,14 @@ static ffd_status open_journal(batch_run *run, ffd_error *error)
 {
     const batch_desc *const desc = run->desc;
     const job_source_desc *const jobs = &desc->jobs;
-    const char *const origin = jobs->manifest ? jobs->manifest : jobs->table ? jobs->table : jobs->pattern;
-    char *const path = desc->journal ? ffd_text_copy(desc->journal)
-                                     : ffd_journal_default_path(origin, jobs->shard, jobs->shards);
+    const char *const origin = jobs->next       ? ffd_jobs_name(run->source)
+                               : jobs->manifest ? jobs->manifest
+                               : jobs->table    ? jobs->table
+                                                : jobs->pattern;
+    char *const path = desc->given->journal ? ffd_text_copy(desc->given->journal)
+                                            : ffd_journal_default_path(origin, jobs->shard, jobs->shards);
     ffd_error reason;
-    if (path && desc->pool.dry && !(desc->pool.resume && ffd_file_exists(path))) {
+    if (path && desc->pool.wishes.dry && !(desc->pool.wishes.resume && ffd_file_exists(path))) {
         ffd_free(path); /* a dry run writes nothing, not even a journal */
         return FFD_OK;
     }
@@ -177,8 +195,8 @@ static ffd_status open_journal(batch_run *run, ffd_error *error)
     ffd_free(path);
     if (!status)
         return FFD_OK;
-    if (!desc->journal) { /* the default journal is optional: it only saves time */
-        if (desc->pool.resume)
+    if (!desc->given->journal) { /* the default journal is optional: it only saves time */
+        if (desc->pool.wishes.resume)
             ffd_run_log_error(run, &reason);
         return FFD_OK;
     }
@@ -193,9 +211,12 @@ static ffd_status claim_own(batch_run *run, ffd_error *error)
 {
     const job_source_desc *const jobs = &run->desc->jobs;
     const char *const origin = jobs->manifest ? jobs->manifest : jobs->table;
-    const char *const own[] = {run->desc->report,  run->desc->depfile,
-                               run->desc->journal, run->desc->positions,
-                               run->rows.list,     run->view ? ffd_run_view_page(run->view) : NULL};
+    const char *const own[] = {run->desc->given->report,
+                               run->desc->given->depfile,
+                               run->desc->given->journal,
+                               run->desc->given->positions,
+                               run->rows.list,
+                               run->view ? ffd_run_view_page(run->view) : NULL};
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < sizeof own / sizeof *own && !status; i++)
         if (own[i] && !ffd_output_is_stream(own[i]))
@@ -210,33 +231,40 @@ static ffd_status claim_own(batch_run *run, ffd_error *error)
 static bool replaces_files(const batch_run *run)
 {
     const batch_desc *const desc = run->desc;
-    return (desc->force && desc->positions && ffd_file_exists(desc->positions)) ||
+    return (desc->force && desc->given->positions && ffd_file_exists(desc->given->positions)) ||
            (run->view && ffd_file_exists(ffd_run_view_page(run->view)));
 }
 
 static ffd_status open_view(batch_run *run, ffd_error *error)
 {
     const batch_desc *const desc = run->desc;
-    const run_view_desc view = {.folder = desc->view,
+    const run_view_desc view = {.folder = desc->given->view,
                                 .out_dir = desc->jobs.out_dir,
                                 .name = ffd_jobs_name(run->source),
                                 .shard = desc->jobs.shard,
                                 .shards = desc->jobs.shards,
                                 .force = desc->force || desc->jobs.resume,
-                                .dry = desc->pool.dry};
+                                .dry = desc->pool.wishes.dry};
     return ffd_run_view_create(&view, &run->view, error);
 }
 
 /* Without a readable mesh the number of vertices is unknown, so the array cannot be made. */
 static void log_kept_array(batch_run *run)
 {
-    const char *const path = run->desc->positions;
+    const char *const path = run->desc->given->positions;
     ffd_error note;
-    if (!path || run->rows.is_there || run->desc->quiet || ffd_interrupt_requested() ||
+    if (!path || run->rows.is_there || run->desc->given->quiet || ffd_interrupt_requested() ||
         ffd_jobs_count(run->source) == 0 || !ffd_file_exists(path))
         return;
     ffd_fail_file(&note, FFD_E_INVALID, path, "stays as it is: no mesh could be read");
     ffd_run_log_error(run, &note);
+}
+
+/* The signals of a process are those of its program. */
+static void watch(const batch_run *run)
+{
+    if (run->desc->given->is_program)
+        ffd_interrupt_watch();
 }
 
 static ffd_status open_all(batch_run *run, ffd_error *error)
@@ -245,41 +273,41 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
     pool_desc pool = desc->pool;
     ffd_status status = FFD_OK;
     /* Until workers exist, a signal may end the program in the default way. */
-    if (desc->shared_box) {
-        ffd_interrupt_watch();
-        status = ffd_batch_measure(&desc->jobs, &pool, desc->depfile && !pool.dry, &run->box, &run->box_files,
-                                   error);
+    if (desc->given->shared_box) {
+        watch(run);
+        status = ffd_batch_measure(&desc->jobs, &pool, desc->given->depfile && !pool.wishes.dry, &run->box,
+                                   &run->box_files, error);
     }
-    if (!status && desc->positions) {
-        ffd_interrupt_watch();
+    if (!status && desc->given->positions) {
+        watch(run);
         status = ffd_run_rows_open(&run->rows, desc, error);
     }
     if (!status)
         status = ffd_jobs_open(&desc->jobs, &run->source, error);
     if (!status)
         status = open_journal(run, error);
-    ffd_interrupt_watch();
-    if (!status && desc->depfile && !pool.dry)
-        status = ffd_depfile_create(desc->depfile, &run->depfile, error);
-    if (!status && desc->view)
+    watch(run);
+    if (!status && desc->given->depfile && !pool.wishes.dry)
+        status = ffd_depfile_create(desc->given->depfile, &run->depfile, error);
+    if (!status && desc->given->view)
         status = open_view(run, error);
     run->files.manifest = status ? NULL : ffd_run_manifest(run);
     if (!status)
         status = claim_own(run, error);
     if (!status)
         status = ffd_run_expect(run, replaces_files(run), error);
-    if (!status && desc->report)
-        status = ffd_report_create(desc->report, pool.stable, NULL, &run->report, error);
-    if (!status && desc->positions)
+    if (!status && desc->given->report)
+        status = ffd_report_create(desc->given->report, pool.wishes.stable, NULL, &run->report, error);
+    if (!status && desc->given->positions)
         status = ffd_run_rows_place(&run->rows, desc, error);
-    pool.report = run->report || run->view || run->rows.report;
-    pool.quality = run->report || run->view;
+    pool.wishes.report = run->report || run->view || run->rows.report;
+    pool.wishes.quality = pool.wishes.quality || run->report || run->view;
     pool.draws = run->view != NULL;
-    pool.rows = desc->positions ? &run->rows.array : NULL;
-    pool.depfile = run->depfile != NULL;
-    pool.records = run->journal != NULL;
-    pool.box = desc->shared_box ? &run->box : NULL;
-    pool.tells = run->files.comes_once;
+    pool.rows = desc->given->positions ? &run->rows.array : NULL;
+    pool.wishes.depfile = run->depfile != NULL;
+    pool.wishes.records = run->journal != NULL;
+    pool.box = desc->given->shared_box ? &run->box : NULL;
+    pool.wishes.tells = run->files.comes_once;
     pool.origin = status ? NULL : ffd_jobs_name(run->source);
     return status ? status : ffd_pool_create(&pool, &run->pool, error);
 }
@@ -313,7 +341,7 @@ static void log_counts(batch_run *run)
              ffd_plural(counts.workers, "worker", "workers"), counts.jobs.reads,
              ffd_plural(counts.jobs.reads, "time", "times"), counts.jobs.searches,
              ffd_plural(counts.jobs.searches, "time", "times"));
-    if (run->desc->pool.verbose)
+    if (run->desc->pool.wishes.verbose)
         ffd_progress_print(&run->progress, line);
 }
 
@@ -321,7 +349,7 @@ static void log_counts(batch_run *run)
 static void warn_of_flaws(batch_run *run)
 {
     const mesh_log log = {log_line, &run->progress};
-    if (!run->desc->quiet)
+    if (!run->desc->given->quiet)
         ffd_flaws_warn(ffd_jobs_flaws(run->source), ffd_jobs_name(run->source), &log);
 }
 
@@ -329,7 +357,7 @@ static void warn_of_flaws(batch_run *run)
 static void log_boxes(batch_run *run)
 {
     ffd_error note;
-    if (run->desc->quiet || run->boxed.count < 2)
+    if (run->desc->given->quiet || run->boxed.count < 2)
         return;
     ffd_fail_file(
         &note, FFD_E_INVALID, ffd_jobs_name(run->source),
@@ -343,7 +371,7 @@ static void log_boxes(batch_run *run)
 static void warn_of_empty_manifest(batch_run *run)
 {
     ffd_error note;
-    if (run->desc->quiet || !run->ended || ffd_jobs_count(run->source) > 0)
+    if (run->desc->given->quiet || !run->ended || ffd_jobs_count(run->source) > 0)
         return;
     ffd_fail_file(&note, FFD_E_INVALID, ffd_jobs_name(run->source), "has no jobs");
     ffd_run_log_error(run, &note);
@@ -362,15 +390,22 @@ static ffd_status write_depfile(batch_run *run, ffd_error *error)
     return status ? status : ffd_depfile_write(run->depfile, error);
 }
 
-ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)
+static ffd_status refuse_cancelled(ffd_error *error)
+{
+    return ffd_fail(error, FFD_E_CANCELLED, "the caller has ended the batch");
+}
+
+ffd_status ffd_batch_do(const batch_desc *desc, ffd_batch_result *result, ffd_error *error)
 {
     batch_run run = {.desc = desc};
-    ffd_progress_begin(&run.progress, desc->quiet);
+    ffd_progress_begin(&run.progress, desc->given);
     ffd_status status = ffd_batch_check_own_files(desc, error);
     if (!status)
         status = open_all(&run, error);
     if (!status) {
         status = run_jobs(&run, error);
+        if (!status && run.cancelled)
+            status = refuse_cancelled(error);
         if (status)
             ffd_pool_stop(run.pool);
         ffd_report *const reports[] = {run.report, run.rows.report};
@@ -391,10 +426,12 @@ ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)
         }
         log_counts(&run);
         if (!status)
-            ffd_progress_end(&run.progress, &run.counts, desc->pool.dry ? "to do" : "done",
+            ffd_progress_end(&run.progress, &run.counts, desc->pool.wishes.dry ? "to do" : "done",
                              SPELLED(remark_of(&run)));
     }
-    *failed = run.counts.failed > 0 || run.dropped;
+    *result = run.counts;
+    result->struct_size = sizeof *result;
+    result->is_complete = !status && !run.dropped;
     for (size_t i = 0; i < run.count; i++)
         ffd_task_free(run.tasks[i]);
     ffd_pool_destroy(&run.pool);

@@ -1,12 +1,12 @@
-/* batch_run.h - the state of a running batch. batch_run.c runs it (batch.h); batch_ends.c, run_early.c
-   and run_claims.c have the functions below. */
+/* batch_run.h - the state of a running batch. batch_run.c runs it (batch_desc.h); batch_ends.c, job_ended.c,
+   run_early.c and run_claims.c have the functions below. */
 #ifndef FFD_BATCH_BATCH_RUN_H
 #define FFD_BATCH_BATCH_RUN_H
 
 #include "base/file/path.h"
 #include "base/memory/file_table.h"
 #include "base/memory/intern.h"
-#include "batch/batch.h"
+#include "batch/batch_desc.h"
 #include "batch/files/claims.h"
 #include "batch/journal.h"
 #include "batch/progress.h"
@@ -42,13 +42,14 @@ typedef struct batch_run {
     intern_table boxed; /* names (as hashes) of the meshes round each of which a lattice's box was laid */
     uint64_t jobs;      /* number of jobs read so far */
     batch_progress progress;
-    batch_counts counts;
+    ffd_batch_result counts;
     pool_task *tasks[BATCH_WINDOW]; /* count tasks in the order of the jobs */
     size_t count, waiting;          /* waiting: those that have not begun */
     bool ended;                     /* the source has no more jobs */
     bool starved;                   /* the next job is not complete yet */
     bool ending;                    /* no more jobs are begun */
     bool dropped;                   /* some jobs were not begun */
+    bool cancelled;                 /* the caller wants the batch to end */
     bool logged_shortage;           /* that jobs wait for memory */
 } batch_run;
 
@@ -75,6 +76,8 @@ ffd_status ffd_run_learn(batch_run *run, pool_task *task, ffd_error *error);
    have, because an earlier failure may stop the run; it is dropped if no more jobs are begun. Errors:
    FFD_E_MEMORY, FFD_E_IO. */
 ffd_status ffd_run_note_ends(batch_run *run, ffd_error *error);
+/* Tells the caller that a job has ended. log: its messages. */
+void ffd_run_call_ended(const batch_run *run, const pool_task *task, const char *log);
 /* Removes ended jobs from the window; if results are output in order, only up to the first job that has not
    ended. Counts waiting jobs. Errors: as of ffd_run_note_ends. */
 ffd_status ffd_run_take_ended(batch_run *run, ffd_error *error);

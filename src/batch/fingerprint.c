@@ -5,7 +5,6 @@
 #include "io/formats.h"
 #include "job/input/shown_box.h"
 #include "job/input/source.h"
-#include <ffd/version.h>
 
 /* The hashes that are combined into a fingerprint. */
 typedef struct hash_list {
@@ -43,17 +42,6 @@ static ffd_status add_images(hash_list *list, hash_cache *cache, const path_list
         if (add_file(list, cache, images->paths[i], NULL))
             TRY(add_hash(list, &missing, error));
     return FFD_OK;
-}
-
-static ffd_status add_words(hash_list *list, const fingerprint_words *words, ffd_error *error)
-{
-    const char *const version = ffd_version(), *end = words->first;
-    for (uint32_t i = 0; i < words->count; i++)
-        end += strlen(end) + 1;
-    const hash_block blocks[] = {{version, strlen(version) + 1},
-                                 {words->first, (size_t)(end - words->first)}};
-    const hash128 hash = ffd_hash_blocks(blocks, 2);
-    return add_hash(list, &hash, error);
 }
 
 static ffd_status finish(hash_list *list, ffd_status status, hash128 *hash)
@@ -131,12 +119,12 @@ static ffd_status add_boxes(hash_list *list, hash_cache *cache, const ffd_deform
     return add_hash(list, &hash, error);
 }
 
-ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const fingerprint_words *words,
-                                  hash_cache *cache, path_list *files, hash128 *hash, ffd_error *error)
+ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const hash128 *content, hash_cache *cache,
+                                  path_list *files, hash128 *hash, ffd_error *error)
 {
     hash_list list = {0};
     path_list others = {0};
-    ffd_status status = add_words(&list, words, error);
+    ffd_status status = add_hash(&list, content, error);
     if (!status)
         status = ffd_hash_cache_list(cache, &desc->input, files, error);
     if (!status)

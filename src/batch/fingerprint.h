@@ -3,20 +3,13 @@
 #define FFD_BATCH_FINGERPRINT_H
 
 #include "batch/hash_cache.h"
-#include <stdint.h>
 
-/* The content of a job (batch_job.content). */
-typedef struct fingerprint_words {
-    const char *first; /* count words, each terminated by 0 */
-    uint32_t count;
-} fingerprint_words;
-
-/* Hashes everything that the output depends on: the version of the program, the job's content, and the bytes
+/* Hashes everything that the output depends on: the job's content (batch_job.h), and the bytes
    of the mesh, its buffers, the images and material libraries copied with it, the lattices, the meshes that
    these name, the embedding, and the shared box. Adds the files to `files`. cache: of the jobs before; may be
    NULL. Errors: those of reading. */
-ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const fingerprint_words *words,
-                                  hash_cache *cache, path_list *files, hash128 *hash, ffd_error *error);
+ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const hash128 *content, hash_cache *cache,
+                                  path_list *files, hash128 *hash, ffd_error *error);
 /* Hashes the output, its buffers, and the images and material libraries beside it. Errors: those of
    reading. */
 ffd_status ffd_fingerprint_output(const ffd_deform_desc *desc, hash128 *hash, ffd_error *error);

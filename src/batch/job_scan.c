@@ -78,14 +78,15 @@ ffd_status ffd_job_scan(hash_cache *hashes, const wire_task *task, const ffd_def
 {
     size_t beside = 0;
     bool has_boxes = false;
-    ffd_status status = task->scan_mesh ? scan_mesh(hashes, found, desc, &beside, error) : FFD_OK;
+    ffd_status status = task->order.needs.mesh ? scan_mesh(hashes, found, desc, &beside, error) : FFD_OK;
     const bool has_names = found->size > 0;
-    if (!status && task->scan_lattices)
+    if (!status && task->order.needs.lattices)
         status = scan_lattices(hashes, found, desc, &has_boxes, error);
-    if (!status && task->survey)
+    if (!status && task->order.surveys)
         status = survey(found, desc, error);
-    answer->beside = beside;
-    answer->scanned = !status && (beside > 0 || has_names || has_boxes || task->scan_only || task->survey);
+    answer->end.beside = beside;
+    answer->scanned =
+        !status && (beside > 0 || has_names || has_boxes || task->order.only_scans || task->order.surveys);
     if (!answer->scanned)
         found->size = 0;
     return status;

@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "base/spelling.h"
 #include "base/system/interrupt.h"
+#include "job/input/settings.h"
 #include <string.h>
 
 /* Jobs in memory at a time. */
@@ -26,16 +27,16 @@ typedef struct measuring {
     path_list *files;
 } measuring;
 
-/* Hashes a job's mesh and its options: its content without output and placeholders. */
+/* Hashes a job's mesh, as far as it is measured. */
 static hash128 hash_input(const batch_job *job)
 {
-    byte_buffer text = {0};
-    const char *word = job->content.data, *const end = word + job->content.size;
-    for (size_t i = 0; word < end; i++, word += strlen(word) + 1)
-        if (i != 1 && strncmp(word, "--set=", 6) != 0)
-            ffd_buffer_append(&text, word, strlen(word) + 1);
-    const hash128 hash = ffd_hash(text.data, text.size);
-    ffd_buffer_free(&text);
+    const ffd_deform_desc read = {
+        .input = job->desc.input, .only = job->desc.only, .only_count = job->desc.only_count};
+    byte_buffer bytes = {0};
+    ffd_settings_write(&read, SETTINGS_ALL, &bytes);
+    ffd_buffer_append(&bytes, job->input, strlen(job->input));
+    const hash128 hash = ffd_hash(bytes.data, bytes.size);
+    ffd_buffer_free(&bytes);
     return hash;
 }
 
@@ -77,14 +78,14 @@ static ffd_status read_jobs(measuring *m, ffd_error *error)
 static ffd_status take_task(measuring *m, const pool_task *task, ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    if (task->outcome == OUTCOME_FAILED)
+    if (task->end.outcome == OUTCOME_FAILED)
         return FFD_OK;
     if (m->counts) {
         m->found = true;
-        m->vertices = task->vertices;
+        m->vertices = task->end.vertices;
         return FFD_OK;
     }
-    ffd_shown_box_join(m->box, &task->box);
+    ffd_shown_box_join(m->box, &task->end.box);
     for (size_t at = 0; at < task->rule.size && !status; at += strlen(task->rule.data + at) + 1)
         status = ffd_paths_add(m->files, task->rule.data + at, error);
     return status;
@@ -130,9 +131,9 @@ static ffd_status measure(measuring *m, const job_source_desc *jobs, pool_desc *
 {
     job_source_desc all = *jobs;
     if (ffd_jobs_come_once(jobs))
-        return ffd_fail(error, FFD_E_ARGUMENT,
-                        "%s reads the jobs twice, but standard input and pipes can be read only once",
-                        SPELLED(member));
+        return ffd_fail(error, FFD_E_ARGUMENT, "%s reads the jobs twice, but %s", SPELLED(member),
+                        jobs->next ? "its caller gives them only once"
+                                   : "standard input and pipes can be read only once");
     all.shard = 0;
     all.shards = 1;
     ffd_status status = ffd_jobs_open(&all, &m->source, error);
@@ -155,8 +156,8 @@ ffd_status ffd_batch_measure(const job_source_desc *jobs, const pool_desc *pool,
 {
     measuring m = {.window = WINDOW, .box = box, .files = files};
     pool_desc measurers = *pool;
-    measurers.measure = true;
-    measurers.depfile = wants_files;
+    measurers.wishes.measure = true;
+    measurers.wishes.depfile = wants_files;
     ffd_shown_box_clear(box);
     return measure(&m, jobs, &measurers, "{shared_box}", error);
 }
@@ -167,7 +168,7 @@ ffd_status ffd_batch_count_vertices(const job_source_desc *jobs, const pool_desc
     measuring m = {.window = 1, .counts = true}; /* one at a time, as the first readable mesh counts */
     pool_desc counters = *pool;
     counters.workers = 1;
-    counters.count = true;
+    counters.wishes.count = true;
     const ffd_status status = measure(&m, jobs, &counters, "{positions}", error);
     *vertices = m.vertices;
     *found = m.found;

@@ -45,14 +45,14 @@ static ffd_status check_read(const own_file *file, const own_file *read, ffd_err
 static ffd_status check_reads(const own_file *file, const job_source_desc *jobs, ffd_error *error)
 {
     const own_file reads[] = {{"the manifest", jobs->manifest}, {"the table", jobs->table}};
+    const ffd_deform_desc *const defaults = jobs->defaults;
     for (size_t i = 0; i < sizeof reads / sizeof *reads; i++)
         TRY(check_read(file, &reads[i], error));
-    for (size_t i = 0; i < jobs->lattice_count; i++)
-        TRY(check_read(file, &(own_file){"a lattice", jobs->lattices[i].path}, error));
-    for (size_t i = 0; i < jobs->default_count; i++)
-        if (strcmp(jobs->defaults[i].name, "embedding") == 0)
-            TRY(check_read(file, &(own_file){"the embedding", jobs->defaults[i].value}, error));
-    return FFD_OK;
+    for (size_t i = 0; defaults && i < defaults->lattice_count; i++)
+        TRY(check_read(file, &(own_file){"a lattice", defaults->lattices[i].path}, error));
+    return defaults && defaults->embedding.path
+               ? check_read(file, &(own_file){"the embedding", defaults->embedding.path}, error)
+               : FFD_OK;
 }
 
 static ffd_status check_all(const own_file *files, size_t count, const batch_desc *desc, ffd_error *error)
@@ -69,16 +69,17 @@ static ffd_status check_all(const own_file *files, size_t count, const batch_des
 
 ffd_status ffd_batch_check_own_files(const batch_desc *desc, ffd_error *error)
 {
-    char *const list = desc->positions ? ffd_run_rows_list(desc) : NULL;
-    char *const page =
-        desc->view ? ffd_run_view_page_of(desc->view, desc->jobs.shard, desc->jobs.shards) : NULL;
-    const own_file files[] = {{"the report", desc->report},
-                              {"the depfile", desc->depfile},
-                              {"the journal", desc->journal},
-                              {SPELLED("the array of {positions}"), desc->positions},
+    char *const list = desc->given->positions ? ffd_run_rows_list(desc) : NULL;
+    char *const page = desc->given->view
+                           ? ffd_run_view_page_of(desc->given->view, desc->jobs.shard, desc->jobs.shards)
+                           : NULL;
+    const own_file files[] = {{"the report", desc->given->report},
+                              {"the depfile", desc->given->depfile},
+                              {"the journal", desc->given->journal},
+                              {SPELLED("the array of {positions}"), desc->given->positions},
                               {SPELLED("the list of the rows of {positions}"), list},
                               {SPELLED("the index of {view}"), page}};
-    const bool complete = (list || !desc->positions) && (page || !desc->view);
+    const bool complete = (list || !desc->given->positions) && (page || !desc->given->view);
     const ffd_status status =
         complete ? check_all(files, sizeof files / sizeof *files, desc, error) : ffd_fail_memory(error);
     ffd_free(list);

@@ -3,7 +3,7 @@
 #ifndef FFD_BATCH_OWN_FILES_H
 #define FFD_BATCH_OWN_FILES_H
 
-#include "batch/batch.h"
+#include "batch/batch_desc.h"
 
 /* Checks that, before any file is made. Errors: FFD_E_ARGUMENT, FFD_E_MEMORY. */
 ffd_status ffd_batch_check_own_files(const batch_desc *desc, ffd_error *error);

@@ -5,8 +5,10 @@
 #include "base/system/clock.h"
 #include "base/system/processors.h"
 #include "base/text/words.h"
-#include "batch/manifest/job_memory.h"
+#include "batch/worker.h"
+#include "job/input/settings.h"
 #include <ffd/job.h>
+#include <ffd/version.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -32,6 +34,7 @@ struct worker_pool {
     int processors;             /* shared by the workers */
     pool_worker *workers;       /* desc.workers entries */
     worker_process **processes; /* the same processes, as an array to wait for */
+    ffd_error refusal;          /* the workers are of another build */
     bool dry_run_done;          /* dry run: a job was tried, all but writing */
     uint64_t memory;            /* bytes that all workers together may take; UINT64_MAX: no limit */
     pool_shortage shortage;     /* if needed > 0 */
@@ -81,50 +84,26 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
     wire_task head;
     memset(&head, 0, sizeof head); /* also clears padding, which is sent */
     ffd_buffer_append(&text, &head, sizeof head);
-    ffd_buffer_append(&text, job->words.data, job->words.size);
-    ffd_buffer_append(&text, job->content.data, job->content.size);
+    ffd_settings_write(&job->desc, SETTINGS_ALL, &text);
+    append_word(&text, job->desc.input.path);
     append_word(&text, pool->desc.origin);
     append_word(&text, job->input);
     append_word(&text, ffd_job_output_name(job) ? ffd_job_output_name(job) : "");
     append_word(&text, task->picture ? task->picture : "");
     append_word(&text, desc->rows ? desc->rows->path : "");
     ffd_buffer_append(&text, task->passed.data, task->passed.size);
-    head.line = job->line;
     head.text_size = text.size - sizeof head;
-    head.word_count = (uint32_t)job->word_count;
-    head.content_words = count_words(&job->content);
+    head.line = job->line;
+    head.row = job->row;
+    head.content = job->content;
+    head.wishes = desc->wishes;
+    head.order = task->order;
     head.passed_count = count_words(&task->passed) / 2;
     head.threads = threads;
-    head.record = task->record;
-    head.has_record = task->has_record;
-    head.drawn = task->drawn;
-    head.has_drawn = task->has_drawn;
-    head.records = desc->records;
-    head.resume = desc->resume;
-    head.dry = desc->dry;
-    head.dry_run_job = desc->dry && !pool->dry_run_done;
-    head.depfile = desc->depfile;
-    head.report = desc->report;
-    head.quality = desc->quality;
-    head.stable = desc->stable;
-    head.quiet = desc->quiet;
-    head.verbose = desc->verbose;
-    head.measure = desc->measure;
-    head.count = desc->count;
+    head.dry_run_job = desc->wishes.dry && !pool->dry_run_done;
     head.has_row = desc->rows != NULL;
-    if (desc->rows) {
-        head.row = job->row;
-        head.rows = desc->rows->rows;
-        head.vertices = desc->rows->vertices;
-        head.is_double = desc->rows->is_double;
-    }
-    head.scan = task->scans;
-    head.scan_mesh = task->needs.mesh;
-    head.scan_lattices = task->needs.lattices;
-    head.scan_only = task->only_scans;
-    head.survey = task->scans && task->surveys;
-    head.tells = desc->tells;
-    head.is_unsurveyed = task->is_unsurveyed;
+    if (desc->rows)
+        head.rows = *desc->rows;
     head.has_box = desc->box != NULL;
     if (desc->box)
         head.box = *desc->box;
@@ -262,14 +241,26 @@ static void begin_task(const worker_pool *pool, pool_worker *worker, pool_task *
     worker->has_mesh = true;
     worker->timed_out = worker->stopped = worker->is_ending = worker->is_unheard = false;
     worker->deadline = pool->desc.timeout > 0 ? ffd_clock_seconds() + pool->desc.timeout : 0;
-    task->scans = task->state == TASK_NEW;
-    task->took_row = pool->desc.rows != NULL;
+    task->order.scans = task->state == TASK_NEW;
+    task->end.took_row = pool->desc.rows != NULL;
     task->state = TASK_RUNS;
+}
+
+static ffd_status start_worker(const worker_pool *pool, pool_worker *worker, ffd_error *error)
+{
+    char build[WORKER_BUILD];
+    ffd_worker_build(build);
+    return ffd_process_start(pool->desc.program, WORKER_NAME, build, &worker->process, error);
 }
 
 ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t count, ffd_error *error)
 {
     const pool_desc *const desc = &pool->desc;
+    if (pool->refusal.status) {
+        if (error)
+            *error = pool->refusal;
+        return pool->refusal.status;
+    }
     for (int i = 0; i < desc->workers; i++) {
         pool_worker *const worker = &pool->workers[i];
         pool_task *const task = worker->task ? NULL : choose(pool, worker, tasks, count);
@@ -277,8 +268,7 @@ ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t co
             continue;
         if (!make_room(pool, worker, task))
             return FFD_OK; /* none of the others goes first: the task could wait for ever */
-        const ffd_status status =
-            worker->process ? FFD_OK : ffd_process_start(WORKER_NAME, &worker->process, error);
+        const ffd_status status = worker->process ? FFD_OK : start_worker(pool, worker, error);
         if (status && ffd_pool_running(pool) > 0)
             return FFD_OK; /* go on with the workers that exist */
         if (status)
@@ -287,20 +277,17 @@ ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t co
         begin_task(pool, worker, task);
         const int share = pool->processors / count_runnable(pool, tasks, count);
         /* If sending fails, the worker has ended; that shows when its answer is read. */
-        worker->was_logged = send_task(pool, worker, task,
-                                       desc->threads ? desc->threads
-                                       : share < 1   ? 1
-                                                     : share);
+        worker->was_logged = send_task(pool, worker, task, share < 1 ? 1 : share);
     }
     return FFD_OK;
 }
 
 /* Ends */
 
-static void end_task(pool_worker *worker, wire_outcome outcome)
+static void end_task(pool_worker *worker, task_outcome outcome)
 {
     worker->task->state = TASK_ENDED;
-    worker->task->outcome = outcome;
+    worker->task->end.outcome = outcome;
     worker->task = NULL;
     worker->deadline = 0;
 }
@@ -310,7 +297,7 @@ static void take_scan(pool_worker *worker, const wire_answer *head, const char *
 {
     pool_task *const task = worker->task;
     ffd_buffer_append(&task->found, found, head->rule_size);
-    task->beside = (size_t)head->beside;
+    task->end.beside = (size_t)head->end.beside;
     task->has_scanned = true;
     task->was_returned = false;
     worker->retires = head->retires;
@@ -332,54 +319,48 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
     if (bytes->size < sizeof head)
         return true;
     memcpy(&head, bytes->data, sizeof head);
-    if (!worker->task || ((head.scanned || head.goes_on) && !worker->task->scans) ||
+    if (!worker->task || ((head.scanned || head.goes_on) && !worker->task->order.scans) ||
         head.log_size > WIRE_MOST || head.entry_size > WIRE_MOST || head.rule_size > WIRE_MOST ||
-        head.figures_size > WIRE_MOST)
+        head.figures_size > WIRE_MOST || head.result_size > WIRE_MOST)
         return false;
-    if (bytes->size < sizeof head + head.log_size + head.entry_size + head.rule_size + head.figures_size)
+    if (bytes->size <
+        sizeof head + head.log_size + head.entry_size + head.rule_size + head.figures_size + head.result_size)
         return true;
     pool_task *const task = worker->task;
     if (head.goes_on) { /* the rest of the answer may be here already */
-        task->scans = false;
+        task->order.scans = false;
         task->scanned_in_vain = true;
         bytes->size -= sizeof head;
         memmove(bytes->data, bytes->data + sizeof head, bytes->size);
         return take_answer(pool, worker);
     }
     const char *const log = bytes->data + sizeof head, *const entry = log + head.log_size,
-                      *const rule = entry + head.entry_size, *const figures = rule + head.rule_size;
+                      *const rule = entry + head.entry_size, *const figures = rule + head.rule_size,
+                      *const result = figures + head.figures_size;
     if (head.scanned) {
         take_scan(worker, &head, rule);
         bytes->size = 0;
         return true;
     }
-    task->scanned_in_vain = task->scanned_in_vain || task->scans;
+    task->scanned_in_vain = task->scanned_in_vain || task->order.scans;
     ffd_buffer_append(&task->log, log, head.log_size);
     ffd_buffer_append(&task->entry, entry, head.entry_size);
     ffd_buffer_append(&task->rule, rule, head.rule_size);
-    if (head.outcome != OUTCOME_SKIPPED)
+    if (head.end.outcome != OUTCOME_SKIPPED)
         task->figures.size = 0;
     ffd_buffer_append(&task->figures, figures, head.figures_size);
-    const bool lost = task->log.failed || task->entry.failed || task->rule.failed || task->figures.failed;
+    ffd_buffer_append(&task->result, result, head.result_size);
+    const bool lost = task->log.failed || task->entry.failed || task->rule.failed || task->figures.failed ||
+                      task->result.failed;
     if (head.out_of_memory || lost)
         ffd_fail_file(&task->failure, FFD_E_MEMORY, task->job.input, "out of memory");
-    task->record = head.record;
-    task->box = head.box;
-    task->vertices = head.vertices;
-    task->mesh_state = head.state;
-    task->has_mesh_state = head.has_state;
-    pool->counts.jobs.reads += head.counts.reads;
-    pool->counts.jobs.searches += head.counts.searches;
-    task->has_record = head.has_record;
-    task->drawn = head.drawn;
-    task->has_drawn = head.has_drawn;
-    task->has_picture = head.has_picture;
-    task->took_row = head.took_row;
-    task->own_box = head.own_box;
+    task->end = head.end;
+    pool->counts.jobs.reads += head.end.counts.reads;
+    pool->counts.jobs.searches += head.end.counts.searches;
     worker->retires = head.retires;
-    pool->dry_run_done = pool->dry_run_done || head.dry_run_done;
+    pool->dry_run_done = pool->dry_run_done || head.end.dry_run_done;
     bytes->size = 0;
-    end_task(worker, lost ? OUTCOME_FAILED : (wire_outcome)head.outcome);
+    end_task(worker, lost ? OUTCOME_FAILED : head.end.outcome);
     return true;
 }
 
@@ -388,7 +369,9 @@ static void describe_failure(const worker_pool *pool, const pool_worker *worker,
                              ffd_error *error)
 {
     const char *const name = worker->task->job.input;
-    if (worker->timed_out)
+    if (pool->refusal.status)
+        *error = pool->refusal;
+    else if (worker->timed_out)
         ffd_fail_file(error, FFD_E_LIMIT, name, "took longer than %g %s ({timeout})", pool->desc.timeout,
                       pool->desc.timeout == 1 ? "second" : "seconds");
     else if (worker->stopped)
@@ -406,16 +389,22 @@ static void describe_failure(const worker_pool *pool, const pool_worker *worker,
         ffd_fail_file(error, FFD_E_LIMIT, name, "crashed: %s", end->text);
 }
 
-static void end_worker(const worker_pool *pool, pool_worker *worker)
+static void end_worker(worker_pool *pool, pool_worker *worker)
 {
     process_end end;
     finish_worker(worker, &end);
+    /* Builds that know of no such workers take them for a command. */
+    if (!end.signal && (end.code == ffd_status_exit_code(FFD_E_UNSUPPORTED) ||
+                        end.code == ffd_status_exit_code(FFD_E_ARGUMENT)))
+        ffd_fail_file(&pool->refusal, FFD_E_UNSUPPORTED, pool->desc.program ? pool->desc.program : "ffd",
+                      "is of another build than the library, which is %s: it cannot do the jobs of a batch",
+                      ffd_version());
     if (!worker->task)
         return;
     pool_task *const task = worker->task;
     if (!worker->was_logged &&
         !task->was_returned) { /* the worker had ended before: give the task to another one, once */
-        task->state = task->scans ? TASK_NEW : TASK_WAITS;
+        task->state = task->order.scans ? TASK_NEW : TASK_WAITS;
         task->was_returned = true;
         worker->task = NULL;
         return;
@@ -531,7 +520,7 @@ bool ffd_task_is_pending(const pool_task *task)
 
 bool ffd_task_is_settled(const pool_task *task)
 {
-    return task->state == TASK_WAITS || (task->state == TASK_RUNS && !task->scans) ||
+    return task->state == TASK_WAITS || (task->state == TASK_RUNS && !task->order.scans) ||
            task->state == TASK_ENDED || task->state == TASK_DROPPED;
 }
 
@@ -545,6 +534,7 @@ void ffd_task_free(pool_task *task)
     ffd_buffer_free(&task->entry);
     ffd_buffer_free(&task->rule);
     ffd_buffer_free(&task->figures);
+    ffd_buffer_free(&task->result);
     ffd_buffer_free(&task->found);
     ffd_buffer_free(&task->passed);
     ffd_free(task);

@@ -2,20 +2,17 @@
 #ifndef FFD_BATCH_POOL_H
 #define FFD_BATCH_POOL_H
 
-#include "batch/files/claims.h"
-#include "batch/manifest/job_words.h"
-#include "batch/row_array.h"
+#include "batch/manifest/batch_job.h"
 #include "batch/wire.h"
 
 typedef struct pool_desc {
-    int workers;        /* number of processes; 0: one for each processor, as far as memory allows */
-    int threads;        /* of each job; 0: an equal share of the processors */
-    double timeout;     /* limit of a job in seconds; 0: none */
-    const char *origin; /* name of the manifest, for messages */
-    bool records, resume, dry, depfile, report, quality, stable, quiet, verbose, measure, count; /* as in
-                                                                                                  wire_task */
+    int workers;         /* number of processes; 0: one for each processor, as far as memory allows */
+    const char *program; /* whose processes they are; NULL: this one */
+    int threads;         /* of each job; 0: an equal share of the processors */
+    double timeout;      /* limit of a job in seconds; 0: none */
+    const char *origin;  /* name of the manifest, for messages */
+    task_wishes wishes;
     bool draws;            /* jobs make pictures too */
-    bool tells;            /* as in wire_task */
     const row_array *rows; /* array of positions, or NULL */
     const shown_box *box;  /* shared box, or NULL */
 } pool_desc;
@@ -41,41 +38,24 @@ typedef struct pool_task {
     bool is_large;          /* the input is large: only one worker may read it */
     uint64_t memory;        /* bytes that it may take; 0: the pool has not asked yet */
     bool has_mesh_name;     /* the output has the ending of a mesh format */
-    job_record record;      /* if has_record: before the job, of the last time; after it, of this time */
-    bool has_record;
-    hash128 drawn; /* likewise: the bytes of that picture, if has_drawn */
-    bool has_drawn;
-    byte_buffer
-        figures; /* likewise: figures of the run that made the output, as JSON terminated by 0; or empty */
+    byte_buffer figures;    /* of the run that made the output, as JSON terminated by 0; or empty */
+    task_order order;
+    task_end end;
     task_state state;
     char *picture;            /* path; NULL: none is wanted */
     const char *picture_name; /* part of that path below the folder of pictures */
-    claim_needs needs;        /* what a scan must read */
-    bool only_scans;          /* its worker answers after the scan, whatever it finds */
-    bool surveys;             /* likewise, and scans the models of the output's folder */
-    bool scans;               /* while running: it began as TASK_NEW, and its worker still scans */
     bool scanned_in_vain;     /* the scan found nothing */
     bool is_learned;          /* that was taken to heart (ffd_run_learn) */
     bool has_scanned;         /* the results of a scan are here: */
-    size_t beside;            /* number of files beside the output, */
-    byte_buffer found;        /* and what else it found (scan.h) */
+    byte_buffer found;        /* end.beside, and what else it found (scan.h) */
     byte_buffer passed;       /* names that the output must not take (ffd_claims_others) */
-    bool is_unsurveyed;       /* these are not known: the job scans by itself */
     bool was_returned;        /* a worker had ended before it could take the task */
     bool noted;               /* its end was handled (ffd_run_note_ends) */
-    bool own_box;             /* a lattice's box was laid round its mesh */
-    bool took_row;            /* its row may have been written to */
-    /* After the end: */
-    wire_outcome outcome;
-    bool has_picture; /* it exists and shows this job */
-    bool has_mesh_state;
-    hash128 mesh_state; /* as in wire_answer.state */
-    byte_buffer log;    /* lines of messages */
-    byte_buffer rule;   /* rule of the depfile; of a measured mesh: its files */
-    shown_box box;      /* of a measured mesh */
-    uint64_t vertices;  /* if only vertices were counted */
-    byte_buffer entry;  /* of the report; empty if no worker has made it */
-    ffd_error failure;  /* of a job whose worker died, or that was invalid from the start */
+    byte_buffer log;          /* after the end: lines of messages; */
+    byte_buffer rule;         /* rule of the depfile; of a measured mesh: its files; */
+    byte_buffer result;       /* as in wire_answer; or empty */
+    byte_buffer entry;        /* of the report; empty if no worker has made it */
+    ffd_error failure;        /* of a job whose worker died, or that was invalid from the start */
 } pool_task;
 
 typedef struct worker_pool worker_pool;

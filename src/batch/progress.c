@@ -12,10 +12,14 @@
 
 enum { BAR_WIDTH = 30 };
 
-void ffd_progress_begin(batch_progress *progress, bool quiet)
+/* The most characters of a line for the caller. */
+#define LONGEST_LINE 4096
+
+void ffd_progress_begin(batch_progress *progress, const ffd_batch_desc *desc)
 {
     const double now = ffd_clock_seconds();
-    *progress = (batch_progress){.quiet = quiet, .bar = ffd_terminal_is_error(), .begin = now, .last = now};
+    *progress = (batch_progress){
+        .desc = desc, .bar = desc->is_program && ffd_terminal_is_error(), .begin = now, .last = now};
 }
 
 static void clear_bar(batch_progress *progress)
@@ -36,8 +40,8 @@ static void format_time(double seconds, char *text, size_t capacity)
 }
 
 /* Writes the state, such as "1234 jobs, 3 failed, 812/s, 0:07 left". */
-static void describe(const batch_progress *progress, const batch_counts *counts, double fraction, char *text,
-                     size_t capacity)
+static void describe(const batch_progress *progress, const ffd_batch_result *counts, double fraction,
+                     char *text, size_t capacity)
 {
     const uint64_t jobs = counts->done + counts->skipped + counts->failed;
     const double seconds = ffd_clock_seconds() - progress->begin;
@@ -69,34 +73,46 @@ static void draw_bar(batch_progress *progress, const char *text, double fraction
     progress->drawn = true;
 }
 
-void ffd_progress_show(batch_progress *progress, const batch_counts *counts, double fraction)
+bool ffd_progress_show(batch_progress *progress, const ffd_batch_result *counts, double fraction)
 {
+    const ffd_batch_desc *const desc = progress->desc;
     const double now = ffd_clock_seconds();
     char text[160];
-    if (progress->quiet || now - progress->last < (progress->bar ? BAR_SECONDS : LINE_SECONDS))
-        return;
+    if (!desc->is_program)
+        return !desc->progress || desc->progress(desc->progress_user, fraction);
+    if (desc->quiet || now - progress->last < (progress->bar ? BAR_SECONDS : LINE_SECONDS))
+        return true;
     progress->last = now;
     describe(progress, counts, fraction, text, sizeof text);
     if (progress->bar)
         draw_bar(progress, text, fraction);
     else
         fprintf(stderr, "ffd: %s\n", text);
+    return true;
 }
 
 void ffd_progress_print(batch_progress *progress, const char *lines)
 {
+    const ffd_batch_desc *const desc = progress->desc;
     for (const char *end; (end = strchr(lines, '\n')); lines = end + 1) {
-        clear_bar(progress);
-        fprintf(stderr, "ffd: %.*s\n", (int)(end - lines), lines);
+        const int length = (int)(end - lines);
+        if (desc->is_program) {
+            clear_bar(progress);
+            fprintf(stderr, "ffd: %.*s\n", length, lines);
+        } else if (desc->log) {
+            char line[LONGEST_LINE];
+            snprintf(line, sizeof line, "%.*s", length, lines);
+            desc->log(desc->log_user, FFD_LOG_WARNING, line);
+        }
     }
 }
 
-void ffd_progress_end(batch_progress *progress, const batch_counts *counts, const char *done,
+void ffd_progress_end(batch_progress *progress, const ffd_batch_result *counts, const char *done,
                       const char *remark)
 {
     char time[32];
     clear_bar(progress);
-    if (progress->quiet)
+    if (!progress->desc->is_program || progress->desc->quiet)
         return;
     const uint64_t jobs = counts->done + counts->skipped + counts->failed;
     const double seconds = ffd_clock_seconds() - progress->begin;

@@ -1,29 +1,28 @@
-/* progress.h - shows the progress of a batch on standard error: a bar that is redrawn on a terminal, else a
-   line from time to time. */
+/* progress.h - what a batch says while it runs: to its caller's functions; or, of a program, on standard
+   error, with a bar that is redrawn on a terminal, else a line from time to time. */
 #ifndef FFD_BATCH_PROGRESS_H
 #define FFD_BATCH_PROGRESS_H
 
+#include <ffd/batch.h>
 #include <stdbool.h>
 #include <stdint.h>
 
-typedef struct batch_counts {
-    uint64_t done, skipped, failed; /* done: those that were deformed */
-} batch_counts;
-
 typedef struct batch_progress {
-    bool quiet, bar; /* bar: standard error is a terminal */
-    bool drawn;      /* a bar is on the screen */
+    const ffd_batch_desc *desc;
+    bool bar;   /* standard error is a terminal */
+    bool drawn; /* a bar is on the screen */
     double begin, last;
 } batch_progress;
 
-/* Starts the clock. quiet: only ffd_progress_print writes. */
-void ffd_progress_begin(batch_progress *progress, bool quiet);
-/* Shows the progress if an update is due. fraction: of all jobs; negative: unknown. */
-void ffd_progress_show(batch_progress *progress, const batch_counts *counts, double fraction);
-/* Writes lines of a log as "ffd: ...". Each must end in a line break. Removes the bar before. */
+/* Starts the clock. */
+void ffd_progress_begin(batch_progress *progress, const ffd_batch_desc *desc);
+/* Shows the progress if an update is due. fraction: of all jobs; negative: unknown. Returns false if the
+   caller wants the batch to end. */
+bool ffd_progress_show(batch_progress *progress, const ffd_batch_result *counts, double fraction);
+/* Logs lines, each of which ends in a line break. Removes the bar before. */
 void ffd_progress_print(batch_progress *progress, const char *lines);
 /* Writes the final line with the counts and the time. done: the word for counts->done. */
-void ffd_progress_end(batch_progress *progress, const batch_counts *counts, const char *done,
+void ffd_progress_end(batch_progress *progress, const ffd_batch_result *counts, const char *done,
                       const char *remark);
 
 #endif

@@ -6,20 +6,20 @@ void ffd_run_fail_task(pool_task *task)
 {
     task->failure = task->job.error;
     task->state = TASK_ENDED;
-    task->outcome = OUTCOME_FAILED;
+    task->end.outcome = OUTCOME_FAILED;
 }
 
 static void find_record(batch_run *run, pool_task *task)
 {
     byte_buffer *const figures = run->report || run->view || run->rows.report ? &task->figures : NULL;
     job_record drawn;
-    task->has_record = ffd_journal_find(run->journal, &task->target, &task->record, figures);
+    task->order.has_record = ffd_journal_find(run->journal, &task->target, &task->order.record, figures);
     /* A run without pictures may have made the row anew since it was drawn. */
-    task->has_drawn = task->has_record && task->picture && !task->job.output &&
-                      ffd_journal_find(run->journal, &task->picture_target, &drawn, NULL) &&
-                      ffd_hash_equal(&drawn.inputs, &task->record.inputs);
-    if (task->has_drawn)
-        task->drawn = drawn.outputs;
+    task->order.has_drawn = task->order.has_record && task->picture && !task->job.output &&
+                            ffd_journal_find(run->journal, &task->picture_target, &drawn, NULL) &&
+                            ffd_hash_equal(&drawn.inputs, &task->order.record.inputs);
+    if (task->order.has_drawn)
+        task->order.drawn = drawn.outputs;
 }
 
 /* Names the picture of a job and claims its file, at the same time as the output. */
@@ -33,20 +33,20 @@ static ffd_status claim_picture(batch_run *run, pool_task *task, ffd_error *erro
     return status ? status : ffd_claims_picture(&run->files, &task->job, &file, task->picture, error);
 }
 
-/* Claims the output of a job and checks what it reads, as far as its words say it. */
+/* Claims the output of a job and checks what it reads, as far as its description says it. */
 static ffd_status claim_output(batch_run *run, pool_task *task, ffd_error *error)
 {
     batch_job *const job = &task->job;
     const job_kind kind = ffd_job_kind(job);
     if (job->target && ffd_claims_output(&run->files, job, &task->target, error))
         return FFD_E_MEMORY;
-    if (run->desc->positions)
+    if (run->desc->given->positions)
         task->target = ffd_run_rows_target(&run->rows, job->row, job->target ? &task->target : NULL);
-    task->needs = ffd_claims_need(&run->files, job, &kind);
-    task->state = task->needs.mesh || task->needs.lattices ? TASK_NEW
-                  : task->needs.others                     ? TASK_LOOKED
-                                                           : TASK_WAITS;
-    task->only_scans = ffd_job_count_sidecars(&kind) > 0;
+    task->order.needs = ffd_claims_need(&run->files, job, &kind);
+    task->state = task->order.needs.mesh || task->order.needs.lattices ? TASK_NEW
+                  : task->order.needs.others                           ? TASK_LOOKED
+                                                                       : TASK_WAITS;
+    task->order.only_scans = ffd_job_count_sidecars(&kind) > 0;
     if (run->view && !job->error.status && claim_picture(run, task, error))
         return FFD_E_MEMORY;
     if (!job->error.status && ffd_reads_check(&run->files, job, error))
@@ -62,7 +62,7 @@ static ffd_status claim_output(batch_run *run, pool_task *task, ffd_error *error
 /* Sends a task to a worker, which scans the models of the folder of its output. */
 static ffd_status ask_for_survey(batch_run *run, pool_task *task, ffd_error *error)
 {
-    task->surveys = task->needs.mesh = true;
+    task->order.surveys = task->order.needs.mesh = true;
     task->state = TASK_NEW;
     return ffd_run_set_survey(&run->files, task->job.target, SURVEY_ASKED, error);
 }
@@ -74,8 +74,8 @@ static ffd_status claim_others(batch_run *run, pool_task *task, ffd_error *error
     job_kind kind = ffd_job_kind(job);
     ffd_status status = FFD_OK;
     if (task->has_scanned)
-        status =
-            ffd_reads_learn(&run->files, job, &kind, task->needs.mesh, task->beside, &task->found, error);
+        status = ffd_reads_learn(&run->files, job, &kind, task->order.needs.mesh, task->end.beside,
+                                 &task->found, error);
     ffd_buffer_free(&task->found);
     task->has_scanned = false;
     kind.is_scanned = ffd_reads_know_mesh(&run->files, &kind);
@@ -83,7 +83,7 @@ static ffd_status claim_others(batch_run *run, pool_task *task, ffd_error *error
         return ask_for_survey(run, task, error);
     if (!status)
         status = ffd_claims_others(&run->files, job, &kind, &task->passed, error);
-    task->is_unsurveyed = ffd_claims_lack_survey(&run->files, job, &kind);
+    task->order.is_unsurveyed = ffd_claims_lack_survey(&run->files, job, &kind);
     task->state = TASK_WAITS;
     if (!status && job->error.status)
         ffd_run_fail_task(task);
@@ -93,20 +93,20 @@ static ffd_status claim_others(batch_run *run, pool_task *task, ffd_error *error
 /* Whether a task that waits for a worker to scan needs that no more, since others were scanned. */
 static bool is_known(const batch_run *run, const pool_task *task)
 {
-    if (task->state != TASK_NEW || task->surveys)
+    if (task->state != TASK_NEW || task->order.surveys)
         return false;
     const job_kind kind = ffd_job_kind(&task->job);
-    return ffd_claims_are_ready(&run->files, &task->job, &kind, &task->needs);
+    return ffd_claims_are_ready(&run->files, &task->job, &kind, &task->order.needs);
 }
 
 ffd_status ffd_run_learn(batch_run *run, pool_task *task, ffd_error *error)
 {
     const bool is_new = task->scanned_in_vain && !task->is_learned;
     task->is_learned = task->is_learned || task->scanned_in_vain;
-    if (task->state == TASK_ENDED && task->surveys &&
+    if (task->state == TASK_ENDED && task->order.surveys &&
         ffd_run_survey(&run->files, task->job.target) == SURVEY_ASKED)
         return ffd_run_set_survey(&run->files, task->job.target, SURVEY_FAILED, error);
-    return is_new ? ffd_reads_learn_nothing(&run->files, &task->job, task->needs.mesh, error) : FFD_OK;
+    return is_new ? ffd_reads_learn_nothing(&run->files, &task->job, task->order.needs.mesh, error) : FFD_OK;
 }
 
 /* No file beside an output, or copied with it, has the ending of a mesh format. So an output with one is

@@ -14,9 +14,9 @@
 char *ffd_run_rows_list(const batch_desc *desc)
 {
     const job_source_desc *const jobs = &desc->jobs;
-    const size_t stem = strlen(desc->positions) - strlen(".npy");
+    const size_t stem = strlen(desc->given->positions) - strlen(".npy");
     byte_buffer name = {0};
-    ffd_buffer_append(&name, desc->positions, stem);
+    ffd_buffer_append(&name, desc->given->positions, stem);
     if (jobs->shards > 1)
         ffd_buffer_format(&name, "-%" PRIu64 "-of-%" PRIu64, jobs->shard, jobs->shards);
     ffd_buffer_text(&name, ".json");
@@ -27,7 +27,7 @@ char *ffd_run_rows_list(const batch_desc *desc)
 static ffd_status measure(run_rows *rows, const batch_desc *desc, ffd_error *error)
 {
     job_source_desc all = desc->jobs;
-    rows->array = (row_array){.path = desc->positions, .is_double = desc->positions_double};
+    rows->array = (row_array){.path = desc->given->positions, .is_double = desc->given->positions_double};
     all.shard = 0;
     all.shards = 1;
     /* It refuses jobs that can be read only once. */
@@ -52,9 +52,9 @@ static ffd_status make_array(run_rows *rows, const batch_desc *desc, ffd_error *
         return FFD_OK;
     const bool force = desc->force || is_shared;
     status = is_there && rows->replaces ? ffd_rows_check_replaced(&rows->array, error) : FFD_OK;
-    if (!status && (is_there || desc->pool.dry)) /* report all refusals before any work */
+    if (!status && (is_there || desc->pool.wishes.dry)) /* report all refusals before any work */
         status = ffd_output_check(rows->array.path, force, error);
-    if (status || desc->pool.dry)
+    if (status || desc->pool.wishes.dry)
         return status;
     return ffd_rows_make(&rows->array, rows->replaces, &rows->made, error);
 }
@@ -67,16 +67,16 @@ ffd_status ffd_run_rows_open(run_rows *rows, const batch_desc *desc, ffd_error *
         status = measure(rows, desc, error);
     if (!status && rows->is_there)
         status = make_array(rows, desc, error);
-    rows->file = ffd_place_of(NULL, desc->positions);
+    rows->file = ffd_place_of(NULL, desc->given->positions);
     return status ? status : ffd_report_check(rows->list, error);
 }
 
 ffd_status ffd_run_rows_place(run_rows *rows, const batch_desc *desc, ffd_error *error)
 {
     /* An interrupted run ends without jobs; it must not replace what an earlier run has made. */
-    if (desc->pool.dry || ffd_interrupt_requested())
+    if (desc->pool.wishes.dry || ffd_interrupt_requested())
         return FFD_OK;
-    TRY(ffd_report_create(rows->list, desc->pool.stable, NULL, &rows->report, error));
+    TRY(ffd_report_create(rows->list, desc->pool.wishes.stable, NULL, &rows->report, error));
     return ffd_rows_place(&rows->array, rows->replaces, &rows->made, error);
 }
 

@@ -3,7 +3,7 @@
 #ifndef FFD_BATCH_RUN_ROWS_H
 #define FFD_BATCH_RUN_ROWS_H
 
-#include "batch/batch.h"
+#include "batch/batch_desc.h"
 #include "batch/row_array.h"
 
 /* All zeros: not wanted. */

@@ -5,6 +5,8 @@
 
 #include "base/memory/hash.h"
 #include "base/system/process.h"
+#include "batch/files/claims.h"
+#include "batch/row_array.h"
 #include "job/chain/job_cache.h"
 #include "job/input/shown_box.h"
 #include <stdint.h>
@@ -17,64 +19,81 @@ typedef struct job_record {
     hash128 inputs, outputs;
 } job_record;
 
-/* A task for a worker, followed by its texts, each terminated by 0: words, content, the name of the manifest,
-   the names of input and output (empty: no mesh is written), the paths of the picture and of the array of
-   positions (empty: none), and passed_count pairs of texts as ffd_claims_others fills them. */
-typedef struct wire_task {
-    uint64_t line;     /* of the job in its manifest */
+/* What all tasks of a pool ask for. */
+typedef struct task_wishes {
+    bool records; /* make a record (task_end) */
+    bool resume;  /* keep outputs that are up to date, replace others */
+    bool dry;     /* dry run: write nothing */
+    bool depfile; /* make the depfile rule */
+    bool report;  /* make the report entry, */
+    bool quality; /* with figures of quality, */
+    bool stable;  /* without times */
+    bool quiet;   /* log no warnings */
+    bool verbose; /* log details too */
+    bool measure; /* only measure the mesh's box, and list its files if depfile is set */
+    bool count;   /* only count the mesh's vertices */
+    bool result;  /* answer with the result of the job */
+    bool tells;   /* tell at once that a scan has found nothing */
+} task_wishes;
+
+/* What one task asks for besides. */
+typedef struct task_order {
     job_record record; /* of the last time, if has_record */
-    hash128 drawn;     /* bytes of the picture that was drawn then, if has_drawn */
-    uint64_t text_size;
-    uint64_t row, rows, vertices; /* of the array of positions, if has_row */
-    uint32_t word_count, content_words, passed_count;
-    int32_t threads;
+    hash128 drawn; /* bytes of the picture that was drawn then, if has_drawn: of a job without an output */
     bool has_record, has_drawn;
-    bool records;     /* fill the answer's record */
-    bool resume;      /* keep outputs that are up to date, replace others */
-    bool dry;         /* dry run: write nothing */
-    bool dry_run_job; /* dry run: do everything except writing */
-    bool depfile;     /* make the depfile rule */
-    bool report;      /* make the report entry, */
-    bool quality;     /* with figures of quality, */
-    bool stable;      /* without times */
-    bool quiet;       /* log no warnings */
-    bool verbose;     /* log details too */
-    bool measure;     /* only measure the mesh's box, and list its files if depfile is set */
-    bool count;       /* only count the mesh's vertices */
-    bool has_row, is_double;
-    bool scan;      /* first scan the files of the job (scan.h): */
-    bool scan_mesh; /* those of the mesh, */
-    bool scan_lattices;
-    bool scan_only;     /* answer after the scan, whatever it finds */
-    bool survey;        /* likewise, and scan the models of the folder of the output */
-    bool tells;         /* tell at once that the scan has found nothing */
+    bool scans;         /* first scan the files of the job (scan.h), */
+    claim_needs needs;  /* and of them these */
+    bool only_scans;    /* answer after the scan, whatever it finds */
+    bool surveys;       /* likewise, and scan the models of the folder of the output */
     bool is_unsurveyed; /* scan these models when a file beside the output would be replaced */
-    bool has_box;
-    shown_box box; /* shared box, if has_box */
-} wire_task;
+} task_order;
 
-typedef enum wire_outcome { OUTCOME_DONE, OUTCOME_SKIPPED, OUTCOME_FAILED } wire_outcome;
+typedef enum task_outcome { OUTCOME_DONE, OUTCOME_SKIPPED, OUTCOME_FAILED } task_outcome;
 
-/* An answer of a worker, followed by its texts. */
-typedef struct wire_answer {
-    uint64_t log_size;     /* messages, each with its line break */
-    uint64_t entry_size;   /* of the report */
-    uint64_t rule_size;    /* depfile rule; of a measured mesh: its files, each terminated by 0; after a scan:
-                              what    was found (scan.h) */
-    uint64_t figures_size; /* of the job, as JSON terminated by 0 */
-    job_record record;
+/* How a task has ended. */
+typedef struct task_end {
+    task_outcome outcome;
+    job_record record;   /* if has_record */
     hash128 drawn;       /* bytes of the picture of a job without an output, if has_drawn */
     hash128 state;       /* of the mesh's files, if has_state (job_cache.h) */
     cache_counts counts; /* of this job */
     shown_box box;       /* of a measured mesh */
     uint64_t vertices;   /* if only vertices were counted */
     uint64_t beside;     /* after a scan: number of files beside the output */
-    uint8_t outcome;
     bool has_record, has_drawn, has_state;
-    bool dry_run_done;  /* dry run: everything except writing was done */
-    bool has_picture;   /* it exists, made now or before */
-    bool took_row;      /* the row may be written to */
-    bool own_box;       /* a lattice's box was laid round the job's mesh */
+    bool dry_run_done; /* dry run: everything except writing was done */
+    bool has_picture;  /* it exists and shows this job */
+    bool took_row;     /* the row may have been written to */
+    bool own_box;      /* a lattice's box was laid round the job's mesh */
+} task_end;
+
+/* A task for a worker, followed by its texts: the settings of the job (ffd_settings_write), and each
+   terminated by 0 the path of the mesh, the names of the manifest, of the input and of the output (empty: no
+   mesh is written), the paths of the picture and of the array of positions (empty: none), and passed_count
+   pairs of texts as ffd_claims_others fills them. */
+typedef struct wire_task {
+    uint64_t text_size;
+    uint64_t line, row; /* of the job */
+    hash128 content;    /* likewise */
+    task_wishes wishes;
+    task_order order;
+    row_array rows; /* array of positions, if has_row; without its path */
+    shown_box box;  /* shared box, if has_box */
+    uint32_t passed_count;
+    int32_t threads;
+    bool dry_run_job; /* dry run: do everything except writing */
+    bool has_row, has_box;
+} wire_task;
+
+/* An answer of a worker, followed by its texts. */
+typedef struct wire_answer {
+    uint64_t log_size;     /* messages, each with its line break */
+    uint64_t entry_size;   /* of the report */
+    uint64_t rule_size;    /* depfile rule; of a measured mesh: its files, each terminated by 0; after a scan:
+                              what was found (scan.h) */
+    uint64_t figures_size; /* of the job, as JSON terminated by 0 */
+    uint64_t result_size;  /* of the job: ffd_job_result, and one for each of its morph targets */
+    task_end end;
     bool scanned;       /* the scan found files, and nothing else was done */
     bool goes_on;       /* the scan found nothing: the answer has no more yet */
     bool retires;       /* the worker ends: send no more tasks */

@@ -3,7 +3,6 @@
 #include "base/file/mapping.h"
 #include "base/file/output.h"
 #include "base/memory/memory.h"
-#include "base/one_line.h"
 #include "base/system/interrupt.h"
 #include "batch/fingerprint.h"
 #include "batch/job_picture.h"
@@ -15,32 +14,38 @@
 #include "job/chain/chain_load.h"
 #include "job/chain/job_cache.h"
 #include "job/figures/figure_values.h"
+#include "job/input/settings.h"
 #include "job/input/shown_box.h"
 #include "job/input/source.h"
 #include "job/report/depfile.h"
 #include "job/report/output_set.h"
 #include "job/report/report.h"
 #include <ffd/program.h>
+#include <ffd/version.h>
 #include <inttypes.h>
+#include <stdio.h>
 #include <string.h>
 
+/* As in wire_task. */
+typedef struct task_texts {
+    const char *origin, *input, *output, *picture, *rows, *passed;
+} task_texts;
+
 typedef struct batch_worker {
-    const worker_program *program;
-    hash_cache hashes;    /* of the files of all jobs so far */
-    ffd_job_cache *cache; /* cache between jobs */
-    byte_buffer text;     /* of the task: words, content, names */
-    char **words;
-    size_t word_capacity;
-    byte_buffer log, entry, rule, figures; /* of the answer */
-    byte_buffer message;                   /* the whole answer */
+    hash_cache hashes;                             /* of the files of all jobs so far */
+    ffd_job_cache *cache;                          /* cache between jobs */
+    byte_buffer text;                              /* of the task */
+    ffd_deform_desc desc;                          /* likewise, in that text */
+    task_texts texts;                              /* what else is in it */
+    byte_buffer log, entry, rule, figures, result; /* of the answer */
+    byte_buffer message;                           /* the whole answer */
     ffd_output_set *output_set; /* of the task: the models that share files with its output; or NULL */
-    void *opened;               /* of the task: owns what desc borrows; or NULL */
 } batch_worker;
 
-/* Returns the next word. */
-static const char *next_word(const char *word)
+/* Returns the next text. */
+static const char *next_text(const char *text)
 {
-    return word + strlen(word) + 1;
+    return text + strlen(text) + 1;
 }
 
 static bool read_task(batch_worker *worker, wire_task *task)
@@ -53,9 +58,7 @@ static bool read_task(batch_worker *worker, wire_task *task)
         return false;
     text[task->text_size] = 0;
     worker->text.size = task->text_size;
-    worker->text.failed = !ffd_grow((void **)&worker->words, &worker->word_capacity, task->word_count + 1,
-                                    sizeof *worker->words);
-    return !worker->text.failed;
+    return true;
 }
 
 /* Context of a job's log. */
@@ -152,9 +155,10 @@ static bool hash_results(const ffd_deform_desc *desc, const hash128 *known, cons
 static bool is_up_to_date(const wire_task *task, const ffd_deform_desc *desc, const job_row *row,
                           wire_answer *answer)
 {
-    return task->resume && task->has_record && ffd_hash_equal(&answer->record.inputs, &task->record.inputs) &&
-           hash_results(desc, NULL, row, &answer->record.outputs) &&
-           ffd_hash_equal(&answer->record.outputs, &task->record.outputs);
+    return task->wishes.resume && task->order.has_record &&
+           ffd_hash_equal(&answer->end.record.inputs, &task->order.record.inputs) &&
+           hash_results(desc, NULL, row, &answer->end.record.outputs) &&
+           ffd_hash_equal(&answer->end.record.outputs, &task->order.record.outputs);
 }
 
 /* The cache counts against the memory limit: if the limit is reached, tries again without it. */
@@ -171,16 +175,16 @@ static ffd_status deform(ffd_deform_desc *desc, ffd_job_result *result)
 }
 
 /* Hashes the input files and makes the depfile rule, as far as wanted. */
-static ffd_status hash_files(batch_worker *worker, const wire_task *task, const fingerprint_words *words,
-                             const ffd_deform_desc *desc, wire_answer *answer, ffd_error *error)
+static ffd_status hash_files(batch_worker *worker, const wire_task *task, const ffd_deform_desc *desc,
+                             wire_answer *answer, ffd_error *error)
 {
     path_list files = {0};
-    if (!task->records && !task->dry && !task->depfile)
+    if (!task->wishes.records && !task->wishes.dry && !task->wishes.depfile)
         return FFD_OK;
     /* In a dry run this also shows that they can be read. */
-    ffd_status status =
-        ffd_fingerprint_inputs(desc, words, &worker->hashes, &files, &answer->record.inputs, error);
-    if (!status && task->depfile && !task->dry && desc->output)
+    ffd_status status = ffd_fingerprint_inputs(desc, &task->content, &worker->hashes, &files,
+                                               &answer->end.record.inputs, error);
+    if (!status && task->wishes.depfile && !task->wishes.dry && desc->output)
         status = ffd_depfile_rule(desc->output, &files, &worker->rule, error);
     ffd_paths_free(&files);
     return status;
@@ -210,10 +214,10 @@ static ffd_status draw(const char *picture, bool is_all, const ffd_deform_desc *
     ffd_job_picture_drop_mesh(desc);
     const ffd_status status = ffd_job_picture_write(picture, desc, desc->force || desc->if_changed, &drawn);
     drop_repeated(lines, before);
-    answer->has_picture = status == FFD_OK || status == FFD_E_GATE;
-    if (is_all || !answer->has_picture)
+    answer->end.has_picture = status == FFD_OK || status == FFD_E_GATE;
+    if (is_all || !answer->end.has_picture)
         *result = drawn;
-    if (answer->has_picture)
+    if (answer->end.has_picture)
         result->picture = picture;
     return result->status;
 }
@@ -226,7 +230,7 @@ static bool know_results(batch_worker *worker, const wire_task *task, const ffd_
     hash128 bytes;
     const bool has_output = desc->output || desc->in_place;
     if (!has_output || !ffd_job_cache_find_output(worker->cache, &bytes) ||
-        (!task->scan && ffd_fingerprint_has_copies(desc, &worker->hashes)))
+        (!task->order.scans && ffd_fingerprint_has_copies(desc, &worker->hashes)))
         return hash_results(desc, NULL, row, results);
     const hash128 output = ffd_fingerprint_written(&bytes);
     return hash_results(desc, &output, row, results);
@@ -237,11 +241,11 @@ static ffd_status make_output(batch_worker *worker, const wire_task *task, ffd_d
                               wire_answer *answer, ffd_job_result *result)
 {
     const cache_counts before = ffd_job_cache_counts(worker->cache);
-    ffd_job_cache_begin_job(worker->cache, task->records, &worker->hashes.kept);
+    ffd_job_cache_begin_job(worker->cache, task->wishes.records, &worker->hashes.kept);
     const ffd_status status = deform(desc, result);
-    answer->counts.reads = ffd_job_cache_counts(worker->cache).reads - before.reads;
-    answer->counts.searches = ffd_job_cache_counts(worker->cache).searches - before.searches;
-    answer->has_state = ffd_job_cache_find_state(worker->cache, &answer->state);
+    answer->end.counts.reads = ffd_job_cache_counts(worker->cache).reads - before.reads;
+    answer->end.counts.searches = ffd_job_cache_counts(worker->cache).searches - before.searches;
+    answer->end.has_state = ffd_job_cache_find_state(worker->cache, &answer->end.state);
     return status;
 }
 
@@ -251,9 +255,9 @@ static ffd_status take_row(const wire_task *task, const job_row *row, const ffd_
 {
     if (!row)
         return FFD_OK;
-    answer->took_row =
-        task->resume || desc->force || desc->if_changed || !ffd_row_is_done(&row->array, row->number);
-    return answer->took_row
+    answer->end.took_row =
+        task->wishes.resume || desc->force || desc->if_changed || !ffd_row_is_done(&row->array, row->number);
+    return answer->end.took_row
                ? FFD_OK
                : ffd_fail_file(error, FFD_E_EXISTS, row->array.path,
                                "row %" PRIu64 " is there already ({force} replaces it, {resume} goes on)",
@@ -264,7 +268,7 @@ static ffd_status take_row(const wire_task *task, const job_row *row, const ffd_
 static ffd_status check(const wire_task *task, const char *picture, ffd_deform_desc *desc, ffd_error *error)
 {
     /* A resumed run may replace what an earlier one left. */
-    desc->force = desc->force || task->resume;
+    desc->force = desc->force || task->wishes.resume;
     return picture ? ffd_job_picture_check(picture, desc->force || desc->if_changed, error) : FFD_OK;
 }
 
@@ -284,8 +288,8 @@ static bool has_picture(const wire_task *task, const char *picture, const ffd_de
     hash128 bytes;
     if (desc->output)
         return ffd_job_picture_is_current(picture, desc->output);
-    return task->has_drawn && !ffd_hash_cache_hash(NULL, picture, &bytes, NULL) &&
-           ffd_hash_equal(&bytes, &task->drawn);
+    return task->order.has_drawn && !ffd_hash_cache_hash(NULL, picture, &bytes, NULL) &&
+           ffd_hash_equal(&bytes, &task->order.drawn);
 }
 
 /* Deforms, unless the results are up to date, and draws the picture (NULL: none is wanted). */
@@ -293,32 +297,33 @@ static ffd_status do_job(batch_worker *worker, const wire_task *task, const char
                          ffd_deform_desc *desc, wire_answer *answer, ffd_job_result *result)
 {
     const bool has_output = is_up_to_date(task, desc, row, answer);
-    answer->has_picture = has_output && picture && has_picture(task, picture, desc);
-    if (has_output && (!picture || answer->has_picture)) {
-        answer->outcome = OUTCOME_SKIPPED;
+    answer->end.has_picture = has_output && picture && has_picture(task, picture, desc);
+    if (has_output && (!picture || answer->end.has_picture)) {
+        answer->end.outcome = OUTCOME_SKIPPED;
         return FFD_OK;
     }
     ffd_status status = check(task, picture, desc, &result->error);
-    if (status || (task->dry && (has_output || !task->dry_run_job)))
+    if (status || (task->wishes.dry && (has_output || !task->dry_run_job)))
         return status ? status : plan(desc, &result->error);
-    desc->dry_run = task->dry;
-    answer->dry_run_done = task->dry;
+    desc->dry_run = task->wishes.dry;
+    answer->end.dry_run_done = task->wishes.dry;
     if (!has_output)
         status = judge_row(row, make_output(worker, task, desc, answer, result), &result->error);
-    if (task->dry)
+    if (task->wishes.dry)
         return status;
     if (picture && (status == FFD_OK || status == FFD_E_GATE))
         status = draw(picture, has_output, desc, answer, result);
     /* Results exist now: defer a signal that would end the worker, so that they are recorded. */
     ffd_process_defer_stop(true);
-    if (!status && task->records)
-        answer->has_record = has_output || know_results(worker, task, desc, row, &answer->record.outputs);
-    answer->has_drawn = answer->has_record && answer->has_picture && !desc->output &&
-                        !ffd_hash_cache_hash(NULL, picture, &answer->drawn, NULL);
+    if (!status && task->wishes.records)
+        answer->end.has_record =
+            has_output || know_results(worker, task, desc, row, &answer->end.record.outputs);
+    answer->end.has_drawn = answer->end.has_record && answer->end.has_picture && !desc->output &&
+                            !ffd_hash_cache_hash(NULL, picture, &answer->end.drawn, NULL);
     return status;
 }
 
-/* An error in the words is an error in the line of the manifest. Returns the status. */
+/* What is wrong with the settings is wrong with the line of the manifest. Returns the status. */
 static ffd_status blame_manifest(const char *origin, const wire_task *task, ffd_error *error)
 {
     char what[sizeof error->message];
@@ -333,8 +338,8 @@ static ffd_status measure(batch_worker *worker, const wire_task *task, const ffd
                           wire_answer *answer, ffd_error *error)
 {
     path_list files = {0};
-    const ffd_status status = ffd_shown_box_add(&answer->box, &desc->input, desc->only, desc->only_count,
-                                                task->depfile ? &files : NULL, NULL, error);
+    const ffd_status status = ffd_shown_box_add(&answer->end.box, &desc->input, desc->only, desc->only_count,
+                                                task->wishes.depfile ? &files : NULL, NULL, error);
     for (size_t i = 0; i < files.count && !status; i++)
         ffd_buffer_append(&worker->rule, files.paths[i], strlen(files.paths[i]) + 1);
     ffd_paths_free(&files);
@@ -349,7 +354,7 @@ static ffd_status count_vertices(const wire_task *task, const ffd_deform_desc *d
     ffd_source source = desc->input;
     source.only_positions = true;
     const ffd_status status = ffd_source_open(&source, task->threads, &document, error);
-    answer->vertices = status ? 0 : ffd_mesh_vertex_count(document);
+    answer->end.vertices = status ? 0 : ffd_mesh_vertex_count(document);
     ffd_source_close(&document);
     return status;
 }
@@ -366,37 +371,36 @@ static ffd_status send_nothing_found(ffd_error *error)
 }
 
 /* Does everything that the task asks for. */
-static ffd_status do_task(batch_worker *worker, const wire_task *task, const fingerprint_words *words,
-                          const char *picture, job_row *row, ffd_deform_desc *desc, wire_answer *answer,
-                          ffd_job_result *result)
+static ffd_status do_task(batch_worker *worker, const wire_task *task, const char *picture, job_row *row,
+                          ffd_deform_desc *desc, wire_answer *answer, ffd_job_result *result)
 {
     const ffd_shared_box shared = {.box = task->box};
     const unsigned losses = ffd_mapping_losses();
     ffd_status status = take_row(task, row, desc, answer, &result->error);
-    if (!status && task->scan)
+    if (!status && task->order.scans)
         status = ffd_job_scan(&worker->hashes, task, desc, &worker->rule, answer, &result->error);
     if (status || answer->scanned)
         return status;
-    if (task->scan && task->tells)
+    if (task->order.scans && task->wishes.tells)
         status = send_nothing_found(&result->error);
     if (status)
         return status;
-    if (task->count) {
+    if (task->wishes.count) {
         status = count_vertices(task, desc, answer, &result->error);
         return ffd_mapping_judge(losses, status, &result->error);
     }
     /* Files that a killed run has set aside are restored before they are read. */
-    if (desc->in_place && !task->dry)
+    if (desc->in_place && !task->wishes.dry)
         status = ffd_restore_output(desc->input.path, &result->error);
-    if (!status && task->measure)
+    if (!status && task->wishes.measure)
         return measure(worker, task, desc, answer, &result->error);
     desc->shared_box = task->has_box ? &shared : NULL;
     if (!status)
-        status = hash_files(worker, task, words, desc, answer, &result->error);
+        status = hash_files(worker, task, desc, answer, &result->error);
     status = ffd_mapping_judge(losses, status, &result->error);
     if (!status)
         status = do_job(worker, task, *picture ? picture : NULL, row, desc, answer, result);
-    answer->own_box = result->own_box;
+    answer->end.own_box = result->own_box;
     return status;
 }
 
@@ -410,108 +414,128 @@ static ffd_status take_passed(batch_worker *worker, const wire_task *task, const
         return FFD_OK;
     ffd_status status = ffd_output_set_create(&worker->output_set, error);
     for (uint32_t i = 0; i < task->passed_count && !status; i++) {
-        const char *const users = next_word(text);
+        const char *const users = next_text(text);
         status = ffd_users_add(&worker->output_set->users.users, text, users, error);
-        text = next_word(users);
+        text = next_text(users);
     }
     if (!status)
-        worker->output_set->users.is_complete = !task->is_unsurveyed;
+        worker->output_set->users.is_complete = !task->order.is_unsurveyed;
     return status;
 }
 
-static ffd_status run_words(batch_worker *worker, const wire_task *task, wire_answer *answer,
-                            ffd_job_result *result)
+/* Finds the settings of the job and the other texts. */
+static ffd_status take_texts(batch_worker *worker, ffd_error *error)
 {
-    char *word = worker->text.data;
-    for (uint32_t i = 0; i < task->word_count; i++, word += strlen(word) + 1)
-        worker->words[i] = word;
-    const fingerprint_words words = {word, task->content_words};
-    const char *origin = word;
-    for (uint32_t i = 0; i < task->content_words; i++)
-        origin = next_word(origin);
-    const char *const output = next_word(next_word(origin)), *const picture = next_word(output);
-    job_row row = {.array = {next_word(picture), task->rows, task->vertices, task->is_double},
-                   .number = task->row,
-                   .dry = task->dry};
-    ffd_deform_desc desc;
-    worker->opened =
-        worker->program->open((int)task->word_count, worker->words, *output != 0, &desc, &result->error);
-    if (!worker->opened)
-        return blame_manifest(origin, task, &result->error);
-    job_log log = {&worker->log, desc.input.path, task->quiet, task->verbose};
-    desc.log = log_line;
-    desc.log_user = &log;
-    desc.quality = task->quality;
-    desc.positions = task->has_row ? take_positions : NULL;
-    desc.positions_user = &row;
-    desc.cache = worker->cache;
-    if (take_passed(worker, task, next_word(row.array.path), &desc, &result->error))
+    const char *at = worker->text.data;
+    ffd_deform_desc *const desc = &worker->desc;
+    const ffd_status status = ffd_settings_take(&at, desc, error);
+    if (status)
+        return status;
+    desc->input.path = at;
+    task_texts *const texts = &worker->texts;
+    texts->origin = next_text(at);
+    texts->input = next_text(texts->origin);
+    texts->output = next_text(texts->input);
+    texts->picture = next_text(texts->output);
+    texts->rows = next_text(texts->picture);
+    texts->passed = next_text(texts->rows);
+    if (!desc->morphs)
+        return FFD_OK;
+    desc->morph_results = ffd_alloc_zero(desc->lattice_count, sizeof *desc->morph_results);
+    return desc->morph_results ? FFD_OK : ffd_fail_memory(error);
+}
+
+static ffd_status run_task(batch_worker *worker, const wire_task *task, wire_answer *answer,
+                           ffd_job_result *result)
+{
+    ffd_deform_desc *const desc = &worker->desc;
+    job_row row = {.array = task->rows, .number = task->row, .dry = task->wishes.dry};
+    job_log log = {&worker->log, desc->input.path, task->wishes.quiet, task->wishes.verbose};
+    row.array.path = worker->texts.rows;
+    desc->log = log_line;
+    desc->log_user = &log;
+    desc->quality = task->wishes.quality;
+    desc->positions = task->has_row ? take_positions : NULL;
+    desc->positions_user = &row;
+    desc->cache = worker->cache;
+    if (take_passed(worker, task, worker->texts.passed, desc, &result->error))
         return result->error.status;
-    desc.output_set = worker->output_set;
-    if (desc.threads == 0)
-        desc.threads = task->threads;
+    desc->output_set = worker->output_set;
+    if (desc->threads == 0)
+        desc->threads = task->threads;
     const ffd_status status =
-        do_task(worker, task, &words, picture, task->has_row ? &row : NULL, &desc, answer, result);
+        do_task(worker, task, worker->texts.picture, task->has_row ? &row : NULL, desc, answer, result);
     if (status)
         worker->rule.size = 0;
     if (status && status != FFD_E_ARGUMENT)
-        ffd_fail_name_file(&result->error, desc.input.path);
-    return status ? blame_manifest(origin, task, &result->error) : FFD_OK;
+        ffd_fail_name_file(&result->error, desc->input.path);
+    return status ? blame_manifest(worker->texts.origin, task, &result->error) : FFD_OK;
 }
 
 static void make_entry(batch_worker *worker, const wire_task *task, const wire_answer *answer,
                        const ffd_job_result *result)
 {
-    const char *const words = worker->text.data, *name = words;
+    const task_texts *const texts = &worker->texts;
     byte_buffer set = {0};
-    for (uint32_t i = 0; i < task->word_count + task->content_words + 1; i++)
-        name = next_word(name);
-    ffd_settings_json(words, task->word_count, &set);
+    ffd_settings_json(&worker->desc, &set);
     const report_entry entry = {.line = task->line,
-                                .input = name,
-                                .output = *next_word(name) ? next_word(name) : NULL,
-                                .positions = task->has_row ? next_word(next_word(next_word(name))) : NULL,
+                                .input = texts->input,
+                                .output = *texts->output ? texts->output : NULL,
+                                .positions = task->has_row ? texts->rows : NULL,
                                 .row = task->row,
                                 .set = set.failed ? NULL : set.data,
                                 .result = result,
-                                .planned = task->dry && !answer->dry_run_done && !result->status,
-                                .stable = task->stable};
+                                .planned = task->wishes.dry && !answer->end.dry_run_done && !result->status,
+                                .stable = task->wishes.stable};
     ffd_report_entry_text(&entry, &worker->entry);
     worker->entry.failed = worker->entry.failed || set.failed;
     ffd_buffer_free(&set);
+}
+
+/* Adds the result with those of its morph targets. */
+static void append_result(batch_worker *worker, const ffd_job_result *result)
+{
+    const ffd_morph_results *const morphs = &result->morphs;
+    ffd_buffer_append(&worker->result, result, sizeof *result);
+    if (morphs->results)
+        ffd_buffer_append(&worker->result, morphs->results, morphs->count * sizeof *result);
 }
 
 static void answer_task(batch_worker *worker, const wire_task *task, wire_answer *answer)
 {
     ffd_job_result result;
     ffd_result_clear(&result);
-    result.status = run_words(worker, task, answer, &result);
+    ffd_deform_desc_init(&worker->desc, sizeof worker->desc);
+    const ffd_status taken = take_texts(worker, &result.error);
+    result.status = taken ? taken : run_task(worker, task, answer, &result);
     if (result.status) {
-        answer->outcome = OUTCOME_FAILED;
-        if (!task->measure && !task->count) /* the job itself reports it later */
+        answer->end.outcome = OUTCOME_FAILED;
+        if (!task->wishes.measure && !task->wishes.count) /* the job itself reports it later */
             log_error(worker, &result.error);
     }
     /* After running out of memory, a worker may fail with any job. */
     answer->retires = result.status == FFD_E_MEMORY;
-    if (answer->has_record && !task->dry) {
+    if (answer->end.has_record && !task->wishes.dry) {
         ffd_report_figures(&result, &worker->figures);
         ffd_buffer_append(&worker->figures, "", 1);
     }
-    if (task->report && !answer->scanned && answer->outcome != OUTCOME_SKIPPED)
+    if (task->wishes.report && !taken && !answer->scanned && answer->end.outcome != OUTCOME_SKIPPED)
         make_entry(worker, task, answer, &result);
+    if (task->wishes.result && !answer->scanned && answer->end.outcome != OUTCOME_SKIPPED)
+        append_result(worker, &result);
     ffd_output_set_destroy(&worker->output_set);
-    if (worker->opened)
-        worker->program->close(worker->opened);
-    worker->opened = NULL;
+    ffd_free(worker->desc.morph_results);
+    ffd_deform_desc_clear(&worker->desc);
 }
 
 /* Sends one message: several would wake the first process several times. If memory runs out for it, sends a
    header that says so. */
 static bool send_answer(batch_worker *worker, wire_answer *answer)
 {
-    const byte_buffer *const texts[] = {&worker->log, &worker->entry, &worker->rule, &worker->figures};
+    const byte_buffer *const texts[] = {&worker->log, &worker->entry, &worker->rule, &worker->figures,
+                                        &worker->result};
     uint64_t *const sizes[] = {&answer->log_size, &answer->entry_size, &answer->rule_size,
-                               &answer->figures_size};
+                               &answer->figures_size, &answer->result_size};
     enum { TEXTS = sizeof texts / sizeof *texts };
     byte_buffer *const message = &worker->message;
     for (int i = 0; i < TEXTS; i++)
@@ -527,18 +551,20 @@ static bool send_answer(batch_worker *worker, wire_answer *answer)
     for (int i = 0; i < TEXTS; i++)
         *sizes[i] = 0;
     answer->out_of_memory = answer->retires = true;
-    answer->outcome = OUTCOME_FAILED;
+    answer->end.outcome = OUTCOME_FAILED;
     return ffd_process_give(answer, sizeof *answer);
 }
 
-bool ffd_worker_is(const char *name)
+void ffd_worker_build(char build[WORKER_BUILD])
 {
-    return strcmp(name, WORKER_NAME) == 0;
+    snprintf(build, WORKER_BUILD, "%s %zu %zu %zu", ffd_version(), sizeof(wire_task), sizeof(wire_answer),
+             sizeof(ffd_job_result));
 }
 
-int ffd_worker_run(const worker_program *program)
+/* Does jobs until there are no more. Returns the process's exit code. */
+static int run_worker(void)
 {
-    batch_worker worker = {.program = program};
+    batch_worker worker = {0};
     wire_task task;
     ffd_cleanup_on_crashes();
     ffd_guard_inputs();
@@ -549,8 +575,8 @@ int ffd_worker_run(const worker_program *program)
     while (going && read_task(&worker, &task)) {
         wire_answer answer;
         memset(&answer, 0, sizeof answer); /* also clears padding, which is sent */
-        ffd_shown_box_clear(&answer.box);
-        worker.log.size = worker.entry.size = worker.rule.size = worker.figures.size = 0;
+        ffd_shown_box_clear(&answer.end.box);
+        worker.log.size = worker.entry.size = worker.rule.size = worker.figures.size = worker.result.size = 0;
         answer_task(&worker, &task, &answer);
         ffd_kept_free(&worker.hashes.kept);
         going = send_answer(&worker, &answer) && !answer.retires;
@@ -564,7 +590,17 @@ int ffd_worker_run(const worker_program *program)
     ffd_buffer_free(&worker.entry);
     ffd_buffer_free(&worker.rule);
     ffd_buffer_free(&worker.figures);
+    ffd_buffer_free(&worker.result);
     ffd_buffer_free(&worker.message);
-    ffd_free(worker.words);
     return code;
+}
+
+bool ffd_worker_main(int argc, char **argv, int *exit_code)
+{
+    char build[WORKER_BUILD];
+    if (argc != 2 || strcmp(argv[0], WORKER_NAME) != 0)
+        return false;
+    ffd_worker_build(build);
+    *exit_code = strcmp(argv[1], build) == 0 ? run_worker() : ffd_status_exit_code(FFD_E_UNSUPPORTED);
+    return true;
 }

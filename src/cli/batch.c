@@ -1,9 +1,8 @@
 /* batch.c - ffd batch: many jobs, from a manifest, a table or a pattern. */
-#include "batch/batch.h"
-#include "base/file/path.h"
 #include "cli/command.h"
 #include "cli/deform.h"
 #include <errno.h>
+#include <ffd/batch.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,13 +14,7 @@ typedef struct settings {
     uint64_t shard, shards;
     double timeout;
     bool resume, stop, keep_going, dry;
-    batch_default *defaults; /* the options given */
-    size_t default_count;
 } settings;
-
-/* Options that a job can have too, but that have a meaning of their own for the batch. */
-static const char *const common[] = {"lattice", "out-dir", "report",  "report-stable", "threads", "quiet",
-                                     "verbose", "help",    "depfile", "shared-box",    "morph",   NULL};
 
 static bool set_shard(void *context, const cli_option *option, const char *value)
 {
@@ -72,146 +65,69 @@ static const cli_option own_options[] = {
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 
-static bool is_own(const char *name)
+static ffd_batch_desc describe(settings *s, const cli_words *words)
 {
-    for (int i = 0; common[i]; i++)
-        if (strcmp(common[i], name) == 0)
-            return true;
-    for (int i = 0; own_options[i].name; i++)
-        if (strcmp(own_options[i].name, name) == 0)
-            return true;
-    return false;
+    const cli_job *const job = &s->jobs.job;
+    ffd_batch_desc desc;
+    ffd_batch_desc_init(&desc, sizeof desc);
+    desc.manifest = words->count ? words->words[0] : NULL;
+    desc.csv = s->table;
+    desc.csv_ignore = s->ignored;
+    desc.in = s->pattern;
+    desc.out_dir = s->jobs.out_dir;
+    desc.defaults = &job->desc;
+    desc.output_ending = s->jobs.output_ending;
+    desc.workers = s->at_once;
+    desc.timeout = s->timeout;
+    desc.shard = s->shard;
+    desc.shards = s->shards;
+    desc.resume = s->resume;
+    desc.journal = s->journal;
+    desc.positions = s->positions;
+    desc.positions_double = s->type > 0;
+    desc.view = s->view;
+    desc.report = job->report;
+    desc.report_stable = job->stable;
+    desc.depfile = s->jobs.depfile_path;
+    desc.shared_box = job->shares_box;
+    desc.dry_run = s->dry;
+    desc.stop = s->stop;
+    desc.quiet = job->logging.quiet;
+    desc.verbose = job->logging.verbose;
+    desc.is_program = true;
+    return desc;
 }
 
-/* Records an option that applies to all jobs. */
-static bool note_default(void *context, const cli_option *option, const char *value)
+/* Returns what is wrong with the options, or NULL. */
+static const char *mistake(settings *s, const cli_words *words, const ffd_batch_desc *desc)
 {
-    settings *s = context;
-    if (is_own(option->name))
-        return true;
-    batch_default *grown = realloc(s->defaults, (s->default_count + 1) * sizeof *grown);
-    if (!grown) {
-        cli_complain("out of memory");
-        return false;
-    }
-    s->defaults = grown;
-    s->defaults[s->default_count++] = (batch_default){option->name, value};
-    return true;
-}
-
-/* Returns what is wrong with the options for the array of positions, or NULL. */
-static const char *wrong_positions(const settings *s, const cli_words *words)
-{
-    const cli_deform_settings *jobs = &s->jobs;
-    if (!s->positions)
-        return s->type >= 0 ? "--dtype needs --positions" : NULL;
-    if (cli_is_stream(s->positions))
-        return "--positions needs the name of a file: its rows are written as the jobs come";
-    if (!ffd_path_has_ending(s->positions, ".npy"))
-        return "--positions needs a name that ends in .npy";
-    if (jobs->job.desc.in_place)
-        return "--in-place cannot be used with --positions";
-    if (jobs->job.morph_count > 0)
-        return "--morph cannot be used with --positions: a row is of one deformation";
-    if (jobs->depfile_path)
-        return "--depfile cannot be used with --positions: its rules are for meshes";
-    if (words->count && cli_is_stream(words->words[0]))
-        return "--positions reads the jobs twice, but standard input can be read only once";
-    return NULL;
-}
-
-static const char *wrong(const settings *s, const cli_words *words)
-{
-    const cli_deform_settings *jobs = &s->jobs;
-    const bool manifest = words->count == 1;
     if (words->count > 1)
         return "more than one MANIFEST";
-    if (!manifest && !s->table && !s->pattern)
-        return "needs MANIFEST, or --in, or --csv";
-    if (manifest && (s->table || s->pattern || jobs->out_dir || jobs->job.lattice_count))
-        return "MANIFEST cannot be used with --in, --csv, --lattice, --morph or --out-dir";
-    if (s->ignored && !s->table)
-        return "--csv-ignore needs --csv";
-    if (!manifest && !s->table && !jobs->job.lattice_count)
-        return "--in needs a lattice (-l FILE)";
-    if (jobs->job.morph_count > 0 && jobs->job.lattice_count > jobs->job.morph_count)
-        return "-l cannot be used with --morph: each --morph names its own lattice";
-    if (!manifest && !s->table && !jobs->out_dir && !jobs->job.desc.in_place && !s->positions)
-        return "--in needs --out-dir, --in-place or --positions";
-    if (jobs->job.desc.in_place && jobs->out_dir)
-        return "--in-place and --out-dir cannot be used together";
     if (s->stop && s->keep_going)
         return "--stop and --keep-going cannot be used together";
-    if (jobs->job.stable && !jobs->job.report && !s->positions)
-        return "--report-stable needs --report or --positions";
-    if (s->resume && jobs->job.desc.in_place)
-        return "--in-place cannot be used with --resume: a finished mesh would be deformed again";
-    if (s->view && jobs->job.desc.in_place)
-        return "--in-place cannot be used with --view: a picture is named after OUT";
-    if (jobs->depfile_path && jobs->job.desc.in_place)
-        return "--depfile cannot be used with --in-place: a file cannot depend on itself";
-    if (s->dry && jobs->job.report && cli_is_stream(jobs->job.report))
-        return "--dry-run and the report cannot both write to standard output";
-    return wrong_positions(s, words);
-}
-
-static int run_batch(const settings *s, const cli_words *words)
-{
-    const cli_job *job = &s->jobs.job;
-    const batch_desc desc = {.jobs = {.manifest = words->count ? words->words[0] : NULL,
-                                      .table = s->table,
-                                      .ignored = s->ignored,
-                                      .pattern = s->pattern,
-                                      .lattices = job->lattices,
-                                      .lattice_count = job->lattice_count,
-                                      .morphs = job->morph_count ? job->morphs : NULL,
-                                      .out_dir = s->jobs.out_dir,
-                                      .defaults = s->defaults,
-                                      .default_count = s->default_count,
-                                      .resume = s->resume,
-                                      .pictures = s->view != NULL,
-                                      .positions = s->positions != NULL,
-                                      .strict = job->desc.input.strict,
-                                      .shard = s->shard,
-                                      .shards = s->shards ? s->shards : 1},
-                             .pool = {.workers = s->at_once,
-                                      .threads = job->desc.threads,
-                                      .timeout = s->timeout,
-                                      .resume = s->resume,
-                                      .dry = s->dry,
-                                      .stable = job->stable,
-                                      .quiet = job->logging.quiet,
-                                      .verbose = job->logging.verbose && !job->logging.quiet},
-                             .report = job->report,
-                             .depfile = s->jobs.depfile_path,
-                             .journal = s->journal,
-                             .view = s->view,
-                             .positions = s->positions,
-                             .positions_double = s->type > 0,
-                             .force = job->desc.force || job->desc.if_changed,
-                             .shared_box = job->shares_box,
-                             .stop = s->stop,
-                             .quiet = job->logging.quiet};
-    bool failed;
-    ffd_error error;
-    if (ffd_batch_run(&desc, &failed, &error))
-        return cli_fail(&error);
-    return failed ? EXIT_NO : EXIT_DONE;
+    if (s->type >= 0 && !s->positions)
+        return "--dtype needs --positions";
+    return ffd_batch_desc_check(desc, &s->jobs.job.refusal) ? s->jobs.job.refusal.message : NULL;
 }
 
 static int act(const cli_command *command, void *context, const cli_words *words)
 {
-    const settings *const s = context;
-    const char *const why = wrong(s, words);
-    return why ? cli_usage(command, why) : run_batch(s, words);
+    settings *const s = context;
+    const ffd_batch_desc desc = describe(s, words);
+    const char *const why = mistake(s, words, &desc);
+    ffd_batch_result result = {.struct_size = sizeof result};
+    ffd_error error;
+    if (why)
+        return cli_usage(command, why);
+    if (ffd_batch_run(&desc, &result, &error))
+        return cli_fail(&error);
+    return result.failed > 0 || !result.is_complete ? EXIT_NO : EXIT_DONE;
 }
 
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {.type = -1};
-    const int code = cli_job_run(command, &s.jobs.job, count, arguments, act);
-    free(s.defaults);
-    return code;
+    return cli_job_run(command, &s.jobs.job, count, arguments, act);
 }
 
 static const cli_example examples[] = {
@@ -232,7 +148,7 @@ const cli_command cli_batch = {
     "       MANIFEST: a job a line, as {\"in\": \"a.glb\", \"lattice\": \"x.json\",\n"
     "       \"out\": \"o/a.glb\", \"options\": {\"normals\": \"keep\"}}; - is standard input\n"
     "       exit 1: a job failed\n",
-    {own_options, cli_job_options, cli_deform_options, note_default},
+    {own_options, cli_job_options, cli_deform_options},
     run,
     "MANIFEST",
     examples};

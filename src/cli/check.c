@@ -1,5 +1,4 @@
 /* check.c - ffd check: what a deformation would do, without writing it. */
-#include "base/file/folder.h"
 #include "cli/job.h"
 #include <stdio.h>
 
@@ -24,7 +23,7 @@ static int print_summary(const cli_job *job, const char *input, const ffd_job_re
 {
     ffd_error error;
     char *text = NULL;
-    const char *const lattice = job->lattices[result->folds.witness.lattice].path;
+    const char *const lattice = job->desc.lattices[result->folds.witness.lattice].path;
     if (ffd_job_result_text(result, cli_display_name(lattice), &text, &error))
         return cli_fail(&error);
     printf("%s\n%s", cli_display_name(input), text);

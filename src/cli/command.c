@@ -1,5 +1,4 @@
 #include "cli/command.h"
-#include "io/format_names.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,10 +19,9 @@ const char *cli_display_name(const char *path)
 
 bool cli_knows_format(const char *path, ffd_format given)
 {
-    if (given != FFD_FORMAT_AUTO || ffd_format_from_name(path) != FFD_FORMAT_AUTO)
-        return true;
     ffd_error error;
-    ffd_format_refuse_name(path, &error);
+    if (given != FFD_FORMAT_AUTO || !ffd_format_check_name(path, &error))
+        return true;
     cli_fail(&error);
     return false;
 }

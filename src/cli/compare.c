@@ -1,6 +1,6 @@
 /* compare.c - ffd compare: are two files the same mesh? */
 #include "cli/command.h"
-#include "io/format_names.h"
+#include "cli/member.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -8,9 +8,8 @@ typedef struct settings {
     cli_distance tolerance;
     double normal_tolerance;
     bool has_normal_tolerance;
-    ffd_format input_format;
-    uint64_t memory;
-    bool strict, json, help;
+    ffd_deform_desc job; /* the options that it shares with ffd deform */
+    bool json, help;
     cli_logging logging;
 } settings;
 
@@ -33,10 +32,10 @@ static const cli_option options[] = {
      "normals and tangents may differ by T in a component; default 0, or the number of a T with r",
      set_normal_tolerance, 0, NULL},
     {"json", 0, NULL, "the result as JSON", cli_set_flag, AT(json), NULL},
-    {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
-    {"strict", 0, NULL, CLI_STRICT, cli_set_flag, AT(strict), NULL},
-    {"input-format", 0, "FORMAT", FORMAT_NAMES "; format of the input named -, else of both", cli_set_format,
-     AT(input_format), NULL},
+    {"memory", 0, "SIZE", CLI_MEMORY, cli_set_member, AT(job), NULL},
+    {"strict", 0, NULL, CLI_STRICT, cli_set_member, AT(job), NULL},
+    {"input-format", 0, "FORMAT", FFD_FORMAT_NAMES "; format of the input named -, else of both",
+     cli_set_member, AT(job), NULL},
     {"quiet", 'q', NULL, "only errors and the exit code (and --json)", cli_set_flag, AT(logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
@@ -47,8 +46,10 @@ static const cli_option options[] = {
 static ffd_source source(const settings *s, const char *file, const char *other)
 {
     const bool other_only = strcmp(other, "-") == 0 && strcmp(file, "-") != 0;
-    const ffd_format format = other_only ? FFD_FORMAT_AUTO : s->input_format;
-    return (ffd_source){.path = file, .format = format, .memory = s->memory, .strict = s->strict};
+    ffd_source source = s->job.input;
+    source.path = file;
+    source.format = other_only ? FFD_FORMAT_AUTO : source.format;
+    return source;
 }
 
 /* Prints the counts, such as "3 differences: 2 positions, 1 other". */

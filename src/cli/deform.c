@@ -1,11 +1,5 @@
-/* deform.c - ffd deform: one mesh to a file, or many to a folder; and single jobs of a batch. */
+/* deform.c - ffd deform: one mesh to a file, or many to a folder. */
 #include "cli/deform.h"
-#include "base/file/folder.h"
-#include "base/file/path.h"
-#include "base/memory/memory.h"
-#include "cli/morphs.h"
-#include "io/format_names.h"
-#include "job/plan.h"
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,11 +17,11 @@ static bool set_output_format(void *context, const cli_option *option, const cha
 #define AT(field) offsetof(settings, field)
 const cli_option cli_deform_options[] = {
     {"morph", 0, "NAME=LATTICE",
-     "glTF out, in place of -l: as --as-morph, for this lattice; repeatable, in one pass", cli_add_morph, 0,
-     NULL},
+     "glTF out, in place of -l: as --as-morph, for this lattice; repeatable, in one pass", cli_set_member,
+     AT(job.desc), NULL},
     {"clip", 0, "CLIP",
      "with --morph: animate weights, \"NAME: TIME TARGET=W ..., TIME ...\"; seconds; repeatable",
-     cli_add_clip, 0, NULL},
+     cli_set_member, AT(job.desc), NULL},
     {"out-dir", 0, "DIR", "write every IN under its own name into this folder", cli_set_text, AT(out_dir),
      NULL},
     {"in-place", 0, NULL, "overwrite IN", cli_set_member, AT(job.desc), NULL},
@@ -39,94 +33,60 @@ const cli_option cli_deform_options[] = {
     {"resources", 0, "copy|reference",
      "images or materials of a mesh written elsewhere: copied, or referred to; default copy", cli_set_member,
      AT(job.desc), NULL},
-    {"output-format", 0, "FORMAT", FORMAT_NAMES "; for -, --out-dir, batch: OUT gets its ending",
+    {"output-format", 0, "FORMAT", FFD_FORMAT_NAMES "; for -, --out-dir, batch: OUT gets its ending",
      set_output_format, AT(job.desc), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 
-/* Returns the name of an input's output in --out-dir; free it with ffd_free. NULL after a complaint. */
-static char *name_output(const settings *s, const char *input)
+/* Returns the path of an input's output in --out-dir; free it with ffd_free. NULL after a complaint. */
+static char *output_of(const settings *s, const char *input)
 {
-    const char *const name = ffd_path_name(input);
-    char *const output =
-        s->output_ending ? ffd_path_with_ending(name, s->output_ending) : ffd_text_copy(name);
-    if (!output)
+    char *output;
+    if (ffd_output_path(s->out_dir, input, s->output_ending, &output, NULL))
         cli_complain("out of memory");
     return output;
 }
 
-/* An input, and what must differ between inputs: the name of its output, or (in place) its own path. */
-typedef struct named_input {
-    const char *input;
-    char *name;
-} named_input;
-
-static int compare_names(const void *a, const void *b)
+/* Refuses jobs that write one file, or of which one reads what another one writes. outputs: room for as many
+   paths as there are inputs. Returns 0, or an exit code after a complaint. */
+static int check_outputs(const settings *s, const cli_words *inputs, char **outputs)
 {
-    return strcmp(((const named_input *)a)->name, ((const named_input *)b)->name);
+    ffd_error error;
+    for (size_t i = 0; i < inputs->count && s->out_dir; i++) {
+        outputs[i] = output_of(s, inputs->words[i]);
+        if (!outputs[i])
+            return ffd_status_exit_code(FFD_E_MEMORY);
+    }
+    return ffd_deform_check_many(&s->job.desc, inputs->words, s->out_dir ? (const char **)outputs : NULL,
+                                 inputs->count, &error)
+               ? cli_fail(&error)
+               : EXIT_DONE;
 }
 
-static int complain_of_equal(const named_input *a, const named_input *b)
+static int refuse_conflicts(const settings *s, const cli_words *inputs)
 {
-    if (strcmp(a->input, b->input) == 0)
-        cli_complain("%s: is named twice", a->input);
-    else
-        cli_complain("%s and %s would both be written as \"%s\"", a->input, b->input, a->name);
-    return EXIT_USAGE;
-}
-
-/* Refuses inputs of equal names: their outputs would overwrite each other. Returns 0, or an exit code after a
-   complaint. */
-static int refuse_equal_outputs(const settings *s, const cli_words *inputs)
-{
-    named_input *const sorted = calloc(inputs->count, sizeof *sorted);
-    int code = EXIT_DONE;
-    if (!sorted) {
+    char **const outputs = calloc(inputs->count, sizeof *outputs);
+    if (!outputs) {
         cli_complain("out of memory");
         return ffd_status_exit_code(FFD_E_MEMORY);
     }
-    for (size_t i = 0; i < inputs->count && !code; i++) {
-        const char *const input = inputs->words[i];
-        sorted[i] = (named_input){input, s->out_dir ? name_output(s, input) : ffd_text_copy(input)};
-        code = sorted[i].name ? EXIT_DONE : ffd_status_exit_code(FFD_E_MEMORY);
-    }
-    if (!code)
-        qsort(sorted, inputs->count, sizeof *sorted, compare_names);
-    for (size_t i = 1; i < inputs->count && !code; i++)
-        if (compare_names(&sorted[i - 1], &sorted[i]) == 0)
-            code = complain_of_equal(&sorted[i - 1], &sorted[i]);
+    const int code = check_outputs(s, inputs, outputs);
     for (size_t i = 0; i < inputs->count; i++)
-        ffd_free(sorted[i].name);
-    free(sorted);
+        ffd_free(outputs[i]);
+    free(outputs);
     return code;
-}
-
-/* Returns "folder/name", freed by the caller; NULL after a complaint. */
-static char *join(const char *folder, const char *name)
-{
-    const size_t length = strlen(folder), capacity = length + strlen(name) + 2;
-    char *path = malloc(capacity);
-    if (path)
-        snprintf(path, capacity, "%s%s%s", folder, folder[length - 1] == '/' ? "" : "/", name);
-    else
-        cli_complain("out of memory");
-    return path;
-}
-
-/* Returns the path of an input's output, freed with free; NULL after a complaint. */
-static char *output_of(const settings *s, const char *input)
-{
-    char *const name = name_output(s, input), *const output = name ? join(s->out_dir, name) : NULL;
-    ffd_free(name);
-    return output;
 }
 
 /* A missing folder would fail every job: complain once, before any work. */
 static int refuse_missing_folder(const char *folder)
 {
-    char *inside = join(folder, ".");
-    if (!inside)
+    const size_t capacity = strlen(folder) + 3;
+    char *const inside = malloc(capacity);
+    if (!inside) {
+        cli_complain("out of memory");
         return ffd_status_exit_code(FFD_E_MEMORY);
+    }
+    snprintf(inside, capacity, "%s/.", folder);
     FILE *file = fopen(inside, "r");
     const bool missing = !file && (errno == ENOENT || errno == ENOTDIR);
     if (file)
@@ -143,7 +103,14 @@ static bool describe(settings *s, const char *input, const char *output, ffd_def
     cli_job_describe(&s->job, input, desc);
     desc->output = s->job.desc.in_place ? NULL : output;
     desc->depfile = s->depfile;
-    return cli_morphs_describe(&s->job, desc);
+    if (!desc->morphs)
+        return true;
+    if (!s->job.morph_results)
+        s->job.morph_results = calloc(desc->lattice_count, sizeof *s->job.morph_results);
+    desc->morph_results = s->job.morph_results;
+    if (!desc->morph_results)
+        cli_complain("out of memory");
+    return desc->morph_results;
 }
 
 static int deform(settings *s, const char *input, const char *output, ffd_report *report)
@@ -166,34 +133,8 @@ static int run_job(cli_job *job, const char *input, ffd_report *report)
         return deform(s, input, s->output, report);
     char *const output = output_of(s, input);
     const int code = output ? deform(s, input, output, report) : ffd_status_exit_code(FFD_E_MEMORY);
-    free(output);
+    ffd_free(output);
     return code;
-}
-
-static ffd_status add_output(const settings *s, job_plan *plan, const char *input, ffd_error *error)
-{
-    char *const output = s->out_dir ? output_of(s, input) : NULL;
-    const ffd_status status =
-        s->out_dir && !output ? FFD_E_MEMORY : ffd_plan_write(plan, input, output ? output : input, error);
-    free(output);
-    return status;
-}
-
-/* Refuses jobs of which one reads what another one writes. Returns 0, or an exit code after a complaint. */
-static int refuse_conflicts(settings *s, const cli_words *inputs)
-{
-    job_plan plan = {0};
-    ffd_error error = {.status = FFD_E_MEMORY, .message = "out of memory"};
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < inputs->count && !status; i++)
-        status = add_output(s, &plan, inputs->words[i], &error);
-    for (size_t i = 0; i < inputs->count && !status; i++) {
-        ffd_deform_desc desc;
-        cli_job_describe(&s->job, inputs->words[i], &desc);
-        status = ffd_plan_read(&plan, i, &desc, &error);
-    }
-    ffd_plan_free(&plan);
-    return status ? cli_fail(&error) : EXIT_DONE;
 }
 
 /* Whether all words are IN; else they are IN and OUT. */
@@ -204,7 +145,7 @@ static bool has_many(const settings *s)
 
 static const char *wrong_words(const settings *s, const cli_words *words)
 {
-    if (has_many(s) || s->no_output)
+    if (has_many(s))
         return words->count < 1 ? "needs at least one IN" : NULL;
     if (words->count < 2)
         return words->count ? "needs an OUT (or --out-dir, --in-place)" : "needs IN and OUT";
@@ -247,7 +188,7 @@ static const char *wrong_outputs(const settings *s, const cli_words *words, size
 /* Makes all checks before the first job. Returns 0, or an exit code after a complaint. */
 static int refuse(const cli_command *command, settings *s, const cli_words *words, size_t inputs)
 {
-    const char *why = s->job.lattice_count ? wrong_words(s, words) : NULL;
+    const char *why = s->job.desc.lattice_count ? wrong_words(s, words) : NULL;
     if (!why && !has_many(s) && words->count > 1)
         s->output = words->words[1];
     if (!why)
@@ -259,12 +200,12 @@ static int refuse(const cli_command *command, settings *s, const cli_words *word
     if (!cli_job_knows_formats(&s->job, words, inputs))
         return EXIT_USAGE;
     if (s->output && cli_is_stream(s->output) && !s->job.desc.output_format) {
-        cli_complain("standard output needs --output-format " FORMAT_NAMES);
+        cli_complain("standard output needs --output-format " FFD_FORMAT_NAMES);
         return EXIT_USAGE;
     }
     if (!has_many(s))
         return EXIT_DONE;
-    const int code = refuse_equal_outputs(s, words);
+    const int code = inputs > 1 ? refuse_conflicts(s, words) : EXIT_DONE;
     return code || !s->out_dir || words->count == 1 ? code : refuse_missing_folder(s->out_dir);
 }
 
@@ -289,9 +230,7 @@ static int act(const cli_command *command, void *context, const cli_words *words
 {
     settings *const s = context;
     const size_t inputs = has_many(s) || !words->count ? words->count : 1;
-    int code = refuse(command, s, words, inputs);
-    if (!code && inputs > 1)
-        code = refuse_conflicts(s, words);
+    const int code = refuse(command, s, words, inputs);
     return code ? code : run_all(s, words, inputs);
 }
 
@@ -328,45 +267,3 @@ const cli_command cli_deform = {
     run,
     "MESH",
     examples};
-
-/* A job of a batch. */
-typedef struct batch_opened {
-    settings settings;
-    cli_words words;
-} batch_opened;
-
-void *cli_deform_open(int count, char **words, bool has_output, ffd_deform_desc *desc, ffd_error *error)
-{
-    char complaint[512] = "out of memory";
-    batch_opened *opened = calloc(1, sizeof *opened);
-    int code = ffd_status_exit_code(FFD_E_MEMORY);
-    settings *s = opened ? &opened->settings : NULL;
-    cli_capture(complaint, sizeof complaint);
-    const bool begun = s && cli_job_begin(&cli_deform, &s->job, count, words, &opened->words, &code);
-    if (begun) {
-        s->no_output = !has_output;
-        code = refuse(&cli_deform, s, &opened->words, 1);
-    }
-    cli_capture(NULL, 0);
-    if (!begun || code) {
-        if (begun)
-            cli_job_end(&s->job, &opened->words);
-        free(opened);
-        *error = (ffd_error){.status = code == EXIT_USAGE ? FFD_E_ARGUMENT : FFD_E_MEMORY};
-        snprintf(error->message, sizeof error->message, "%s", complaint);
-        return NULL;
-    }
-    if (describe(s, opened->words.words[0], s->output, desc))
-        return opened;
-    cli_deform_close(opened);
-    *error = (ffd_error){.status = FFD_E_MEMORY};
-    snprintf(error->message, sizeof error->message, "out of memory");
-    return NULL;
-}
-
-void cli_deform_close(void *context)
-{
-    batch_opened *opened = context;
-    cli_job_end(&opened->settings.job, &opened->words);
-    free(opened);
-}

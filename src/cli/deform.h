@@ -1,4 +1,4 @@
-/* deform.h - the parts of ffd deform that a batch uses: its options, and single jobs from words. */
+/* deform.h - the options of ffd deform, which a batch has too. */
 #ifndef FFD_CLI_DEFORM_H
 #define FFD_CLI_DEFORM_H
 
@@ -12,15 +12,9 @@ typedef struct cli_deform_settings {
     const char *depfile_path;
     ffd_depfile *depfile;      /* NULL: not wanted */
     const char *output_ending; /* as it was given; NULL: none */
-    bool no_output;            /* job of a batch: write no mesh, only positions */
 } cli_deform_settings;
 
 /* The options that only ffd deform has; cli_job_options are the others. */
 extern const cli_option cli_deform_options[];
-
-/* As worker_program.open (batch/worker.h). */
-void *cli_deform_open(int count, char **words, bool has_output, ffd_deform_desc *desc, ffd_error *error);
-/* Frees what cli_deform_open has returned. */
-void cli_deform_close(void *opened);
 
 #endif

@@ -1,44 +1,34 @@
 /* embed.c - ffd embed: u,v,w of every vertex as a NumPy file. */
 #include "cli/job.h"
-#include "cli/names.h"
-#include "cli/values.h"
-#include "io/format_names.h"
 #include <string.h>
 
 typedef struct settings {
     const char *lattice, *output, *status;
-    int threads, space;
-    cli_distance snap;
-    ffd_format input_format;
-    uint64_t memory;
-    bool strict, force, help;
+    ffd_deform_desc job; /* the options that it shares with ffd deform */
+    bool help;
     cli_logging logging;
-    cli_values values;
-    cli_names allowed;
 } settings;
-
-static const char *const space_names[] = {"scene", "mesh", NULL}; /* in the order of ffd_space */
 
 #define AT(field) offsetof(settings, field)
 static const cli_option options[] = {
     {"lattice", 'l', "LATTICE", "lattice file; it needs no moves, and no values for placeholders in them",
      cli_set_text, AT(lattice), NULL},
     {"set", 0, "NAME=VALUE", "value of the placeholder {\"$\": \"NAME\"} in the moves; repeatable",
-     cli_add_value, AT(values), NULL},
+     cli_set_member, AT(job), NULL},
     {"output", 'o', "FILE.npy", "u,v,w: float64, N x 3, NaN where outside; statuses and hashes after it",
      cli_set_text, AT(output), NULL},
     {"status", 0, "FILE.npy", "uint8 for each vertex: 0 inside, 1 outside, 2 multiple, 3 singular, 4 invalid",
      cli_set_text, AT(status), NULL},
-    {"space", 0, "scene|mesh", "glTF: the space that the lattice is in; default scene", cli_set_choice,
-     AT(space), space_names},
-    {"snap", 0, "D|Dr", CLI_SNAP, cli_set_distance, AT(snap), NULL},
+    {"space", 0, "scene|mesh", "glTF: the space that the lattice is in; default scene", cli_set_member,
+     AT(job), NULL},
+    {"snap", 0, "D|Dr", CLI_SNAP, cli_set_member, AT(job), NULL},
     {"threads", 'j', "N", "number of threads; never changes the output; default all usable processors",
-     cli_set_count, AT(threads), NULL},
-    {"force", 0, NULL, "overwrite existing outputs", cli_set_flag, AT(force), NULL},
-    {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
-    {"allow-extension", 0, "NAME", CLI_ALLOW_EXTENSION, cli_add_name, AT(allowed), NULL},
-    {"strict", 0, NULL, CLI_STRICT, cli_set_flag, AT(strict), NULL},
-    {"input-format", 0, "FORMAT", FORMAT_NAMES "; needed for -", cli_set_format, AT(input_format), NULL},
+     cli_set_member, AT(job), NULL},
+    {"force", 0, NULL, "overwrite existing outputs", cli_set_member, AT(job), NULL},
+    {"memory", 0, "SIZE", CLI_MEMORY, cli_set_member, AT(job), NULL},
+    {"allow-extension", 0, "NAME", CLI_ALLOW_EXTENSION, cli_set_member, AT(job), NULL},
+    {"strict", 0, NULL, CLI_STRICT, cli_set_member, AT(job), NULL},
+    {"input-format", 0, "FORMAT", FFD_FORMAT_NAMES "; needed for -", cli_set_member, AT(job), NULL},
     {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
@@ -51,22 +41,17 @@ static int embed(settings *s, const char *input)
     ffd_job_result result = {.struct_size = sizeof result};
     ffd_error error;
     ffd_embed_desc_init(&desc, sizeof desc);
-    desc.input = (ffd_source){.path = input,
-                              .format = s->input_format,
-                              .space = (ffd_space)s->space,
-                              .memory = s->memory,
-                              .strict = s->strict,
-                              .allow_extensions = s->allowed.names,
-                              .allow_extension_count = s->allowed.count};
+    desc.input = s->job.input;
+    desc.input.path = input;
     desc.lattice.path = s->lattice;
-    desc.set = s->values.set;
-    desc.set_count = s->values.count;
+    desc.set = s->job.set;
+    desc.set_count = s->job.set_count;
     desc.output = s->output;
     desc.status_output = s->status;
-    desc.snap = s->snap.value;
-    desc.snap_relative = s->snap.is_relative;
-    desc.threads = s->threads;
-    desc.force = s->force;
+    desc.snap = s->job.snap;
+    desc.snap_relative = s->job.snap_relative;
+    desc.threads = s->job.threads;
+    desc.force = s->job.force;
     desc.log = cli_log;
     desc.log_user = &s->logging;
     s->logging.subject = input;
@@ -104,15 +89,14 @@ static int act(const cli_command *command, void *context, const cli_words *words
     const char *why = mistake(s, words);
     if (why)
         return cli_usage(command, why);
-    return cli_knows_format(words->words[0], s->input_format) ? embed(s, words->words[0]) : EXIT_USAGE;
+    return cli_knows_format(words->words[0], s->job.input.format) ? embed(s, words->words[0]) : EXIT_USAGE;
 }
 
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {0};
     const int code = cli_run(command, &s, &s.help, count, arguments, act);
-    cli_values_free(&s.values);
-    cli_names_free(&s.allowed);
+    ffd_deform_desc_clear(&s.job);
     return code;
 }
 

@@ -1,14 +1,11 @@
 /* info.c - ffd info: what is in a mesh or lattice file. */
 #include "cli/command.h"
-#include "cli/values.h"
-#include "io/format_names.h"
+#include "cli/member.h"
 #include <stdio.h>
 
 typedef struct settings {
-    ffd_format input_format;
-    uint64_t memory;
-    bool strict, json, parts, help;
-    cli_values values;
+    ffd_deform_desc job; /* the options that it shares with ffd deform */
+    bool json, parts, help;
     cli_logging logging;
 } settings;
 
@@ -18,11 +15,11 @@ static const cli_option options[] = {
     {"parts", 0, NULL, "of a mesh: every name that --only takes, with bounds, vertices and faces",
      cli_set_flag, AT(parts), NULL},
     {"set", 0, "NAME=VALUE",
-     "of a lattice: value of the placeholder {\"$\": \"NAME\"} in its moves; repeatable", cli_add_value,
-     AT(values), NULL},
-    {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
-    {"strict", 0, NULL, CLI_STRICT, cli_set_flag, AT(strict), NULL},
-    {"input-format", 0, "FORMAT", FORMAT_NAMES "; needed for -", cli_set_format, AT(input_format), NULL},
+     "of a lattice: value of the placeholder {\"$\": \"NAME\"} in its moves; repeatable", cli_set_member,
+     AT(job), NULL},
+    {"memory", 0, "SIZE", CLI_MEMORY, cli_set_member, AT(job), NULL},
+    {"strict", 0, NULL, CLI_STRICT, cli_set_member, AT(job), NULL},
+    {"input-format", 0, "FORMAT", FFD_FORMAT_NAMES "; needed for -", cli_set_member, AT(job), NULL},
     {"quiet", 'q', NULL, "print only errors besides the text", cli_set_flag, AT(logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
@@ -35,12 +32,12 @@ static int describe(settings *s, const char *file)
     ffd_error error;
     char *text;
     ffd_info_desc_init(&desc, sizeof desc);
-    desc.file =
-        (ffd_source){.path = file, .format = s->input_format, .memory = s->memory, .strict = s->strict};
+    desc.file = s->job.input;
+    desc.file.path = file;
     desc.json = s->json;
     desc.parts = s->parts;
-    desc.set = s->values.set;
-    desc.set_count = s->values.count;
+    desc.set = s->job.set;
+    desc.set_count = s->job.set_count;
     desc.log = cli_log;
     desc.log_user = &s->logging;
     if (ffd_info_run(&desc, &text, &error))
@@ -59,7 +56,7 @@ static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {0};
     const int code = cli_run(command, &s, &s.help, count, arguments, act);
-    cli_values_free(&s.values);
+    ffd_deform_desc_clear(&s.job);
     return code;
 }
 

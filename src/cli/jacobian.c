@@ -1,6 +1,5 @@
 /* jacobian.c - ffd jacobian: the derivative of positions by control points or by placeholders. */
 #include "cli/job.h"
-#include "io/format_names.h"
 #include <ffd/jacobian.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -30,7 +29,8 @@ static bool set_of(void *context, const cli_option *option, const char *value)
 
 #define AT(field) offsetof(settings, field)
 static const cli_option options[] = {
-    {"lattice", 'l', "LATTICE", "lattice file; several act in this order", cli_add_lattice, 0, NULL},
+    {"lattice", 'l', "LATTICE", "lattice file; several act in this order", cli_set_member, AT(job.desc),
+     NULL},
     {"output", 'o', "FILE.npz|.mtx|.npy", "the matrix, sparse; .npy: dense, by parameters; a product",
      cli_set_text, AT(output), NULL},
     {"wrt", 0, "points|parameters", "by the deformed control points, or by the placeholders; default points",
@@ -45,28 +45,27 @@ static const cli_option options[] = {
     {"check", 0, NULL, "compare 16 vertices with central differences; exit 1 above 1e-6", cli_set_flag,
      AT(check), NULL},
     {"set", 0, "NAME=VALUE",
-     "value of the placeholder {\"$\": \"NAME\"} in the moves of a lattice; repeatable", cli_add_value,
-     AT(job.values), NULL},
+     "value of the placeholder {\"$\": \"NAME\"} in the moves of a lattice; repeatable", cli_set_member,
+     AT(job.desc), NULL},
     {"outside", 0, "keep|extend|error",
      "vertices outside the lattice: stay, follow its border, or fail (exit 5)", cli_set_member, AT(job.desc),
      NULL},
     {"falloff", 0, "R", "with --outside extend: the displacement fades to zero over this distance",
      cli_set_member, AT(job.desc), NULL},
-    {"snap", 0, "D|Dr", CLI_SNAP, cli_set_distance, AT(job.snap), NULL},
+    {"snap", 0, "D|Dr", CLI_SNAP, cli_set_member, AT(job.desc), NULL},
     {"space", 0, "scene|mesh",
      "glTF: the lattice is in the space of the scene, or of each mesh; default scene", cli_set_member,
      AT(job.desc), NULL},
-    {"only", 0, "KIND:NAME", "only this, repeatable, as for ffd deform", cli_add_selector, AT(job.only),
-     NULL},
+    {"only", 0, "KIND:NAME", "only this, repeatable, as for ffd deform", cli_set_member, AT(job.desc), NULL},
     {"threads", 'j', "N", "number of threads; never changes the output; default all usable processors",
      cli_set_member, AT(job.desc), NULL},
     {"isa", 0, "auto|scalar|sse2|avx2|avx512", "instruction set; never changes the output; default auto",
      cli_set_member, AT(job.desc), NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_member, AT(job.desc), NULL},
     {"timeout", 0, "SECONDS", CLI_TIMEOUT, cli_set_member, AT(job.desc), NULL},
-    {"allow-extension", 0, "NAME", CLI_ALLOW_EXTENSION, cli_add_name, AT(job.allowed), NULL},
+    {"allow-extension", 0, "NAME", CLI_ALLOW_EXTENSION, cli_set_member, AT(job.desc), NULL},
     {"strict", 0, NULL, CLI_STRICT, cli_set_member, AT(job.desc), NULL},
-    {"input-format", 0, "FORMAT", FORMAT_NAMES "; needed for -", cli_set_member, AT(job.desc), NULL},
+    {"input-format", 0, "FORMAT", FFD_FORMAT_NAMES "; needed for -", cli_set_member, AT(job.desc), NULL},
     {"force", 0, NULL, "overwrite an existing output", cli_set_flag, AT(force), NULL},
     {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(job.logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(job.logging.verbose), NULL},

@@ -1,105 +1,14 @@
 #include "cli/job.h"
-#include "base/file/folder.h"
-#include "base/text/words.h"
-#include "io/format_names.h"
-#include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-bool cli_add_lattice(void *context, const cli_option *option, const char *value)
-{
-    cli_job *job = context;
-    return cli_set_text(&job->lattices[job->lattice_count++].path, option, value);
-}
-
-static const char *const gate_names[] = {"folds", "outside", "multiple", "singular", "invalid", "tear",
-                                         "tear=", "flipped", "flipped=", "edges=",   NULL};
-static const ffd_gate gates[] = {FFD_GATE_FOLDS,   FFD_GATE_OUTSIDE, FFD_GATE_MULTIPLE, FFD_GATE_SINGULAR,
-                                 FFD_GATE_INVALID, FFD_GATE_TEAR,    FFD_GATE_TEAR,     FFD_GATE_FLIPPED,
-                                 FFD_GATE_FLIPPED, FFD_GATE_EDGES};
-
-/* Sets the limit of a gate; of several the strictest counts. text: the limit, followed by the rest of the
-   list; NULL: none. */
-static bool set_gate_value(cli_job *job, const cli_option *option, ffd_gate gate, const char *text,
-                           size_t length)
-{
-    const char *const name = gate == FFD_GATE_TEAR ? "tear" : gate == FFD_GATE_EDGES ? "edges" : "flipped";
-    const bool counts = gate == FFD_GATE_FLIPPED;
-    char copy[64] = "";
-    double value = 0;
-    bool valid = !text;
-    if (text && length < sizeof copy) {
-        memcpy(copy, text, length);
-        valid = cli_parse_number(copy, &value) && value >= 0 &&
-                (!counts || (value < 0x1p53 && value == floor(value)));
-    }
-    if (!valid) {
-        cli_complain("--%s: \"%.*s\" is not a %s of the gate %s", option->name,
-                     (int)(length < 60 ? length : 60), text, counts ? "number" : "length", name);
-        return false;
-    }
-    const bool is_first = !(job->desc.fail_on & (unsigned)gate);
-    if (gate == FFD_GATE_TEAR)
-        value = text ? value : -1;
-    if (gate == FFD_GATE_TEAR && (is_first || value < job->desc.tear_most))
-        job->desc.tear_most = value;
-    if (gate == FFD_GATE_EDGES && (is_first || value < job->desc.edges_most))
-        job->desc.edges_most = value;
-    if (gate == FFD_GATE_FLIPPED && (is_first || (uint64_t)value < job->desc.flipped_most))
-        job->desc.flipped_most = (uint64_t)value;
-    return true;
-}
-
-/* Whether a word is this gate's name. A name that ends in '=' is followed by a value. */
-static bool is_gate(const char *name, const char *word, size_t length)
-{
-    const size_t size = strlen(name);
-    const bool takes_value = name[size - 1] == '=';
-    return (takes_value ? length >= size : length == size) && memcmp(name, word, size) == 0;
-}
-
-static bool add_gate(cli_job *job, const cli_option *option, const char *word, size_t length)
-{
-    nearest_word nearest = {.word = word, .length = strcspn(word, "=,")};
-    for (int i = 0; gate_names[i]; i++) {
-        if (is_gate(gate_names[i], word, length)) {
-            const size_t size = strlen(gate_names[i]);
-            const char *const value = gate_names[i][size - 1] == '=' ? word + size : NULL;
-            const bool has_value = gates[i] & (FFD_GATE_TEAR | FFD_GATE_FLIPPED | FFD_GATE_EDGES);
-            const bool taken =
-                !has_value || set_gate_value(job, option, gates[i], value, value ? length - size : 0);
-            job->desc.fail_on |= (unsigned)gates[i];
-            return taken;
-        }
-        ffd_nearest_offer(&nearest, gate_names[i]);
-    }
-    const char *const meant = ffd_nearest_meant(&nearest);
-    cli_complain("--%s: unknown gate \"%.*s\" (%s%s)", option->name, (int)(length < 60 ? length : 60), word,
-                 meant ? "nearest: " : "--help lists the known ones", meant ? meant : "");
-    return false;
-}
-
-/* Parses a list such as "folds,outside". */
-static bool add_gates(void *context, const cli_option *option, const char *value)
-{
-    for (;;) {
-        const size_t length = strcspn(value, ",");
-        if (!add_gate(context, option, value, length))
-            return false;
-        if (!value[length])
-            return true;
-        value += length + 1;
-    }
-}
 
 #define AT(field) offsetof(cli_job, field)
 const cli_option cli_job_options[] = {
     {"lattice", 'l', "LATTICE", "lattice file; several act in this order, or with --blocks side by side",
-     cli_add_lattice, 0, NULL},
+     cli_set_member, AT(desc), NULL},
     {"set", 0, "NAME=VALUE",
-     "value of the placeholder {\"$\": \"NAME\"} in the moves of a lattice; repeatable", cli_add_value,
-     AT(values), NULL},
+     "value of the placeholder {\"$\": \"NAME\"} in the moves of a lattice; repeatable", cli_set_member,
+     AT(desc), NULL},
     {"shared-box", 0, NULL,
      "a lattice's \"box\": \"mesh\" goes round all IN (in batch: all jobs), not round each", cli_set_flag,
      AT(shares_box), NULL},
@@ -108,7 +17,7 @@ const cli_option cli_job_options[] = {
      AT(desc), NULL},
     {"falloff", 0, "R", "with --outside extend: the displacement fades to zero over this distance",
      cli_set_member, AT(desc), NULL},
-    {"snap", 0, "D|Dr", CLI_SNAP, cli_set_distance, AT(snap), NULL},
+    {"snap", 0, "D|Dr", CLI_SNAP, cli_set_member, AT(desc), NULL},
     {"blocks", 0, NULL,
      "all -l act on the mesh at rest, each vertex in the first that holds it; default in turn",
      cli_set_member, AT(desc), NULL},
@@ -123,15 +32,15 @@ const cli_option cli_job_options[] = {
      cli_set_member, AT(desc), NULL},
     {"only", 0, "KIND:NAME",
      "only this, repeatable; glTF: node (and below), mesh, material; OBJ: group, object, material",
-     cli_add_selector, AT(only), NULL},
+     cli_set_member, AT(desc), NULL},
     {"as-morph", 0, "NAME",
      "glTF out: leave the shape; add, or replace, the morph target of this name by the deformation",
      cli_set_member, AT(desc), NULL},
     {"embedding", 0, "FILE.npy", "u,v,w that ffd embed has written for this mesh and rest lattice",
      cli_set_member, AT(desc), NULL},
     {"fail-on", 0, "GATES",
-     "exit 1 if any: folds,outside,multiple,singular,invalid,tear[=D],flipped[=N],edges=D", add_gates, 0,
-     gate_names},
+     "exit 1 if any: folds,outside,multiple,singular,invalid,tear[=D],flipped[=N],edges=D", cli_set_member,
+     AT(desc), NULL},
     {"report", 0, "FILE|-", "JSON report; JSON Lines if the name ends in .jsonl", cli_set_text, AT(report),
      NULL},
     {"report-stable", 0, NULL, "leave the seconds out of the report", cli_set_flag, AT(stable), NULL},
@@ -142,55 +51,30 @@ const cli_option cli_job_options[] = {
      NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_member, AT(desc), NULL},
     {"timeout", 0, "SECONDS", CLI_TIMEOUT, cli_set_member, AT(desc), NULL},
-    {"allow-extension", 0, "NAME", CLI_ALLOW_EXTENSION, cli_add_name, AT(allowed), NULL},
+    {"allow-extension", 0, "NAME", CLI_ALLOW_EXTENSION, cli_set_member, AT(desc), NULL},
     {"strict", 0, NULL, CLI_STRICT, cli_set_member, AT(desc), NULL},
-    {"input-format", 0, "FORMAT", FORMAT_NAMES "; needed for -", cli_set_member, AT(desc), NULL},
+    {"input-format", 0, "FORMAT", FFD_FORMAT_NAMES "; needed for -", cli_set_member, AT(desc), NULL},
     {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 
-static void free_morphs(cli_job *job)
-{
-    for (size_t i = 0; i < job->morph_count; i++)
-        free((char *)(uintptr_t)job->morphs[i]);
-    free(job->morphs);
-    ffd_intern_free(&job->morph_names);
-    free(job->morph_results);
-    cli_names_free(&job->clips);
-}
-
-static void free_lists(cli_job *job)
-{
-    cli_values_free(&job->values);
-    cli_names_free(&job->allowed);
-    cli_names_free(&job->only);
-    free_morphs(job);
-    free(job->lattices);
-}
-
 bool cli_job_begin(const cli_command *command, cli_job *job, int count, char **arguments, cli_words *words,
                    int *exit_code)
 {
     ffd_deform_desc_init(&job->desc, sizeof job->desc);
-    job->lattices = calloc((size_t)count + 1, sizeof *job->lattices);
-    if (!job->lattices) {
-        free_lists(job);
-        cli_complain("out of memory");
-        *exit_code = ffd_status_exit_code(FFD_E_MEMORY);
-        return false;
-    }
     if (cli_begin(command, job, &job->help, count, arguments, words, exit_code))
         return true;
-    free_lists(job);
+    ffd_deform_desc_clear(&job->desc);
     return false;
 }
 
 void cli_job_end(cli_job *job, cli_words *words)
 {
     free(words->words);
-    free_lists(job);
+    free(job->morph_results);
+    ffd_deform_desc_clear(&job->desc);
 }
 
 int cli_job_run(const cli_command *command, cli_job *job, int count, char **arguments, cli_action *action)
@@ -214,8 +98,8 @@ static const char *wrong_streams(const cli_job *job, const cli_words *words, siz
     size_t meshes = 0, others = job->desc.embedding.path && cli_is_stream(job->desc.embedding.path);
     for (size_t i = 0; i < inputs; i++)
         meshes += cli_is_stream(words->words[i]);
-    for (size_t i = 0; i < job->lattice_count; i++)
-        others += cli_is_stream(job->lattices[i].path);
+    for (size_t i = 0; i < job->desc.lattice_count; i++)
+        others += cli_is_stream(job->desc.lattices[i].path);
     if (meshes && job->shares_box)
         return "--shared-box reads each IN twice, but standard input can be read only once";
     return meshes + others > 1 || (others && inputs > 1) ? "standard input can be read only once" : NULL;
@@ -229,19 +113,28 @@ static const char *wrong_report(const cli_job *job, const cli_words *words)
     for (size_t i = 0; i < words->count; i++)
         if (ffd_paths_meet(job->report, words->words[i]))
             return "the report would replace a mesh";
-    for (size_t i = 0; i < job->lattice_count; i++)
-        if (ffd_paths_meet(job->report, job->lattices[i].path))
+    for (size_t i = 0; i < job->desc.lattice_count; i++)
+        if (ffd_paths_meet(job->report, job->desc.lattices[i].path))
             return "the report would replace a lattice";
     if (job->desc.embedding.path && ffd_paths_meet(job->report, job->desc.embedding.path))
         return "the report would replace the embedding";
     return NULL;
 }
 
+bool cli_job_mixes_morphs(const cli_job *job)
+{
+    const ffd_deform_desc *const desc = &job->desc;
+    size_t named = 0;
+    while (desc->morphs && named < desc->lattice_count && desc->morphs[named])
+        named++;
+    return desc->morphs && named < desc->lattice_count;
+}
+
 const char *cli_job_option_mistake(cli_job *job, const cli_words *words, size_t inputs)
 {
     ffd_deform_desc desc;
     cli_job_describe(job, NULL, &desc);
-    if (job->morph_count > 0 && job->lattice_count > job->morph_count)
+    if (cli_job_mixes_morphs(job))
         return "-l cannot be used with --morph: each --morph names its own lattice";
     if (ffd_deform_desc_check(&desc, &job->refusal))
         return job->refusal.message;
@@ -255,7 +148,8 @@ const char *cli_job_option_mistake(cli_job *job, const cli_words *words, size_t 
 
 const char *cli_job_mistake(cli_job *job, const cli_words *words, size_t inputs)
 {
-    return job->lattice_count ? cli_job_option_mistake(job, words, inputs) : "no lattice is given (-l FILE)";
+    return job->desc.lattice_count ? cli_job_option_mistake(job, words, inputs)
+                                   : "no lattice is given (-l FILE)";
 }
 
 bool cli_job_knows_formats(const cli_job *job, const cli_words *words, size_t inputs)
@@ -270,20 +164,7 @@ void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc)
 {
     *desc = job->desc;
     desc->input.path = input;
-    desc->input.allow_extensions = job->allowed.names;
-    desc->input.allow_extension_count = job->allowed.count;
-    desc->lattices = job->lattices;
-    desc->lattice_count = job->lattice_count;
-    desc->morphs = job->morph_count ? job->morphs : NULL;
-    desc->clips = job->clips.names;
-    desc->clip_count = job->clips.count;
-    desc->set = job->values.set;
-    desc->set_count = job->values.count;
-    desc->snap = job->snap.value;
-    desc->snap_relative = job->snap.is_relative;
     desc->quality = job->report != NULL;
-    desc->only = job->only.names;
-    desc->only_count = job->only.count;
     desc->output_set = job->output_set;
     desc->cache = job->cache;
     desc->shared_box = job->shared_box;

@@ -4,22 +4,11 @@
 
 #include "cli/command.h"
 #include "cli/member.h"
-#include "cli/names.h"
-#include "cli/values.h"
 
 /* Set by cli_job_options. Each command's settings begin with it. */
 typedef struct cli_job {
-    ffd_deform_desc desc;         /* the options that are members; cli_job_describe adds the following */
-    ffd_lattice_source *lattices; /* files */
-    size_t lattice_count;
-    cli_values values;
-    cli_names only, allowed; /* selectors; extensions */
-    cli_distance snap;
-    const char **morphs; /* morph_count names, owned: of the targets that the lattices make */
-    size_t morph_count;
-    intern_table morph_names;
-    cli_names clips;
-    ffd_job_result *morph_results; /* of the last job, morph_count entries */
+    ffd_deform_desc desc;          /* the options that are members; cli_job_describe adds the following */
+    ffd_job_result *morph_results; /* of the last job, one for each of its lattices; or NULL */
     const char *report;
     bool stable, shares_box;
     bool own_box;               /* a job has used a box round its own mesh */
@@ -32,9 +21,6 @@ typedef struct cli_job {
 } cli_job;
 
 extern const cli_option cli_job_options[];
-
-/* Setter for settings that begin with a cli_job: adds a lattice file. */
-bool cli_add_lattice(void *settings, const cli_option *option, const char *value);
 
 /* Options of ffd deform without effect on other commands. They are accepted, so that "deform" in a command
    line can be replaced by another command. */
@@ -63,6 +49,8 @@ void cli_job_end(cli_job *job, cli_words *words);
 /* cli_run for commands with a job, the head of their settings: the action's settings are these. */
 int cli_job_run(const cli_command *command, cli_job *job, int count, char **arguments, cli_action *action);
 
+/* Whether some lattices make morph targets, and others none. */
+bool cli_job_mixes_morphs(const cli_job *job);
 /* Returns what is wrong with the options, or NULL. inputs: the number of words that are read; the others are
    written. */
 const char *cli_job_mistake(cli_job *job, const cli_words *words, size_t inputs);

@@ -1,8 +1,6 @@
 /* lattice_new.c - ffd lattice new: a lattice round meshes. */
-#include "base/text/words.h"
 #include "cli/command.h"
-#include "cli/names.h"
-#include "io/format_names.h"
+#include "cli/member.h"
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,11 +10,9 @@ typedef struct settings {
     ffd_lattice_desc desc;
     const char *output;
     int shape, spacing;
-    ffd_format input_format;
-    uint64_t memory;
-    bool strict, force, help;
+    ffd_deform_desc job; /* the options that it shares with ffd deform */
+    bool help;
     bool has_axis, has_margins; /* has_margins: --margin was given three numbers */
-    cli_names only, allowed;    /* selectors; extensions */
     cli_logging logging;
 } settings;
 
@@ -181,18 +177,18 @@ static const cli_option options[] = {
      "space on both sides, as a fraction of the extent; three: along a box's axes; default 0.05", set_margin,
      0, NULL},
     {"only", 0, "KIND:NAME",
-     "round this only, repeatable; glTF: node, mesh, material; OBJ: group, object, material",
-     cli_add_selector, AT(only), NULL},
+     "round this only, repeatable; glTF: node, mesh, material; OBJ: group, object, material", cli_set_member,
+     AT(job), NULL},
     {"spacing", 0, "greville|uniform", "of the control points of a box; default greville", cli_set_choice,
      AT(spacing), spacing_names},
     {"shape", 0, "box|cylinder", "default box", cli_set_choice, AT(shape), shape_names},
     {"axis", 0, "x|y|z|X,Y,Z", "of a cylinder; default z", set_axis, 0, NULL},
     {"axes", 0, "principal", "a box along the mesh's principal axes", set_axes, 0, NULL},
-    {"force", 0, NULL, "overwrite an existing file", cli_set_flag, AT(force), NULL},
-    {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
-    {"allow-extension", 0, "NAME", CLI_ALLOW_EXTENSION, cli_add_name, AT(allowed), NULL},
-    {"strict", 0, NULL, CLI_STRICT, cli_set_flag, AT(strict), NULL},
-    {"input-format", 0, "FORMAT", FORMAT_NAMES "; needed for -", cli_set_format, AT(input_format), NULL},
+    {"force", 0, NULL, "overwrite an existing file", cli_set_member, AT(job), NULL},
+    {"memory", 0, "SIZE", CLI_MEMORY, cli_set_member, AT(job), NULL},
+    {"allow-extension", 0, "NAME", CLI_ALLOW_EXTENSION, cli_set_member, AT(job), NULL},
+    {"strict", 0, NULL, CLI_STRICT, cli_set_member, AT(job), NULL},
+    {"input-format", 0, "FORMAT", FFD_FORMAT_NAMES "; needed for -", cli_set_member, AT(job), NULL},
     {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
@@ -208,23 +204,20 @@ static int create(settings *s, const cli_words *words)
         cli_complain("out of memory");
         return ffd_status_exit_code(FFD_E_MEMORY);
     }
-    for (size_t i = 0; i < words->count; i++)
-        meshes[i] = (ffd_source){.path = words->words[i],
-                                 .format = s->input_format,
-                                 .memory = s->memory,
-                                 .strict = s->strict,
-                                 .allow_extensions = s->allowed.names,
-                                 .allow_extension_count = s->allowed.count};
+    for (size_t i = 0; i < words->count; i++) {
+        meshes[i] = s->job.input;
+        meshes[i].path = words->words[i];
+    }
     s->desc.shape = (ffd_lattice_shape)s->shape;
     s->desc.spacing = (ffd_spacing)s->spacing;
     ffd_lattice_new_desc_init(&desc, sizeof desc);
     desc.meshes = meshes;
     desc.mesh_count = words->count;
-    desc.only = s->only.names;
-    desc.only_count = s->only.count;
+    desc.only = s->job.only;
+    desc.only_count = s->job.only_count;
     desc.lattice = &s->desc;
     desc.output = s->output;
-    desc.force = s->force;
+    desc.force = s->job.force;
     desc.log = cli_log;
     desc.log_user = &s->logging;
     const int code = ffd_lattice_new_run(&desc, &error) ? cli_fail(&error) : EXIT_DONE;
@@ -263,7 +256,7 @@ static int act(const cli_command *command, void *context, const cli_words *words
     if (why)
         return cli_usage(command, why);
     for (size_t i = 0; i < words->count; i++)
-        if (!cli_knows_format(words->words[i], s->input_format))
+        if (!cli_knows_format(words->words[i], s->job.input.format))
             return EXIT_USAGE;
     return create(s, words);
 }
@@ -273,8 +266,7 @@ static int run(const cli_command *command, int count, char **arguments)
     settings s = {0};
     ffd_lattice_desc_init(&s.desc, sizeof s.desc);
     const int code = cli_run(command, &s, &s.help, count, arguments, act);
-    cli_names_free(&s.only);
-    cli_names_free(&s.allowed);
+    ffd_deform_desc_clear(&s.job);
     return code;
 }
 

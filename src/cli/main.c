@@ -1,14 +1,14 @@
 /* main.c - the program ffd: finds the command and runs it. */
-#include "base/text/words.h"
-#include "batch/worker.h"
 #include "cli/commands.h"
-#include "cli/deform.h"
 #include "cli/member.h"
 #include <errno.h>
 #include <ffd/program.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+
+/* The most commands that are compared with an unknown one. */
+#define MOST_COMMANDS 32
 
 static void print_overview(void)
 {
@@ -49,22 +49,24 @@ static const cli_command *only_command_of(const char *word)
                                          : NULL;
 }
 
-/* If a single word was typed, a command of two words is compared by its first word. */
-static void offer_command(nearest_word *nearest, const char *name, bool one_word)
+/* Returns the command whose name is most similar. If a single word was typed, a command of two words is
+   compared by its first word. */
+static const char *nearest_command(const char *typed, bool two)
 {
-    const size_t length = strcspn(name, " ");
-    char first[32];
-    if (!one_word || !name[length]) {
-        ffd_nearest_offer(nearest, name);
-        return;
+    char firsts[MOST_COMMANDS][32];
+    const char *known[MOST_COMMANDS];
+    size_t count = 0, found = 0;
+    for (; cli_commands[count] && count + 1 < MOST_COMMANDS; count++) {
+        const char *const name = cli_commands[count]->name;
+        snprintf(firsts[count], sizeof firsts[count], "%.*s", (int)(two ? strlen(name) : strcspn(name, " ")),
+                 name);
+        known[count] = firsts[count];
     }
-    nearest_word own = {.word = nearest->word, .length = nearest->length};
-    snprintf(first, sizeof first, "%.*s", (int)length, name);
-    ffd_nearest_offer(&own, first);
-    if (nearest->best && own.distance >= nearest->distance)
-        return;
-    nearest->best = name;
-    nearest->distance = own.distance;
+    known[count] = "help";
+    const char *const nearest = ffd_nearest_word(typed, known, count + 1);
+    while (known[found] != nearest)
+        found++;
+    return found < count ? cli_commands[found]->name : nearest;
 }
 
 static int unknown_command(int count, char **arguments)
@@ -73,11 +75,8 @@ static int unknown_command(int count, char **arguments)
     const cli_command *group = only_command_of(arguments[0]);
     const bool two = group && count > 1;
     snprintf(typed, sizeof typed, "%s%s%s", arguments[0], two ? " " : "", two ? arguments[1] : "");
-    nearest_word nearest = {.word = typed, .length = strlen(typed)};
-    for (int i = 0; cli_commands[i]; i++)
-        offer_command(&nearest, cli_commands[i]->name, !two);
-    ffd_nearest_offer(&nearest, "help");
-    cli_complain("unknown command \"%s\" (nearest: %s)", typed, group ? group->name : nearest.best);
+    cli_complain("unknown command \"%s\" (nearest: %s)", typed,
+                 group ? group->name : nearest_command(typed, two));
     return EXIT_USAGE;
 }
 
@@ -119,11 +118,8 @@ static int run_version(int count, char **arguments)
 static int unknown_option(const char *argument)
 {
     static const char *const known[] = {"--help", "--version"};
-    nearest_word nearest = {.word = argument, .length = strlen(argument)};
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-        ffd_nearest_offer(&nearest, known[i]);
     cli_complain("unknown option %.60s (nearest: %s; other options follow a command)", argument,
-                 nearest.best);
+                 ffd_nearest_word(argument, known, sizeof known / sizeof *known));
     return EXIT_USAGE;
 }
 
@@ -176,11 +172,8 @@ int main(int argc, char **argv)
     ignore_size_signal();
     ffd_cleanup_on_signals();
     ffd_spell_members(cli_spell);
-    static const worker_program program = {cli_deform_open, cli_deform_close};
     int code;
-    if (argc == 1 && ffd_worker_is(argv[0])) {
-        code = ffd_worker_run(&program);
-    } else {
+    if (!ffd_worker_main(argc, argv, &code)) {
         ffd_guard_inputs();
         code = run(argc - 1, argv + 1);
     }

@@ -1,25 +1,11 @@
 #include "cli/options.h"
-#include "base/one_line.h"
-#include "base/text/size.h"
-#include "base/text/words.h"
-#include "io/format_names.h"
-#include <errno.h>
 #include <ffd/ffd.h>
+#include <ffd/program.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Buffer for complaints instead of standard error; or NULL. */
-static char *captured;
-static size_t captured_capacity;
-
-void cli_capture(char *text, size_t capacity)
-{
-    captured = text;
-    captured_capacity = capacity;
-}
 
 void cli_complain(const char *format, ...)
 {
@@ -30,86 +16,64 @@ void cli_complain(const char *format, ...)
     va_end(arguments);
     /* Control characters from the command line are replaced, so that it stays one line. */
     ffd_make_one_line(line, strlen(line));
-    if (captured)
-        snprintf(captured, captured_capacity, "%s", line);
-    else
-        fprintf(stderr, "ffd: %s\n", line);
-}
-
-static void *field(void *settings, const cli_option *option)
-{
-    return (char *)settings + option->offset;
+    fprintf(stderr, "ffd: %s\n", line);
 }
 
 bool cli_set_flag(void *settings, const cli_option *option, const char *value)
 {
     (void)value;
-    *(bool *)field(settings, option) = true;
+    *(bool *)((char *)settings + option->offset) = true;
     return true;
+}
+
+bool cli_read(const ffd_member *member, void *base, const cli_option *option, const char *value)
+{
+    char name[64];
+    ffd_member own = *member;
+    ffd_error error;
+    snprintf(name, sizeof name, "--%s", option->name);
+    own.name = name;
+    if (!ffd_member_read(&own, base, value, &error))
+        return true;
+    char line[2048];
+    ffd_error_format(&error, line, sizeof line);
+    cli_complain("%s", line);
+    return false;
+}
+
+/* Sets a field of the command's own. */
+static bool read_own(ffd_member_kind kind, void *settings, const cli_option *option, const char *value)
+{
+    const ffd_member member = {.kind = kind,
+                               .offset = option->offset,
+                               .second = option->offset + offsetof(cli_distance, is_relative),
+                               .words = option->choices};
+    return cli_read(&member, settings, option, value);
 }
 
 bool cli_set_text(void *settings, const cli_option *option, const char *value)
 {
-    const char **text = field(settings, option);
-    if (!*value) {
-        cli_complain("--%s: the value is empty", option->name);
-        return false;
-    }
-    if (*text) {
-        cli_complain("--%s is given twice: \"%s\" and \"%s\"", option->name, *text, value);
-        return false;
-    }
-    *text = value;
-    return true;
+    return read_own(FFD_MEMBER_TEXT, settings, option, value);
 }
 
 bool cli_set_positive(void *settings, const cli_option *option, const char *value)
 {
-    double number;
-    if (!cli_parse_number(value, &number) || !(number > 0)) {
-        cli_complain("--%s: \"%s\" is not a number above 0", option->name, value);
-        return false;
-    }
-    *(double *)field(settings, option) = number;
-    return true;
+    return read_own(FFD_MEMBER_LENGTH, settings, option, value);
 }
 
 bool cli_set_distance(void *settings, const cli_option *option, const char *value)
 {
-    cli_distance *const distance = field(settings, option);
-    char number[512];
-    const size_t length = strlen(value);
-    const bool is_relative = length > 0 && value[length - 1] == 'r';
-    if (length - is_relative < sizeof number) {
-        memcpy(number, value, length - is_relative);
-        number[length - is_relative] = 0;
-        distance->is_relative = is_relative;
-        if (cli_parse_number(number, &distance->value) && distance->value >= 0)
-            return true;
-    }
-    cli_complain("--%s: \"%s\" is not a number of at least 0, alone or followed by r", option->name, value);
-    return false;
+    return read_own(FFD_MEMBER_DISTANCE, settings, option, value);
 }
 
 bool cli_set_count(void *settings, const cli_option *option, const char *value)
 {
-    char *end;
-    errno = 0;
-    const long count = strtol(value, &end, 10);
-    if (*value < '0' || *value > '9' || *end || errno || count < 1 || count > 1024) {
-        cli_complain("--%s: \"%s\" is not a whole number from 1 to 1024", option->name, value);
-        return false;
-    }
-    *(int *)field(settings, option) = (int)count;
-    return true;
+    return read_own(FFD_MEMBER_COUNT, settings, option, value);
 }
 
-bool cli_set_bytes(void *settings, const cli_option *option, const char *value)
+bool cli_set_choice(void *settings, const cli_option *option, const char *value)
 {
-    if (ffd_size_parse(value, field(settings, option)))
-        return true;
-    cli_complain("--%s: \"%s\" is not a size in bytes, as 700M or 4G", option->name, value);
-    return false;
+    return read_own(FFD_MEMBER_CHOICE, settings, option, value);
 }
 
 void cli_hint_choice(const cli_option *option, const char *value, char hint[CLI_HINT])
@@ -119,36 +83,6 @@ void cli_hint_choice(const cli_option *option, const char *value, char hint[CLI_
         count++;
     const char *const meant = ffd_word_meant(value, option->choices, count);
     snprintf(hint, CLI_HINT, "%s%s%s", meant ? " (nearest: " : "", meant ? meant : "", meant ? ")" : "");
-}
-
-bool cli_set_choice(void *settings, const cli_option *option, const char *value)
-{
-    char known[200] = "";
-    for (int i = 0; option->choices[i]; i++) {
-        if (strcmp(option->choices[i], value) == 0) {
-            *(int *)field(settings, option) = i;
-            return true;
-        }
-        const size_t length = strlen(known);
-        snprintf(known + length, sizeof known - length, "%s%s", i ? ", " : "", option->choices[i]);
-    }
-    char hint[CLI_HINT];
-    cli_hint_choice(option, value, hint);
-    cli_complain("--%s: \"%s\" is not one of %s%s", option->name, value, known, hint);
-    return false;
-}
-
-bool cli_set_format(void *settings, const cli_option *option, const char *value)
-{
-    char name[32];
-    snprintf(name, sizeof name, "x.%s", value[0] == '.' ? value + 1 : value);
-    const ffd_format format = strlen(value) < 16 ? ffd_format_from_name(name) : FFD_FORMAT_AUTO;
-    if (format == FFD_FORMAT_AUTO) {
-        cli_complain("--%s: \"%s\" is not one of " FORMAT_NAMES, option->name, value);
-        return false;
-    }
-    *(ffd_format *)field(settings, option) = format;
-    return true;
 }
 
 bool cli_parse_number(const char *text, double *value)
@@ -192,13 +126,19 @@ const cli_option *cli_next_option(cli_option_walk *walk)
     }
 }
 
+/* The most options of a command that are compared with an unknown one. */
+#define MOST_OPTIONS 128
+
 static bool unknown_option(const cli_table *options, const char *name, size_t length)
 {
-    nearest_word nearest = {.word = name, .length = length};
+    const char *known[MOST_OPTIONS];
+    char word[64];
+    size_t count = 0;
     cli_option_walk walk = cli_begin_walk(options);
-    for (const cli_option *option; (option = cli_next_option(&walk));)
-        ffd_nearest_offer(&nearest, option->name);
-    const char *const meant = ffd_nearest_meant(&nearest);
+    for (const cli_option *option; count < MOST_OPTIONS && (option = cli_next_option(&walk));)
+        known[count++] = option->name;
+    snprintf(word, sizeof word, "%.*s", (int)(length < sizeof word ? length : sizeof word - 1), name);
+    const char *const meant = ffd_word_meant(word, known, count);
     cli_complain("unknown option --%.*s (%s%s)", (int)(length < 60 ? length : 60), name,
                  meant ? "nearest: --" : "--help lists the known ones", meant ? meant : "");
     return false;
@@ -226,11 +166,6 @@ static const cli_option *by_letter(const cli_table *options, char letter)
     return NULL;
 }
 
-static bool set(const cli_table *options, void *settings, const cli_option *option, const char *value)
-{
-    return option->set(settings, option, value) && (!options->note || options->note(settings, option, value));
-}
-
 /* Parses --name, --name=value or --name value. *next: the following argument. */
 static bool parse_long(const cli_table *options, void *settings, const char *text, char ***next, char **end)
 {
@@ -241,8 +176,7 @@ static bool parse_long(const cli_table *options, void *settings, const char *tex
         return unknown_option(options, text, length);
     const char *value = equals ? equals + 1 : NULL;
     if (!option->value && value) {
-        cli_complain(captured ? "--%s takes no value: true or false is wanted" : "--%s takes no value",
-                     option->name);
+        cli_complain("--%s takes no value", option->name);
         return false;
     }
     if (option->value && !value) {
@@ -252,7 +186,7 @@ static bool parse_long(const cli_table *options, void *settings, const char *tex
         }
         value = *(*next)++;
     }
-    return set(options, settings, option, value);
+    return option->set(settings, option, value);
 }
 
 /* Parses -q, -lFILE or -l FILE. Letters without values may be combined. */
@@ -264,7 +198,7 @@ static bool parse_letters(const cli_table *options, void *settings, const char *
         if (!option)
             return unknown_letter(options, *text);
         if (!option->value) {
-            if (!set(options, settings, option, NULL))
+            if (!option->set(settings, option, NULL))
                 return false;
             continue;
         }
@@ -276,7 +210,7 @@ static bool parse_letters(const cli_table *options, void *settings, const char *
             }
             value = *(*next)++;
         }
-        return set(options, settings, option, value);
+        return option->set(settings, option, value);
     }
     return true;
 }

@@ -2,6 +2,7 @@
 #ifndef FFD_CLI_OPTIONS_H
 #define FFD_CLI_OPTIONS_H
 
+#include <ffd/settings.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -46,8 +47,6 @@ struct cli_option {
    or letter, the first one counts. */
 typedef struct cli_table {
     const cli_option *first, *more, *base; /* more and base may be NULL */
-    /* Called for each option that was set; or NULL. */
-    bool (*note)(void *settings, const cli_option *option, const char *value);
 } cli_table;
 
 /* Position in a walk over a table. */
@@ -84,8 +83,6 @@ void cli_hint_choice(const cli_option *option, const char *value, char hint[CLI_
 
 /* int: index into choices. */
 bool cli_set_choice(void *settings, const cli_option *option, const char *value);
-/* ffd_format. */
-bool cli_set_format(void *settings, const cli_option *option, const char *value);
 /* double: positive and finite. */
 bool cli_set_positive(void *settings, const cli_option *option, const char *value);
 /* A length; or, written with r behind it, a fraction of another length. */
@@ -96,8 +93,8 @@ typedef struct cli_distance {
 
 /* cli_distance. */
 bool cli_set_distance(void *settings, const cli_option *option, const char *value);
-/* uint64_t: bytes, such as 700M or 4G. */
-bool cli_set_bytes(void *settings, const cli_option *option, const char *value);
+/* Sets a member of base to an option's value, as ffd_member_read does. */
+bool cli_read(const ffd_member *member, void *base, const cli_option *option, const char *value);
 
 /* Parses the whole text as a number. Returns false if it is not one. */
 bool cli_parse_number(const char *text, double *value);
@@ -111,11 +108,8 @@ bool cli_parse(const cli_table *options, void *settings, const bool *help, int c
 #ifdef __GNUC__
 __attribute__((__format__(__printf__, 1, 2)))
 #endif
-/* Prints one line "ffd: ..." to stderr, or to the buffer of cli_capture. */
+/* Prints one line "ffd: ..." to stderr. */
 void cli_complain(const char *format, ...);
-
-/* Redirects complaints to text, without "ffd: "; NULL: back to stderr. */
-void cli_capture(char *text, size_t capacity);
 
 /* Prints the options and their help, one a line. */
 void cli_print_options(const cli_table *options);

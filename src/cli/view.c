@@ -1,7 +1,6 @@
 /* view.c - ffd view: a page or a picture of a mesh before and after. */
-#include "base/file/folder.h"
-#include "base/file/path.h"
 #include "cli/job.h"
+#include <ctype.h>
 #include <string.h>
 
 typedef struct settings {
@@ -166,11 +165,22 @@ static const char *mistake_of_files(settings *s, const cli_words *words)
     return cli_job_option_mistake(&s->job, words, words->count);
 }
 
+/* In upper or lower case. */
+static bool has_ending(const char *path, const char *ending)
+{
+    const size_t length = strlen(path), size = strlen(ending);
+    size_t same = 0;
+    while (size <= length && same < size &&
+           tolower((unsigned char)path[length - size + same]) == (unsigned char)ending[same])
+        same++;
+    return same == size;
+}
+
 /* Returns an option that applies only to the other kind of output, or NULL. */
 static const char *mistake_of_kind(const settings *s)
 {
-    const bool is_picture = ffd_path_has_ending(s->output, ".png"),
-               is_page = ffd_path_has_ending(s->output, ".html") || ffd_path_has_ending(s->output, ".htm");
+    const bool is_picture = has_ending(s->output, ".png"),
+               is_page = has_ending(s->output, ".html") || has_ending(s->output, ".htm");
     if (is_picture && s->full)
         return "--full is for pages, but the output is a picture";
     if (is_page && s->size[0])
@@ -191,7 +201,7 @@ static const char *mistake(settings *s, const cli_words *words)
     const char *const why = mistake_of_kind(s);
     if (why)
         return why;
-    if (words->count == 2 || s->job.lattice_count == 0)
+    if (words->count == 2 || s->job.desc.lattice_count == 0)
         return mistake_of_files(s, words);
     if (s->job.report && ffd_paths_meet(s->job.report, s->output))
         return "the report would replace the picture or page";

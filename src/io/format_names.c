@@ -16,7 +16,7 @@ ffd_status ffd_format_refuse_name(const char *path, ffd_error *error)
 {
     const char *const ending = ffd_path_ending(path);
     if (strcmp(path, "-") == 0)
-        return ffd_fail(error, FFD_E_ARGUMENT, "standard input needs {input.format} " FORMAT_NAMES);
+        return ffd_fail(error, FFD_E_ARGUMENT, "standard input needs {input.format} " FFD_FORMAT_NAMES);
     if (is_of_splats(path))
         return ffd_fail_file(
             error, FFD_E_ARGUMENT, path,
@@ -24,5 +24,10 @@ ffd_status ffd_format_refuse_name(const char *path, ffd_error *error)
             "uncompressed ply",
             ending);
     return ffd_fail_file(error, FFD_E_ARGUMENT, path,
-                         "the ending \"%s\" is not that of a mesh format (" FORMAT_NAMES ")", ending);
+                         "the ending \"%s\" is not that of a mesh format (" FFD_FORMAT_NAMES ")", ending);
+}
+
+ffd_status ffd_format_check_name(const char *name, ffd_error *error)
+{
+    return ffd_format_from_name(name) != FFD_FORMAT_AUTO ? FFD_OK : ffd_format_refuse_name(name, error);
 }

@@ -3,9 +3,7 @@
 #define FFD_IO_FORMAT_NAMES_H
 
 #include "base/fail.h"
-
-/* The endings of file names. */
-#define FORMAT_NAMES "obj, gltf, glb, vrm, ply, off or stl"
+#include <ffd/job.h>
 
 /* Fails with FFD_E_ARGUMENT because the ending of a path is not that of a mesh format, or because standard
    input is of an unknown one. */

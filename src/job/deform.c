@@ -74,7 +74,7 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
     if (options->format == FFD_FORMAT_AUTO)
         options->format = ffd_format_from_name(desc->output);
     if (options->format == FFD_FORMAT_AUTO && ffd_output_is_stream(desc->output))
-        return ffd_fail(error, FFD_E_ARGUMENT, "standard output needs {output_format} " FORMAT_NAMES);
+        return ffd_fail(error, FFD_E_ARGUMENT, "standard output needs {output_format} " FFD_FORMAT_NAMES);
     if (options->format == FFD_FORMAT_AUTO)
         return ffd_format_refuse_name(desc->output, error);
     if (desc->sink)

@@ -1,10 +1,10 @@
 /* info_text.c - the JSON of `ffd info` as text for people. */
 #include "base/memory/memory.h"
-#include "base/one_line.h"
 #include "base/text/buffer.h"
 #include "base/text/words.h"
 #include "job/info.h"
 #include "json/json_parse.h"
+#include <ffd/program.h>
 #include <stdio.h>
 #include <string.h>
 

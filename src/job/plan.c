@@ -1,12 +1,28 @@
-#include "job/plan.h"
+/* plan.c - ffd_deform_check_many and ffd_output_path: the outputs of several jobs, and whether one reads what
+   another one writes: its result would depend on their order. */
 #include "base/file/folder.h"
 #include "base/file/input.h"
 #include "base/file/path.h"
+#include "base/file/path_list.h"
+#include "base/file/place.h"
+#include "base/memory/file_table.h"
 #include "base/memory/memory.h"
 #include "io/formats.h"
+#include "job/input/deform_desc.h"
 #include "job/input/source.h"
 #include "lattice/file/box_meshes.h"
+#include <ffd/program.h>
+#include <stdlib.h>
 #include <string.h>
+
+/* All zeros: no jobs. */
+typedef struct job_plan {
+    file_places places;
+    file_table outputs;   /* number of the job that writes each */
+    path_list inputs;     /* of the jobs, for messages */
+    intern_table folders; /* places of the folders of outputs and of those above them */
+    bool replaces;        /* an output exists already */
+} job_plan;
 
 /* Adds a folder and those above it, as far as they are new. */
 static ffd_status add_folders(job_plan *plan, const char *path, ffd_error *error)
@@ -31,7 +47,8 @@ static ffd_status add_folders(job_plan *plan, const char *path, ffd_error *error
     return status;
 }
 
-ffd_status ffd_plan_write(job_plan *plan, const char *input, const char *output, ffd_error *error)
+/* Adds a job. */
+static ffd_status add_job(job_plan *plan, const char *input, const char *output, ffd_error *error)
 {
     const hash128 place = ffd_place_of(&plan->places, output);
     const size_t index = plan->inputs.count;
@@ -159,21 +176,79 @@ static ffd_status check_mesh(job_plan *plan, size_t job, const ffd_source *sourc
     return status;
 }
 
-ffd_status ffd_plan_read(job_plan *plan, size_t index, const ffd_deform_desc *desc, ffd_error *error)
+/* The output of a job, and its mesh. */
+typedef struct named_output {
+    const char *input, *output;
+} named_output;
+
+static int compare_outputs(const void *a, const void *b)
 {
-    ffd_status status = FFD_OK;
-    /* A mesh of a box that is not there yet fails all jobs. */
-    for (size_t i = 0; i < desc->lattice_count && plan->replaces && !plan->has_lattices && !status; i++)
-        status = check_lattice(plan, desc->lattices[i].path, error);
-    plan->has_lattices = true;
-    return status ? status : check_mesh(plan, index, &desc->input, error);
+    return strcmp(((const named_output *)a)->output, ((const named_output *)b)->output);
 }
 
-void ffd_plan_free(job_plan *plan)
+static ffd_status refuse_equal(const named_output *a, const named_output *b, ffd_error *error)
 {
-    ffd_places_free(&plan->places);
-    ffd_files_free(&plan->outputs);
-    ffd_intern_free(&plan->folders);
-    ffd_paths_free(&plan->inputs);
-    *plan = (job_plan){0};
+    if (strcmp(a->input, b->input) == 0)
+        return ffd_fail_file(error, FFD_E_ARGUMENT, a->input, "is named twice");
+    return ffd_fail(error, FFD_E_ARGUMENT, "%s and %s would both be written as \"%s\"", a->input, b->input,
+                    ffd_path_name(a->output));
+}
+
+/* Refuses outputs of one name: they would overwrite each other. */
+static ffd_status check_names(const char *const *inputs, const char *const *outputs, size_t count,
+                              ffd_error *error)
+{
+    named_output *const sorted = ffd_alloc(count, sizeof *sorted);
+    ffd_status status = sorted ? FFD_OK : ffd_fail_memory(error);
+    for (size_t i = 0; i < count && !status; i++)
+        sorted[i] = (named_output){inputs[i], outputs[i]};
+    if (!status)
+        qsort(sorted, count, sizeof *sorted, compare_outputs);
+    for (size_t i = 1; i < count && !status; i++)
+        if (compare_outputs(&sorted[i - 1], &sorted[i]) == 0)
+            status = refuse_equal(&sorted[i - 1], &sorted[i], error);
+    ffd_free(sorted);
+    return status;
+}
+
+static ffd_status check_files_of_all(job_plan *plan, const ffd_deform_desc *job, const char *const *inputs,
+                                     const char *const *outputs, size_t count, ffd_error *error)
+{
+    ffd_source source = job->input;
+    for (size_t i = 0; i < count; i++)
+        TRY(add_job(plan, inputs[i], outputs[i], error));
+    /* A mesh of a box that is not there yet fails all jobs. */
+    for (size_t i = 0; i < job->lattice_count && plan->replaces && count > 0; i++)
+        TRY(check_lattice(plan, job->lattices[i].path, error));
+    for (size_t i = 0; i < count; i++) {
+        source.path = inputs[i];
+        TRY(check_mesh(plan, i, &source, error));
+    }
+    return FFD_OK;
+}
+
+ffd_status ffd_deform_check_many(const ffd_deform_desc *job, const char *const *inputs,
+                                 const char *const *outputs, size_t count, ffd_error *error)
+{
+    ffd_deform_desc own;
+    job_plan plan = {0};
+    TRY(ffd_deform_desc_take(job, &own, error));
+    const char *const *const written = outputs ? outputs : inputs;
+    TRY(check_names(inputs, written, count, error));
+    const ffd_status status = check_files_of_all(&plan, &own, inputs, written, count, error);
+    ffd_places_free(&plan.places);
+    ffd_files_free(&plan.outputs);
+    ffd_intern_free(&plan.folders);
+    ffd_paths_free(&plan.inputs);
+    return status;
+}
+
+ffd_status ffd_output_path(const char *folder, const char *input, const char *ending, char **path,
+                           ffd_error *error)
+{
+    const char *const name = ffd_path_name(input);
+    char *const named = ending ? ffd_path_with_ending(name, ending) : ffd_text_copy(name);
+    *path = named ? ffd_path_join(folder, named) : NULL;
+    ffd_free(named);
+    return *path ? FFD_OK : ffd_fail_memory(error);
 }

@@ -49,6 +49,16 @@ void ffd_edits_buffer(json_edits *edits, uint32_t begin, uint32_t end, int buffe
         edit->buffer = buffer;
 }
 
+void ffd_edits_join(json_edits *edits, const json_edits *others)
+{
+    edits->failed = edits->failed || ffd_edits_failed(others);
+    for (size_t i = 0; i < others->count && !edits->failed; i++) {
+        const json_edit *const edit = &others->edits[i];
+        ffd_edits_replace(edits, edit->begin, edit->end,
+                          edit->text_size ? others->pool.data + edit->text : "", edit->text_size);
+    }
+}
+
 static bool is_among(uint32_t value, const uint32_t *values, size_t count)
 {
     for (size_t i = 0; i < count; i++)

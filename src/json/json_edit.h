@@ -32,6 +32,9 @@ void ffd_edits_format(json_edits *edits, uint32_t begin, uint32_t end, const cha
 /* Replaces a range by the new content of a glTF buffer, as base64. */
 void ffd_edits_buffer(json_edits *edits, uint32_t begin, uint32_t end, int buffer);
 
+/* Adds the edits of another list, none of them of a buffer. */
+void ffd_edits_join(json_edits *edits, const json_edits *others);
+
 /* Removes members of an object, or elements of an array, with their commas. At most once for each
    container. */
 void ffd_edits_remove(json_edits *edits, const json_tree *tree, uint32_t container, const uint32_t *gone,

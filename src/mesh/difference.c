@@ -1,6 +1,6 @@
 #include "mesh/difference.h"
-#include "base/one_line.h"
 #include "base/text/number.h"
+#include <ffd/program.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>

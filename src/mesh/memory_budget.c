@@ -32,8 +32,7 @@ memory_budget ffd_budget_make(uint64_t asked)
 
 void ffd_budget_add_file(memory_budget *budget, uint64_t size, uint64_t kept_per_byte)
 {
-    if (!budget->is_shared)
-        budget->most = add(budget->most, size, BYTES_PER_BYTE);
+    budget->most = add(budget->most, size, BYTES_PER_BYTE);
     budget->taken = add(budget->taken, size, kept_per_byte);
 }
 

@@ -19,7 +19,6 @@ typedef struct memory_budget {
     uint64_t most;
     uint64_t taken; /* may exceed the limit, because the bytes of files themselves are never refused */
     uint64_t asked; /* limit that the user has set */
-    bool is_shared; /* shared with another document of the same files, which are counted already */
 } memory_budget;
 
 /* Makes the budget of a document without files: 100 MB, or `asked` if that is more, including the program

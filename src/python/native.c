@@ -3,7 +3,9 @@
 
    The callbacks are in C because a KeyboardInterrupt inside a Python callback of ctypes could not be caught
    by the caller. Each callback acquires the GIL and stores its results, or an exception, in a list. */
+#define PY_SSIZE_T_CLEAN
 #include <Python.h>
+#include <ffd/batch.h>
 #include <ffd/job.h>
 #include <ffd/lattice.h>
 #include <ffd/points.h>
@@ -165,6 +167,45 @@ static ffd_status take_positions(void *user, const double *positions, size_t cou
     return failed ? FFD_E_MEMORY : FFD_OK;
 }
 
+/* Calls the caller's function for a job, and lets the list keep its line. Returns false with an exception.
+ *line: NULL if there are no more jobs. */
+static bool find_line(PyObject *list, uint64_t index, const char **line)
+{
+    if (PyErr_CheckSignals() != 0)
+        return false;
+    PyObject *const answer = PyObject_CallFunction(PyList_GetItem(list, 0), "K", (unsigned long long)index);
+    if (!answer)
+        return false;
+    *line = Py_IsNone(answer) ? NULL : PyBytes_AsString(answer);
+    return PyList_SetItem(list, 1, answer) == 0 && !PyErr_Occurred();
+}
+
+/* ffd_batch_next_function. user: a list with a function of the index, which returns bytes or None, the last
+   line, and then an exception, if the function has raised one. */
+static ffd_status next_job(void *user, uint64_t index, const char **line)
+{
+    ffd_status status = FFD_OK;
+    const PyGILState_STATE state = PyGILState_Ensure();
+    if (!find_line(user, index, line)) {
+        keep_exception(user);
+        status = FFD_E_CANCELLED;
+    }
+    PyGILState_Release(state);
+    return status;
+}
+
+/* ffd_batch_ended_function. user: a list, to which (row, line, input, output, skipped, log, bytes of the
+   result) is appended. */
+static void job_ended(void *user, const ffd_batch_job *job)
+{
+    const PyGILState_STATE state = PyGILState_Ensure();
+    append(user, Py_BuildValue("(KKNNiNy#)", (unsigned long long)job->row, (unsigned long long)job->line,
+                               job->input ? file_name(job->input) : text(NULL),
+                               job->output ? file_name(job->output) : text(NULL), (int)job->skipped,
+                               text(job->log), (const char *)job->result, (Py_ssize_t)sizeof *job->result));
+    PyGILState_Release(state);
+}
+
 static int add_address(PyObject *module, const char *name, uintptr_t address)
 {
     PyObject *const number = PyLong_FromUnsignedLongLong(address);
@@ -176,8 +217,16 @@ static int add_address(PyObject *module, const char *name, uintptr_t address)
 /* The module's attributes are the addresses of the functions above. */
 /* Arguments of Python that are not called as the members are, or take no keyword. */
 static const char *const others[][2] = {
-    {"input.format", "input_format="}, {"in_place", "output=None"}, {"lattice", "lattice"},
-    {"lattices", "lattices"},          {"output", "output"},        {"morphs", "named lattices"},
+    {"input.format", "input_format="},
+    {"in_place", "output=None"},
+    {"lattice", "lattice"},
+    {"lattices", "lattices"},
+    {"output", "output"},
+    {"morphs", "named lattices"},
+    {"manifest", "a manifest"},
+    {"next", "a list of jobs"},
+    {"csv", "a table"},
+    {"in", "in_="},
 };
 
 /* An ffd_spell_function: "falloff=", "outside='extend'". */
@@ -202,6 +251,8 @@ PyMODINIT_FUNC PyInit__native(void)
                     add_address(module, "log", (uintptr_t)take_line) == 0 &&
                     add_address(module, "resolve", (uintptr_t)resolve) == 0 &&
                     add_address(module, "sink", (uintptr_t)take_file) == 0 &&
+                    add_address(module, "next_job", (uintptr_t)next_job) == 0 &&
+                    add_address(module, "job_ended", (uintptr_t)job_ended) == 0 &&
                     add_address(module, "positions", (uintptr_t)take_positions) == 0 &&
                     add_address(module, "parameter", (uintptr_t)take_parameter) == 0))
         return module;

@@ -116,16 +116,6 @@ const double *ffd_lattice_get_points(const ffd_lattice *lattice, ffd_volume volu
 const double *ffd_lattice_get_weights(const ffd_lattice *lattice, ffd_volume volume);
 void ffd_lattice_evaluate(const ffd_lattice *lattice, ffd_volume volume, const double uvw[3], double point[3],
                           double jacobian[9]);
-int ffd_displacement(const ffd_lattice *lattice, const double uvw[3], double delta[3], double gradient[9]);
-typedef enum ffd_direction_outcome {
-    FFD_DIRECTION_KEPT = 0,
-    FFD_DIRECTION_CARRIED,
-    FFD_DIRECTION_COLLAPSED,
-    FFD_DIRECTION_OUTCOMES
-} ffd_direction_outcome;
-ffd_direction_outcome ffd_deform_normal(const double gradient[9], const double normal[3], double result[3]);
-ffd_direction_outcome ffd_deform_tangent(const double gradient[9], const double tangent[3],
-                                         const double normal[3], double result[3]);
 typedef enum ffd_vertex_status {
     FFD_VERTEX_INSIDE = 0,
     FFD_VERTEX_OUTSIDE = 1,
@@ -155,6 +145,8 @@ typedef struct ffd_border_allowance {
 ffd_status ffd_locator_locate(const ffd_locator *locator, const double *xyz, size_t count,
                               const ffd_border_allowance *allowance, ffd_location *locations,
                               size_t location_size, ffd_error *error);
+typedef enum ffd_isa { FFD_ISA_AUTO, FFD_ISA_SCALAR, FFD_ISA_SSE2, FFD_ISA_AVX2, FFD_ISA_AVX512 } ffd_isa;
+bool ffd_isa_available(ffd_isa isa);
 typedef enum ffd_fold_verdict {
     FFD_FOLDS_NONE = 0,
     FFD_FOLDS_SOME = 1,
@@ -187,8 +179,6 @@ typedef struct ffd_folds {
     ffd_fold_witness witness;
 } ffd_folds;
 ffd_status ffd_folds_find(const ffd_lattice *lattice, int threads, ffd_folds *folds, ffd_error *error);
-typedef enum ffd_isa { FFD_ISA_AUTO, FFD_ISA_SCALAR, FFD_ISA_SSE2, FFD_ISA_AVX2, FFD_ISA_AVX512 } ffd_isa;
-bool ffd_isa_available(ffd_isa isa);
 typedef struct ffd_bounds {
     double min[3], max[3];
 } ffd_bounds;
@@ -370,6 +360,7 @@ typedef enum ffd_format {
     FFD_FORMAT_STL
 } ffd_format;
 ffd_format ffd_format_from_name(const char *name);
+ffd_status ffd_format_check_name(const char *name, ffd_error *error);
 typedef enum ffd_normals { FFD_NORMALS_TRANSFORM = 0, FFD_NORMALS_KEEP, FFD_NORMALS_RECOMPUTE } ffd_normals;
 typedef enum ffd_space { FFD_SPACE_SCENE = 0, FFD_SPACE_MESH } ffd_space;
 typedef enum ffd_rig { FFD_RIG_KEEP = 0, FFD_RIG_FOLLOW } ffd_rig;
@@ -475,6 +466,8 @@ typedef struct ffd_deform_desc {
 } ffd_deform_desc;
 void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size);
 ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *desc, ffd_error *error);
+ffd_status ffd_deform_check_many(const ffd_deform_desc *job, const char *const *inputs,
+                                 const char *const *outputs, size_t count, ffd_error *error);
 ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
 ffd_status ffd_check_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
 typedef enum ffd_view_color {
@@ -607,6 +600,71 @@ ffd_status ffd_report_add(ffd_report *report, const char *input, const char *out
 ffd_status ffd_report_write(ffd_report *report, ffd_error *error);
 ffd_status ffd_report_merge_run(const char *const *reports, size_t count, bool interleave, const char *output,
                                 bool force, ffd_error *error);
+typedef ffd_status (*ffd_batch_next_function)(void *user, uint64_t index, const char **line);
+typedef struct ffd_batch_job {
+    uint64_t line;
+    uint64_t row;
+    const char *input;
+    const char *output;
+    bool skipped;
+    const char *log;
+    const ffd_job_result *result;
+} ffd_batch_job;
+typedef void (*ffd_batch_ended_function)(void *user, const ffd_batch_job *job);
+typedef struct ffd_batch_desc {
+    size_t struct_size;
+    const char *manifest;
+    const char *csv;
+    const char *in;
+    ffd_batch_next_function next;
+    void *next_user;
+    bool repeats;
+    const char *csv_ignore;
+    const char *out_dir;
+    const ffd_deform_desc *defaults;
+    const char *output_ending;
+    int workers;
+    double timeout;
+    uint64_t shard, shards;
+    bool resume;
+    const char *journal;
+    const char *positions;
+    bool positions_double;
+    const char *view;
+    const char *report;
+    bool report_stable;
+    const char *depfile;
+    bool shared_box;
+    bool dry_run;
+    bool stop;
+    ffd_batch_ended_function ended;
+    void *ended_user;
+    bool (*progress)(void *user, double done);
+    void *progress_user;
+    ffd_log_function log;
+    void *log_user;
+    bool quiet;
+    bool verbose;
+    bool is_program;
+} ffd_batch_desc;
+void ffd_batch_desc_init(ffd_batch_desc *desc, size_t size);
+ffd_status ffd_batch_desc_check(const ffd_batch_desc *desc, ffd_error *error);
+typedef struct ffd_batch_result {
+    size_t struct_size;
+    uint64_t done, skipped, failed;
+    bool is_complete;
+} ffd_batch_result;
+ffd_status ffd_batch_run(const ffd_batch_desc *desc, ffd_batch_result *result, ffd_error *error);
+int ffd_displacement(const ffd_lattice *lattice, const double uvw[3], double delta[3], double gradient[9]);
+typedef enum ffd_direction_outcome {
+    FFD_DIRECTION_KEPT = 0,
+    FFD_DIRECTION_CARRIED,
+    FFD_DIRECTION_COLLAPSED,
+    FFD_DIRECTION_OUTCOMES
+} ffd_direction_outcome;
+ffd_direction_outcome ffd_deform_normal(const double gradient[9], const double normal[3], double result[3]);
+ffd_direction_outcome ffd_deform_tangent(const double gradient[9], const double tangent[3],
+                                         const double normal[3], double result[3]);
 typedef enum ffd_jacobian_by { FFD_BY_POINTS = 0, FFD_BY_PARAMETERS } ffd_jacobian_by;
 typedef struct ffd_jacobian_desc {
     size_t struct_size;
@@ -695,26 +753,45 @@ void ffd_cleanup_on_signals(void);
 void ffd_guard_inputs(void);
 typedef void (*ffd_spell_function)(const char *member, const char *value, char *text, size_t capacity);
 void ffd_spell_members(ffd_spell_function spell);
+void ffd_make_one_line(char *text, size_t size);
+const char *ffd_nearest_word(const char *word, const char *const *known, size_t count);
+const char *ffd_word_meant(const char *word, const char *const *known, size_t count);
+bool ffd_paths_meet(const char *a, const char *b);
+ffd_status ffd_output_path(const char *folder, const char *input, const char *ending, char **path,
+                           ffd_error *error);
+bool ffd_worker_main(int argc, char **argv, int *exit_code);
 typedef enum ffd_member_kind {
     FFD_MEMBER_FLAG = 0,
     FFD_MEMBER_CHOICE,
     FFD_MEMBER_FORMAT,
     FFD_MEMBER_COUNT,
     FFD_MEMBER_LENGTH,
+    FFD_MEMBER_DISTANCE,
     FFD_MEMBER_TIME,
     FFD_MEMBER_BYTES,
     FFD_MEMBER_GATES,
     FFD_MEMBER_TEXT,
-    FFD_MEMBER_LIST,
+    FFD_MEMBER_TEXTS,
+    FFD_MEMBER_SELECTORS,
+    FFD_MEMBER_CLIPS,
+    FFD_MEMBER_VALUES,
+    FFD_MEMBER_LATTICES,
+    FFD_MEMBER_MORPHS,
     FFD_MEMBER_OBJECT
 } ffd_member_kind;
+typedef enum ffd_member_trait { FFD_MEMBER_IS_PATH = 1, FFD_MEMBER_IS_IDLE = 2 } ffd_member_trait;
 typedef struct ffd_member {
     const char *name;
+    const char *option;
     ffd_member_kind kind;
     size_t offset;
-    size_t count;
+    size_t second;
     const char *const *words;
+    unsigned traits;
 } ffd_member;
 const ffd_member *ffd_deform_member(size_t index);
+const ffd_member *ffd_deform_member_of(const char *option);
+ffd_status ffd_member_read(const ffd_member *member, void *desc, const char *text, ffd_error *error);
+void ffd_deform_desc_clear(ffd_deform_desc *desc);
 ffd_status ffd_deform_desc_check(const ffd_deform_desc *desc, ffd_error *error);
 const char *ffd_version(void);

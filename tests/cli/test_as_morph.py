@@ -153,6 +153,23 @@ def a_target_of_the_name_is_replaced(run):
 
 
 @case
+def padding_of_the_json_does_not_add_up(run):
+    run.write("out.glb", plain().glb())
+    run.write("l.json", SHEAR)
+    for count in range(1, 9):
+        run.ffd("deform", "out.glb", "--in-place", "-l", "l.json", "--as-morph", "n" * count)
+        content = run.read("out.glb")
+        text = content[20:20 + struct.unpack_from("<I", content, 12)[0]]
+        check(len(text) - len(text.rstrip(b" ")) <= 3, f"{count} targets: {text[-20:]}")
+    wide = text + b" " * 8
+    run.write("wide.glb", content[:8] + struct.pack("<2I", len(content) + 8, len(wide)) + content[16:20] + wide + content[20 + len(text):])
+    run.ffd("deform", "wide.glb", "--in-place", "-l", "l.json")
+    content = run.read("wide.glb")
+    text = content[20:20 + struct.unpack_from("<I", content, 12)[0]]
+    check(len(text) - len(text.rstrip(b" ")) <= 3, f"without a target: {text[-20:]}")
+
+
+@case
 def a_replaced_target_shares_its_offsets_with_nothing(run):
     """Offsets that another target or a node that is not selected shows stay as they are."""
     scene = plain()

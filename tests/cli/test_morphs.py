@@ -8,6 +8,7 @@ import struct
 
 from batches import batch, lines_of, start
 from gltf_build import SHEAR, SHIFT, Scene
+from gltf_reader import Gltf
 from harness import (CUBE, INVALID, NO, SANITIZED, USAGE, case, check, equal, float32, glb, glb_split, gltf_vectors,
                      lattice, main, near)
 from said import anything
@@ -220,6 +221,74 @@ def several_clips_and_one_of_the_same_name(run):
     equal(clip_of(again, again_data, "walk"), {0: ([3], [[0, 1]])})
     equal(clip_of(again, again_data, "new"), {0: ([1], [[0, 2]])}, "other clips keep their rows")
     equal(targets_of(again, again_data), targets_of(asset, data))
+
+
+@case
+def other_animations_go_on(run):
+    """Whatever the number of new targets, each gets one output in place of its old one: nothing is left of what only one
+    of the targets would have got, nor of an animation that a clip replaces. All is in one bufferView."""
+    scene = two_meshes(targets=1)
+    times = scene.add([[0.0], [1.0]], shape="SCALAR", min=[0], max=[1])
+    rows = scene.add([[0.25], [0.5]], shape="SCALAR")
+    nod = {"channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}}],
+           "samplers": [{"input": times, "interpolation": "LINEAR", "output": rows}]}
+    scene.asset["animations"] = [{"name": "nod", **nod}, {"name": "hop", **nod}]
+    write(run, scene)
+    old = glb_split(run.read("in.glb"))[0]
+    for clip, accessors in (((), 2), (("--clip", "new: 0, 1 squash=1"), 4), (("--clip", "hop: 0, 1 squash=1"), 3)):
+        asset, data = deformed(run, *clip, err=lambda said: None)
+        equal(clip_of(asset, data, "nod"), {0: ([0, 1], [[0.25, 0, 0], [0.5, 0, 0]])})
+        scalar = [accessor for accessor in asset["accessors"][len(old["accessors"]):] if accessor["type"] == "SCALAR"]
+        equal((len(scalar), len({accessor["bufferView"] for accessor in scalar})), (accessors, 1), str(clip))
+        used = [s[end] for animation in asset["animations"] for s in animation["samplers"] for end in ("input", "output")]
+        check({number for number, accessor in enumerate(asset["accessors"]) if accessor in scalar} <= set(used), asset["accessors"], used)
+    equal(clip_of(asset, data, "hop"), {0: ([0, 1], [[0.25, 0, 0], [0.25, 1, 0]])})
+
+
+@case
+def channels_that_are_repeated_for_a_copy_of_the_mesh(run):
+    """With the sampler that the channel has got: the one that it had drives something else, too."""
+    scene = two_meshes(targets=1)
+    scene.asset["nodes"] = [{"mesh": 0, "name": "near"}, {"mesh": 0, "translation": [4, 0, 0]}, {}]
+    scene.asset["scenes"][0]["nodes"] = [0, 1, 2]
+    del scene.asset["meshes"][1]
+    times = scene.add([[0.0], [1.0]], shape="SCALAR", min=[0], max=[1])
+    moves = {"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": "/materials/0/alphaCutoff"}}}
+    weights = {"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": "/meshes/0/weights"}}}
+    scene.asset["animations"] = [{"channels": [{"target": weights, "sampler": 0}, {"target": moves, "sampler": 0}],
+                                  "samplers": [{"input": times, "output": scene.add([[0.25], [0.5]], shape="SCALAR")}]}]
+    scene.asset["materials"] = [{}]
+    write(run, scene)
+    asset, data = deformed(run, morphs=MORPHS[:2], err=anything)
+    equal(len(asset["meshes"]), 2)
+    animation = asset["animations"][0]
+    driven = {channel["target"]["extensions"]["KHR_animation_pointer"]["pointer"]:
+              scalars(asset, data, animation["samplers"][channel["sampler"]]["output"]) for channel in animation["channels"]}
+    equal(driven, {"/meshes/0/weights": [0.25, 0, 0.5, 0], "/meshes/1/weights": [0.25, 0, 0.5, 0],
+                   "/materials/0/alphaCutoff": [0.25, 0.5]})
+
+
+@case
+def a_file_without_buffers(run):
+    """Its vertices are zeros, which need no bytes: those of the target and of the clip are in one BIN chunk or data URI."""
+    zeros = {"componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0]}
+    asset = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "accessors": [zeros],
+             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 0}]}]}
+    run.write("shift.json", SHIFT)
+    whole = glb(asset, b"")
+    run.write("in.glb", whole[:8] + struct.pack("<I", len(whole) - 8) + whole[12:-8])
+    run.write("empty.glb", whole)
+    run.write("in.gltf", json.dumps(asset))
+    for name in ("in.glb", "empty.glb", "in.gltf"):
+        for out in ("out.glb", "out.gltf"):
+            run.ffd("deform", name, out, "--force", "--morph", "up=shift.json", "--clip", "hop: 0, 2 up=1")
+            run.ffd("info", out, "--strict")
+            made = Gltf(run.path(out))
+            equal(len(made.asset["buffers"]), 1, f"{name} {out}")
+            target, = made.asset["meshes"][0]["primitives"][0]["targets"]
+            equal([list(row) for row in made.decoded(target["POSITION"])], [[1, 0, 0]] * 3)
+            sampler, = made.asset["animations"][0]["samplers"]
+            equal([[x[0] for x in made.decoded(sampler[end])] for end in ("input", "output")], [[0, 2], [0, 1]])
 
 
 def left(run, change, *options):
@@ -716,7 +785,7 @@ def jobs_that_are_refused(run):
     jobs_with_morphs(run, *({**job, "out": f"{k}{job['out']}"} for k, job in enumerate(jobs)))
     batch(run, "jobs.jsonl", done=1, failed=[
         '"lattice" and "morph" cannot be used together', '"morph" is an empty object', '"morph" is not an object',
-        '"morph": "a" is not the name of a lattice file', '"clip" is not a text or a list of texts', "is not NAME=LATTICE", '"morph" is empty',
+        '"morph": "a" is not the name of a lattice file', '"clip" is not a text or a list of texts', '"morph" has a name that is empty', '"morph" is empty',
         'there is no morph target "b"', '"0" is where ":" after', '"morph" is not an option of a job', "--as-morph cannot be used with --morph",
         "--clip needs --morph", "cannot hold a morph target", 'unknown key "morphs" .nearest: "morph"'])
     run.write("view.jsonl", lines_of([good]))

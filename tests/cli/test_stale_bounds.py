@@ -85,6 +85,14 @@ def default_weights_decide_what_is_shown(run):
     equal(deformed(run, made, moves=high), (one("/meshes/0/extras/bounds"), 1), "weight 1")
     equal(deformed(run, made, "--as-morph", "new"), ([], None), "a new target")
     equal(deformed(run, made, "--as-morph", "old"), (one("/meshes/0/extras/bounds"), 1), "a target in place of another")
+    times = made.add([[0.0], [1.0]], shape="SCALAR", min=[0], max=[1])
+    walk = {"channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}],
+            "samplers": [{"input": times, "output": made.add([[0.0] * 3] * 2)}], "extras": {"bounds": BOX}}
+    made.asset["animations"] = [{"name": "walk", **walk}, {"name": "run", **walk}]
+    run.write("in.glb", made.glb())
+    done = run.ffd("deform", "in.glb", "out.glb", "--morph", "old=l.json", "--clip", "walk: 0, 1 old=1", "--force", err=anything)
+    check("2 values" in lines_with(done, NAMED)[0] and lines_with(done, NAMED)[0].endswith("/animations/1/extras/bounds"),
+          "an animation that a clip replaces has no bounds", done.err)
 
 
 @case

@@ -1,43 +1,50 @@
-/* fuzz_manifest.c - lines of a manifest, and the same text as a table: what comes of a line is a job whose
-   words are those of a command, or one line that says what is wrong. */
+/* fuzz_manifest.c - lines of a manifest, and the same text as a table: what comes of a line is a job, or
+   one line that says what is wrong. */
 #include "batch/manifest/csv.h"
 #include "batch/manifest/manifest.h"
 #include "fuzz_target.h"
+#include "job/input/settings.h"
 #include "mutate_text.h"
 #include "promise.h"
 #include "json/json_parse.h"
 #include <stdlib.h>
 #include <string.h>
 
-static size_t count_words(const byte_buffer *words)
+/* A job has files, and its settings are the same after they were bytes. */
+static void check_job(const batch_job *job)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < words->size; i++)
-        count += words->data[i] == 0;
-    PROMISE(words->size == 0 || words->data[words->size - 1] == 0, "the last word has no end");
-    return count;
-}
-
-/* IN, OUT where there is one, and options. */
-static void check_words(const batch_job *job)
-{
-    const char *word = job->words.data;
-    const size_t count = count_words(&job->words), files = job->output ? 2 : 1;
-    PROMISE(count == job->word_count && count > files, "%zu words, said to be %zu", count, job->word_count);
-    for (size_t i = 0; i < count; i++, word += strlen(word) + 1)
-        PROMISE((i < files) == (word[0] != '-' || word[1] != '-'), "word %zu is %s", i, word);
-    PROMISE(job->input && *job->input && job->target && *job->target, "a job without files");
-    PROMISE(count_words(&job->content) >= 2, "the content lacks files");
+    ffd_deform_desc taken;
+    byte_buffer bytes = {0}, again = {0};
+    PROMISE(job->input && *job->input && job->desc.input.path && job->target && *job->target &&
+                job->desc.lattice_count > 0,
+            "a job without files");
+    ffd_settings_write(&job->desc, SETTINGS_ALL, &bytes);
+    const char *at = bytes.data;
+    ffd_deform_desc_init(&taken, sizeof taken);
+    PROMISE(!bytes.failed && !ffd_settings_take(&at, &taken, NULL), "no memory");
+    PROMISE(at == bytes.data + bytes.size, "the settings end %td bytes early", bytes.data + bytes.size - at);
+    ffd_settings_write(&taken, SETTINGS_ALL, &again);
+    PROMISE(again.size == bytes.size && memcmp(again.data, bytes.data, bytes.size) == 0,
+            "the settings are others after they were bytes");
+    ffd_deform_desc_clear(&taken);
+    ffd_buffer_free(&bytes);
+    ffd_buffer_free(&again);
 }
 
 static void check_line(const char *text, size_t size)
 {
-    static const batch_default defaults[] = {{"normals", "keep"}, {"force", NULL}, {"set", "A=1"}};
-    const batch_frame frame = {.name = "m", .folder = "folder", .defaults = defaults, .default_count = 3};
+    static const ffd_setting set = {"A", "1"};
+    const ffd_deform_desc defaults = {.struct_size = sizeof defaults,
+                                      .input = {.format = FFD_FORMAT_OBJ},
+                                      .normals = FFD_NORMALS_KEEP,
+                                      .force = true,
+                                      .set = &set,
+                                      .set_count = 1};
+    const batch_frame frame = {.name = "m", .folder = "folder", .defaults = &defaults};
     batch_job job = {.line = 1};
     PROMISE(ffd_job_parse(&frame, text, size, &job) == FFD_OK, "no memory");
     if (job.error.status == FFD_OK)
-        check_words(&job);
+        check_job(&job);
     else
         PROMISE(job.error.status == FFD_E_INVALID && job.error.line == 1 && job.error.message[0] &&
                     !strpbrk(job.error.message, "\r\n"),

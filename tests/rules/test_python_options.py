@@ -24,7 +24,7 @@ def members(name, text):
 
 def settings():
     """The members in the table of settings, and those with the numbers of lists."""
-    rows = re.findall(r'\{"([\w.]+)", FFD_MEMBER_\w+,\s+AT\([\w.]+\),\s+(?:AT\(([\w.]+)\)|0)', tree.read("src/job/input/settings.c"))
+    rows = re.findall(r'\{"([\w.]+)",\s+(?:"[\w-]+"|NULL),\s+FFD_MEMBER_\w+,\s+AT\([\w.]+\),\s+(?:AT\(([\w.]+)\)|0)', tree.read("src/job/input/settings.c"))
     return {name.rpartition(".")[2] for row in rows for name in row if name}
 
 

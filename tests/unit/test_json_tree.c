@@ -304,6 +304,16 @@ static void edits_replace_spans_only(void **state)
     ffd_edits_apply(&edits, text, 4, 8, &out);
     assert_int_equal(out.size, 3);
     assert_memory_equal(out.data, " x,", 3);
+    /* Those of another list come behind those at the same offset. */
+    json_edits joined = {0};
+    ffd_edits_format(&joined, 11, 11, ",0");
+    ffd_edits_join(&joined, &edits);
+    ffd_edits_sort(&joined);
+    out.size = 0;
+    ffd_edits_apply(&joined, text, 0, 12, &out);
+    assert_int_equal(out.size, 15);
+    assert_memory_equal(out.data, "[, x, 30,0,4,5]", 15);
+    ffd_edits_free(&joined);
     assert_false(ffd_edits_failed(&edits));
     ffd_edits_free(&edits);
     ffd_buffer_free(&out);

@@ -56,8 +56,12 @@ static void set(ffd_deform_desc *desc, const char *setting)
         assert_non_null(member->words[number]);
         put(desc, member->offset, &number, sizeof number);
         return;
-    case FFD_MEMBER_LIST:
-        put(desc, member->count, &count, sizeof count);
+    case FFD_MEMBER_TEXTS:
+    case FFD_MEMBER_SELECTORS:
+    case FFD_MEMBER_CLIPS:
+    case FFD_MEMBER_LATTICES:
+    case FFD_MEMBER_MORPHS:
+        put(desc, member->second, &count, sizeof count);
         put(desc, member->offset, &pointer, sizeof pointer);
         return;
     case FFD_MEMBER_TEXT:
@@ -196,6 +200,147 @@ static void a_number_out_of_its_range_is_refused_with_the_member(void **state)
     }
 }
 
+/* Texts that set all members which have an option, some twice. */
+static const char *const texts[][2] = {
+    {"input.format", "obj"},
+    {"input.space", "mesh"},
+    {"input.memory", "4G"},
+    {"input.strict", NULL},
+    {"output_format", ".glb"},
+    {"input.allow_extensions", "A"},
+    {"input.allow_extensions", "B"},
+    {"set", "A=1"},
+    {"set", "B=x=y"},
+    {"outside", "extend"},
+    {"falloff", "0.5"},
+    {"snap", "0.25r"},
+    {"embedding", "e.npy"},
+    {"fail_on", "tear=2,folds"},
+    {"fail_on", "flipped=3,tear=1,edges=4"},
+    {"normals", "keep"},
+    {"rig", "follow"},
+    {"as_morph", "a"},
+    {"lattices", "l"},
+    {"morphs", "'it''s'=m"},
+    {"morphs", "n=k"},
+    {"clips", "c: 0 n=1, 1 n=0"},
+    {"only", "node:a"},
+    {"only", "mesh:b"},
+    {"resources", "reference"},
+    {"threads", "2"},
+    {"isa", "scalar"},
+    {"blocks", NULL},
+    {"force", NULL},
+    {"if_changed", NULL},
+    {"in_place", NULL},
+    {"timeout", "1.5"},
+};
+
+static void check_read(const ffd_deform_desc *desc)
+{
+    assert_int_equal(desc->input.format, FFD_FORMAT_OBJ);
+    assert_int_equal(desc->output_format, FFD_FORMAT_GLB);
+    assert_true(desc->input.memory == 4000000000u && desc->input.strict && desc->blocks && desc->in_place);
+    assert_int_equal(desc->input.allow_extension_count, 2);
+    assert_string_equal(desc->input.allow_extensions[1], "B");
+    assert_int_equal(desc->set_count, 2);
+    assert_string_equal(desc->set[1].name, "B");
+    assert_string_equal(desc->set[1].value, "x=y");
+    assert_true(desc->snap > 0.2 && desc->snap < 0.3 && desc->snap_relative && desc->timeout > 1);
+    assert_int_equal(desc->fail_on, FFD_GATE_TEAR | FFD_GATE_FOLDS | FFD_GATE_FLIPPED | FFD_GATE_EDGES);
+    assert_true(desc->tear_most < 1.5 && desc->flipped_most == 3 && desc->edges_most > 3);
+    assert_int_equal(desc->lattice_count, 3);
+    assert_string_equal(desc->lattices[0].path, "l");
+    assert_string_equal(desc->lattices[2].path, "k");
+    assert_string_equal(desc->morphs[1], "it's");
+    assert_string_equal(desc->clips[0], "c: 0 n=1, 1 n=0");
+    assert_string_equal(desc->only[1], "mesh:b");
+    assert_string_equal(desc->as_morph, "a");
+}
+
+/* A job that texts describe is the same after it was bytes, where its content leaves out what cannot change
+   the output. */
+static void settings_come_from_texts_and_go_through_bytes(void **state)
+{
+    (void)state;
+    ffd_deform_desc desc, other;
+    byte_buffer bytes = {0}, again = {0}, content = {0}, idle = {0};
+    ffd_deform_desc_init(&desc, sizeof desc);
+    ffd_deform_desc_init(&other, sizeof other);
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        assert_int_equal(ffd_member_read(find(texts[i][0]), &desc, texts[i][1], NULL), FFD_OK);
+    for (size_t m = 0; ffd_deform_member(m); m++)
+        assert_int_equal(ffd_member_is_set(&desc, ffd_deform_member(m)),
+                         ffd_deform_member(m)->option != NULL);
+    check_read(&desc);
+    assert_null(desc.morphs[0]);
+    ffd_settings_write(&desc, SETTINGS_ALL, &bytes);
+    const char *at = bytes.data;
+    assert_int_equal(ffd_settings_take(&at, &other, NULL), FFD_OK);
+    assert_ptr_equal(at, bytes.data + bytes.size);
+    check_read(&other);
+    ffd_settings_write(&other, SETTINGS_ALL, &again);
+    assert_int_equal(bytes.size, again.size);
+    assert_memory_equal(bytes.data, again.data, bytes.size);
+    ffd_settings_write(&desc, SETTINGS_CONTENT, &content);
+    other.threads = 1;
+    other.input.memory = 0;
+    other.force = other.if_changed = false;
+    other.embedding.path = "f.npy"; /* its bytes count, not its name */
+    ffd_settings_write(&other, SETTINGS_CONTENT, &idle);
+    assert_int_equal(content.size, idle.size);
+    assert_memory_equal(content.data, idle.data, content.size);
+    other.falloff = 0.75;
+    idle.size = 0;
+    ffd_settings_write(&other, SETTINGS_CONTENT, &idle);
+    assert_memory_not_equal(content.data, idle.data, content.size);
+    ffd_deform_desc_clear(&desc);
+    ffd_deform_desc_clear(&other);
+    for (size_t m = 0; ffd_deform_member(m); m++)
+        assert_false(ffd_member_is_set(&desc, ffd_deform_member(m)));
+    ffd_buffer_free(&bytes);
+    ffd_buffer_free(&again);
+    ffd_buffer_free(&content);
+    ffd_buffer_free(&idle);
+}
+
+static void a_text_that_does_not_fit_is_refused_with_the_member(void **state)
+{
+    (void)state;
+    static const char *const cases[][3] = {
+        {"falloff", "0", "falloff: \"0\" is not a number above 0"},
+        {"snap", "-1r", "snap: \"-1r\" is not a number of at least 0, alone or followed by r"},
+        {"threads", "1025", "threads: \"1025\" is not a whole number from 1 to 1024"},
+        {"input.memory", "4Q", "input.memory: \"4Q\" is not a size in bytes, as 700M or 4G"},
+        {"outside", "exten", "outside: \"exten\" is not one of keep, extend, error (nearest: extend)"},
+        {"fail_on", "flipped=1.5", "fail_on: \"1.5\" is not a number of the gate flipped"},
+        {"fail_on", "folds,tear=2,quick",
+         "fail_on: unknown gate \"quick\" (known: folds, outside, multiple, singular, invalid, tear, "
+         "flipped, edges)"},
+        {"fail_on", "outsid", "fail_on: unknown gate \"outsid\" (nearest: outside)"},
+        {"as_morph", "b", "as_morph is given twice: \"a\" and \"b\""},
+        {"set", "A=2", "set: \"A\" is set twice"},
+        {"set", "=2", "set: \"=2\" is not NAME=VALUE"},
+        {"morphs", "n=j", "morphs: \"n=j\" has the name of another morph target"},
+        {"blocks", "yes", "blocks takes no value"},
+        {"snap", NULL, "snap needs a value"},
+    };
+    ffd_deform_desc desc;
+    ffd_error error;
+    ffd_deform_desc_init(&desc, sizeof desc);
+    assert_int_equal(ffd_member_read(find("as_morph"), &desc, "a", NULL), FFD_OK);
+    assert_int_equal(ffd_member_read(find("set"), &desc, "A=1", NULL), FFD_OK);
+    assert_int_equal(ffd_member_read(find("morphs"), &desc, "n=k", NULL), FFD_OK);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        assert_int_equal(ffd_member_read(find(cases[i][0]), &desc, cases[i][1], &error), FFD_E_ARGUMENT);
+        assert_string_equal(error.message, cases[i][2]);
+    }
+    assert_int_equal(desc.fail_on, 0);
+    assert_int_equal(desc.set_count, 1);
+    assert_int_equal(desc.lattice_count, 1);
+    ffd_deform_desc_clear(&desc);
+}
+
 static void only_the_text_of_a_message_names_members(void **state)
 {
     (void)state;
@@ -218,6 +363,8 @@ int main(void)
         cmocka_unit_test(what_a_rule_allows_is_not_refused),
         cmocka_unit_test(an_embedding_in_memory_has_the_rules_of_a_file),
         cmocka_unit_test(a_number_out_of_its_range_is_refused_with_the_member),
+        cmocka_unit_test(settings_come_from_texts_and_go_through_bytes),
+        cmocka_unit_test(a_text_that_does_not_fit_is_refused_with_the_member),
         cmocka_unit_test(only_the_text_of_a_message_names_members),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,10 +1,11 @@
-/* folder.h - creates folders, and removes those that are not needed after all; resolves paths. All paths are
-   UTF-8. */
+/* folder.h - creates folders, and removes those that are not needed after all; resolves paths (folder.c has
+   ffd_paths_meet of ffd/program.h too). All paths are UTF-8. */
 #ifndef FFD_BASE_FILE_FOLDER_H
 #define FFD_BASE_FILE_FOLDER_H
 
 #include "base/fail.h"
 #include "base/file/path_list.h"
+#include <ffd/program.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -22,9 +23,6 @@ char *ffd_path_resolve(const char *path);
 /* Returns the path that a symbolic link leads to, whether or not a file is there; a copy of the path itself
    if it is no link, or links lead round in a circle; NULL if memory runs out. Free with ffd_free. */
 char *ffd_path_follow(const char *path);
-/* Returns whether both paths lead to the same file, which need not exist yet. Returns false if memory runs
-   out. */
-bool ffd_paths_meet(const char *a, const char *b);
 /* Returns whether two files are in different folders, which need not exist. Returns false if memory runs
    out. */
 bool ffd_folders_differ(const char *file, const char *other);

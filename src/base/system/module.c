@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #define MODULE_BYTES ((size_t)16 << 20)
@@ -20,62 +19,6 @@ static const char *const folders[] = {FFD_MODULE_FOLDERS};
 
 /* The modules whose libraries are the system's, and not compiled into them. */
 static const char *const deep[] = {FFD_DEEP_MODULES};
-
-/* Returns whether a file belongs to somebody who may change what the program does anyway: the administrator,
-   the user, or the owner of the program file. The folder of the program may be writable for others, who could
-   put files there, or pipes, on which the loader would block. */
-static bool is_trusted(const char *path, const struct stat *own)
-{
-    struct stat link, file;
-    if (lstat(path, &link) != 0 || stat(path, &file) != 0 || !S_ISREG(file.st_mode) || file.st_mode & S_IWOTH)
-        return false;
-    const uid_t trusted[] = {0, geteuid(), own->st_uid};
-    bool has_link = false, has_file = false;
-    for (size_t i = 0; i < sizeof trusted / sizeof *trusted; i++) {
-        has_link = has_link || link.st_uid == trusted[i];
-        has_file = has_file || file.st_uid == trusted[i];
-    }
-    return has_link && has_file;
-}
-
-/* Finds the folder of the program or library that this is linked into, and what is known of that file. */
-static bool find_own_folder(char folder[LONGEST_PATH], struct stat *own)
-{
-    if (!ffd_find_own_file(folders, folder))
-        return false;
-    if (stat(folder, own) != 0)
-        own->st_uid = geteuid(); /* it was deleted: there is no owner to trust */
-    *strrchr(folder, '/') = 0;
-    return true;
-}
-
-/* Finds the path of a module in the first folder that has a trusted one. Returns false if there is none: path
-   is then that of a file which is not trusted or, if there is no file, the path in the last folder. is_known:
-   whether there is a folder of our own to look in. */
-static bool find_module(const char *file, char path[LONGEST_PATH], bool *is_known)
-{
-    char own[LONGEST_PATH], tried[LONGEST_PATH];
-    struct stat own_info = {0}, info;
-    bool is_refused = false;
-    *is_known = find_own_folder(own, &own_info);
-    for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
-        const bool is_absolute = folders[i][0] == '/';
-        if (!is_absolute && !*is_known)
-            continue;
-        const int length = snprintf(tried, LONGEST_PATH, "%s%s%s/%s", is_absolute ? "" : own,
-                                    is_absolute ? "" : "/", folders[i], file);
-        if (length >= LONGEST_PATH)
-            continue;
-        const bool is_there = lstat(tried, &info) == 0;
-        const bool is_good = is_there && is_trusted(tried, &own_info);
-        if (is_good || !is_refused)
-            memcpy(path, tried, sizeof tried);
-        if (is_good)
-            return true;
-        is_refused = is_refused || is_there;
-    }
-    return !is_refused;
-}
 
 /* Returns whether this much memory is available, without touching it as an allocation could. */
 static bool has_memory(size_t bytes)
@@ -129,7 +72,7 @@ static ffd_status open_module(const module *of, const module_head **head, ffd_er
     bool is_known;
     if (!has_memory(MODULE_BYTES))
         return ffd_fail_memory(error);
-    if (!find_module(of->wanted.file, path, &is_known))
+    if (!ffd_find_near(folders, sizeof folders / sizeof *folders, of->wanted.file, path, &is_known))
         return ffd_fail(error, FFD_E_UNSUPPORTED,
                         "the module for %s cannot be loaded: %s: is no file, or one of another user, or one "
                         "that everybody may change",

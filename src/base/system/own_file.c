@@ -1,4 +1,4 @@
-#define _GNU_SOURCE /* dladdr */
+#define _GNU_SOURCE /* dladdr, lstat */
 #include "base/system/own_file.h"
 #include <dlfcn.h>
 #include <inttypes.h>
@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 #ifdef __linux__
 #include <sys/auxv.h>
 #endif
@@ -87,4 +88,58 @@ bool ffd_find_own_file(const void *inside, char path[LONGEST_PATH])
         return is_mapped;
     memcpy(path, named, sizeof named);
     return true;
+}
+
+/* Returns whether a file belongs to somebody who may change what the program does anyway: the administrator,
+   the user, or the owner of the program file. The folder of the program may be writable for others, who could
+   put files there, or pipes, on which the loader would block. */
+static bool is_trusted(const char *path, const struct stat *own)
+{
+    struct stat link, file;
+    if (lstat(path, &link) != 0 || stat(path, &file) != 0 || !S_ISREG(file.st_mode) || file.st_mode & S_IWOTH)
+        return false;
+    const uid_t trusted[] = {0, geteuid(), own->st_uid};
+    bool has_link = false, has_file = false;
+    for (size_t i = 0; i < sizeof trusted / sizeof *trusted; i++) {
+        has_link = has_link || link.st_uid == trusted[i];
+        has_file = has_file || file.st_uid == trusted[i];
+    }
+    return has_link && has_file;
+}
+
+/* Finds the folder of the program or library that this is linked into, and what is known of that file. */
+static bool find_own_folder(const void *inside, char folder[LONGEST_PATH], struct stat *own)
+{
+    if (!ffd_find_own_file(inside, folder))
+        return false;
+    if (stat(folder, own) != 0)
+        own->st_uid = geteuid(); /* it was deleted: there is no owner to trust */
+    *strrchr(folder, '/') = 0;
+    return true;
+}
+
+bool ffd_find_near(const char *const *folders, size_t count, const char *file, char path[LONGEST_PATH],
+                   bool *is_known)
+{
+    char own[LONGEST_PATH], tried[LONGEST_PATH];
+    struct stat own_info = {0}, info;
+    bool is_refused = false;
+    *is_known = find_own_folder(folders, own, &own_info);
+    for (size_t i = 0; i < count; i++) {
+        const bool is_absolute = folders[i][0] == '/';
+        if (!is_absolute && !*is_known)
+            continue;
+        const int length = snprintf(tried, LONGEST_PATH, "%s%s%s/%s", is_absolute ? "" : own,
+                                    is_absolute ? "" : "/", folders[i], file);
+        if (length >= LONGEST_PATH)
+            continue;
+        const bool is_there = lstat(tried, &info) == 0;
+        const bool is_good = is_there && is_trusted(tried, &own_info);
+        if (is_good || !is_refused)
+            memcpy(path, tried, sizeof tried);
+        if (is_good)
+            return true;
+        is_refused = is_refused || is_there;
+    }
+    return !is_refused;
 }

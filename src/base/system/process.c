@@ -56,9 +56,9 @@ static bool make_channel(int ends[2])
     return false;
 }
 
-static int spawn(const char *name, int channel, pid_t *id)
+static int spawn(const char *program, const char *name, const char *build, int channel, pid_t *id)
 {
-    char *arguments[] = {(char *)(uintptr_t)name, NULL};
+    char *arguments[] = {(char *)(uintptr_t)name, (char *)(uintptr_t)build, NULL};
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
     /* Signals that end programs are blocked until the worker ignores them (ffd_interrupt_ignore). */
@@ -83,10 +83,11 @@ static int spawn(const char *name, int channel, pid_t *id)
         if (!failed)
             failed = posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
         if (!failed)
-            failed = posix_spawn(id, "/proc/self/exe", &actions, &attributes, arguments, environ);
+            failed = posix_spawn(id, program ? program : "/proc/self/exe", &actions, &attributes, arguments,
+                                 environ);
 #ifdef __linux__
         /* Without /proc: the name by which the system started this program. */
-        if (failed == ENOENT)
+        if (failed == ENOENT && !program)
             failed = posix_spawn(id, (const char *)getauxval(AT_EXECFN), &actions, &attributes, arguments,
                                  environ);
 #endif
@@ -96,7 +97,8 @@ static int spawn(const char *name, int channel, pid_t *id)
     return failed;
 }
 
-ffd_status ffd_process_start(const char *name, worker_process **process, ffd_error *error)
+ffd_status ffd_process_start(const char *program, const char *name, const char *build,
+                             worker_process **process, ffd_error *error)
 {
     int ends[2] = {-1, -1};
     *process = NULL;
@@ -105,7 +107,7 @@ ffd_status ffd_process_start(const char *name, worker_process **process, ffd_err
         return ffd_fail_memory(error);
     int failed = make_channel(ends) ? 0 : errno;
     if (!failed) {
-        failed = spawn(name, ends[1], &made->id);
+        failed = spawn(program, name, build, ends[1], &made->id);
         close(ends[1]);
         if (failed)
             close(ends[0]);

@@ -1,4 +1,4 @@
-/* process.h - workers: child processes of this program that communicate over a channel (a socket pair). A
+/* process.h - workers: child processes that communicate over a channel (a socket pair). A
    crash or a system limit that ends a worker does not affect other processes. */
 #ifndef FFD_BASE_SYSTEM_PROCESS_H
 #define FFD_BASE_SYSTEM_PROCESS_H
@@ -18,9 +18,11 @@ typedef struct process_end {
     bool killed;    /* by a signal from outside: the system is out of memory, or somebody killed it */
 } process_end;
 
-/* Starts this program with `name` as argv[0], which tells it that it is a worker, and no other arguments.
-   Standard error is inherited. Errors: FFD_E_IO, FFD_E_MEMORY. */
-ffd_status ffd_process_start(const char *name, worker_process **process, ffd_error *error);
+/* Starts a program (NULL: this one) with two arguments, `name` as argv[0], which tells it that it is a
+   worker, and `build`, by which it knows whether both understand each other. Standard error is inherited.
+   Errors: FFD_E_IO, FFD_E_MEMORY. */
+ffd_status ffd_process_start(const char *program, const char *name, const char *build,
+                             worker_process **process, ffd_error *error);
 /* Sends bytes to the worker; blocks until all are sent. Returns false if the worker has ended. */
 bool ffd_process_send(worker_process *process, const void *bytes, size_t size);
 /* Waits until a process has sent something or has ended, until a descriptor can be read (negative: none),

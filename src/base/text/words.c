@@ -1,5 +1,5 @@
 #include "base/text/words.h"
-#include "base/one_line.h"
+#include <ffd/program.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>

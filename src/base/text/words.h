@@ -1,7 +1,9 @@
-/* words.h - words in messages: plurals, the known word that is most similar to a misspelt one, names. */
+/* words.h - words in messages: plurals, the known word that is most similar to a misspelt one (words.c has
+   ffd_nearest_word and ffd_word_meant of ffd/program.h too), names. */
 #ifndef FFD_BASE_TEXT_WORDS_H
 #define FFD_BASE_TEXT_WORDS_H
 
+#include <ffd/program.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -29,14 +31,6 @@ void ffd_nearest_offer(nearest_word *nearest, const char *known);
 /* Returns the word that is meant: the best one, if it is similar; NULL where it is not, as one half of a word
    of three letters, or where another is as similar at that limit, as "x" and "y" are to "xy". */
 const char *ffd_nearest_meant(const nearest_word *nearest);
-
-/* Returns the entry of known (count words) that is most similar to word, the first one if there are several;
-   NULL if count is 0. */
-const char *ffd_nearest_word(const char *word, const char *const *known, size_t count);
-
-/* Returns the known word (of count, 1 or more) that is meant by an unknown one; NULL where none is similar.
- */
-const char *ffd_word_meant(const char *word, const char *const *known, size_t count);
 
 /* Writes what a message says of an unknown word: the known one that is meant, or all of them. Truncates to
    capacity. */

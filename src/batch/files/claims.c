@@ -9,7 +9,7 @@
    the mesh. */
 static bool is_mesh(const batch_job *job)
 {
-    return job->output && strcmp(job->words.data, job->target) == 0;
+    return job->output && strcmp(job->desc.input.path, job->target) == 0;
 }
 
 ffd_status ffd_claims_expect(run_files *files, const batch_job *job, ffd_error *error)

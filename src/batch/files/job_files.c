@@ -1,25 +1,18 @@
 #include "batch/files/job_files.h"
 #include "base/file/folder.h"
-#include <stdio.h>
-#include <string.h>
 
-/* Returns the format that an option of the job gives, or else that of a path. */
-static ffd_format format_of(const batch_job *job, const char *option, const char *path)
+/* Returns the format that a job gives, or else that of a path. */
+static ffd_format format_of(ffd_format given, const char *path)
 {
-    const char *const value = ffd_job_option(job, option);
-    char name[24];
-    if (!value)
-        return ffd_format_from_name(path);
-    snprintf(name, sizeof name, "x.%.20s", value);
-    return ffd_format_from_name(name);
+    return given != FFD_FORMAT_AUTO ? given : ffd_format_from_name(path);
 }
 
 job_kind ffd_job_kind(const batch_job *job)
 {
-    job_kind kind = {.input = job->words.data};
-    kind.from = format_of(job, "input-format", kind.input);
+    job_kind kind = {.input = job->desc.input.path};
+    kind.from = format_of(job->desc.input.format, kind.input);
     kind.to = !job->target  ? FFD_FORMAT_AUTO
-              : job->output ? format_of(job, "output-format", job->target)
+              : job->output ? format_of(job->desc.output_format, job->target)
                             : kind.from;
     kind.source = ffd_format_table(kind.from);
     kind.format = ffd_format_table(kind.to);
@@ -30,10 +23,8 @@ job_kind ffd_job_kind(const batch_job *job)
 
 bool ffd_job_has_copies(const batch_job *job, const job_kind *kind)
 {
-    const char *const resources = ffd_job_option(job, "resources");
     return job->output && kind->format && kind->is_kept && kind->format->resources &&
-           !(resources && strcmp(resources, "reference") == 0) &&
-           ffd_folders_differ(kind->input, job->target);
+           job->desc.resources != FFD_RESOURCES_REFERENCE && ffd_folders_differ(kind->input, job->target);
 }
 
 size_t ffd_job_count_sidecars(const job_kind *kind)

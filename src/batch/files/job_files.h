@@ -1,9 +1,10 @@
-/* job_files.h - which kinds of files a job reads and writes beside those that it names, by its words alone.
+/* job_files.h - which kinds of files a job reads and writes beside those that it names, by its description
+ * alone.
  */
 #ifndef FFD_BATCH_FILES_JOB_FILES_H
 #define FFD_BATCH_FILES_JOB_FILES_H
 
-#include "batch/manifest/job_words.h"
+#include "batch/manifest/batch_job.h"
 #include "io/formats.h"
 
 typedef struct job_kind {

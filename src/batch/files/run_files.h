@@ -7,7 +7,7 @@
 #include "base/file/file_users.h"
 #include "base/file/input.h"
 #include "base/memory/file_table.h"
-#include "batch/manifest/job_words.h"
+#include "batch/manifest/batch_job.h"
 #include <ffd/job.h>
 
 /* An image or material library that is copied with an output. */

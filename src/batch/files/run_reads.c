@@ -32,38 +32,32 @@ static ffd_status note_all(run_files *files, const path_list *list, uint64_t lin
     return status;
 }
 
-/* One of the files that the words of a job name. */
+/* One of the files that a job names. */
 typedef struct named_read {
     const char *role, *path;
     bool may_be_own; /* the job may write it */
+    bool is_lattice;
 } named_read;
 
-/* Returns the next of these; word NULL: the mesh, else the one after that word. path NULL: there is none. */
-static named_read next_read(const batch_job *job, const char **word)
+/* Returns one of these, by its index: the mesh, the lattices, the embedding. path NULL: behind the last. */
+static named_read read_of(const batch_job *job, size_t index)
 {
-    static const char embedding[] = "--embedding=";
-    const char *const end = job->words.data + job->words.size;
-    if (!*word) {
-        *word = job->words.data;
-        return (named_read){"the mesh ", *word, true};
-    }
-    while ((*word += strlen(*word) + 1) < end) {
-        const char *const lattice = ffd_word_lattice(*word);
-        if (lattice)
-            return (named_read){"the lattice ", lattice, true};
-        if (strncmp(*word, embedding, sizeof embedding - 1) == 0)
-            return (named_read){"the embedding ", *word + sizeof embedding - 1, false};
-    }
-    return (named_read){0};
+    const ffd_deform_desc *const desc = &job->desc;
+    if (index == 0)
+        return (named_read){"the mesh ", desc->input.path, true, false};
+    if (index <= desc->lattice_count)
+        return (named_read){"the lattice ", desc->lattices[index - 1].path, true, true};
+    const bool is_last = index == desc->lattice_count + 1;
+    return (named_read){"the embedding ", is_last ? desc->embedding.path : NULL, false, false};
 }
 
 ffd_status ffd_reads_check(run_files *files, batch_job *job, ffd_error *error)
 {
-    const char *word = NULL;
     ffd_status status = FFD_OK;
     uint64_t line;
-    for (named_read read = next_read(job, &word); read.path && !status && !job->error.status;
-         read = next_read(job, &word)) {
+    size_t index = 0;
+    for (named_read read = read_of(job, index); read.path && !status && !job->error.status;
+         read = read_of(job, ++index)) {
         const hash128 place = ffd_run_read_place(files, read.path);
         if (ffd_run_writer(files, &place, &line) && !(read.may_be_own && line == job->line))
             ffd_run_refuse(files, job, read.role, read.path, line);
@@ -75,10 +69,10 @@ ffd_status ffd_reads_check(run_files *files, batch_job *job, ffd_error *error)
 
 void ffd_reads_check_own(run_files *files, batch_job *job)
 {
-    const char *word = NULL;
     uint64_t line;
-    for (named_read read = next_read(job, &word); read.path && !job->error.status;
-         read = next_read(job, &word)) {
+    size_t index = 0;
+    for (named_read read = read_of(job, index); read.path && !job->error.status;
+         read = read_of(job, ++index)) {
         const hash128 place = ffd_run_read_place(files, read.path);
         if (ffd_files_find(&files->writes, &place, &line) && line == 0)
             ffd_run_refuse(files, job, read.role, read.path, 0);
@@ -113,18 +107,18 @@ static ffd_status add_lattice(run_files *files, const char *path, known_lattice 
 
 bool ffd_reads_know_lattices(const run_files *files, const batch_job *job)
 {
-    const char *word = NULL;
-    for (named_read read = next_read(job, &word); read.path; read = next_read(job, &word))
-        if (ffd_word_lattice(word) && !find_lattice(files, read.path))
+    size_t index = 0;
+    for (named_read read = read_of(job, index); read.path; read = read_of(job, ++index))
+        if (read.is_lattice && !find_lattice(files, read.path))
             return false;
     return true;
 }
 
 void ffd_reads_check_boxes(const run_files *files, batch_job *job)
 {
-    const char *word = NULL;
-    for (named_read read = next_read(job, &word); read.path; read = next_read(job, &word)) {
-        const known_lattice *const lattice = ffd_word_lattice(word) ? find_lattice(files, read.path) : NULL;
+    size_t index = 0;
+    for (named_read read = read_of(job, index); read.path; read = read_of(job, ++index)) {
+        const known_lattice *const lattice = read.is_lattice ? find_lattice(files, read.path) : NULL;
         if (lattice)
             ffd_run_refuse_conflict(files, job, "the mesh of a box, or its buffer, ", &lattice->files,
                                     &lattice->conflicts);
@@ -232,13 +226,13 @@ ffd_status ffd_reads_learn(run_files *files, const batch_job *job, const job_kin
 ffd_status ffd_reads_learn_nothing(run_files *files, const batch_job *job, bool of_mesh, ffd_error *error)
 {
     const job_kind kind = ffd_job_kind(job);
-    const char *word = NULL;
     known_lattice *added;
     ffd_status status = FFD_OK;
     if (of_mesh)
         begin_scan(files, &kind, 0);
-    for (named_read read = next_read(job, &word); read.path && !status; read = next_read(job, &word))
-        if (ffd_word_lattice(word))
+    size_t index = 0;
+    for (named_read read = read_of(job, index); read.path && !status; read = read_of(job, ++index))
+        if (read.is_lattice)
             status = add_lattice(files, read.path, &added, error);
     return status;
 }

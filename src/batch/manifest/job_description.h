@@ -1,5 +1,4 @@
-/* job_description.h - the content of a manifest line or table row, before it is turned into words of a
-   command. */
+/* job_description.h - the content of a manifest line or table row, before it becomes a job. */
 #ifndef FFD_BATCH_MANIFEST_JOB_DESCRIPTION_H
 #define FFD_BATCH_MANIFEST_JOB_DESCRIPTION_H
 

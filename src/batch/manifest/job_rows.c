@@ -85,11 +85,12 @@ static void add_path(job_description *job, job_part part, const char *folder, co
 
 static void add_lattices(job_description *job, const job_commons *commons)
 {
-    for (size_t i = 0; i < commons->lattice_count; i++)
-        if (commons->morphs)
-            ffd_description_add(job, JOB_MORPH, commons->morphs[i], commons->lattices[i].path);
+    const ffd_deform_desc *const defaults = commons->defaults;
+    for (size_t i = 0; defaults && i < defaults->lattice_count; i++)
+        if (defaults->morphs)
+            ffd_description_add(job, JOB_MORPH, defaults->morphs[i], defaults->lattices[i].path);
         else
-            ffd_description_add(job, JOB_LATTICE, NULL, commons->lattices[i].path);
+            ffd_description_add(job, JOB_LATTICE, NULL, defaults->lattices[i].path);
 }
 
 char *ffd_output_name(const job_commons *commons, const char *input, uint64_t number)

@@ -4,21 +4,19 @@
 
 #include "batch/manifest/csv.h"
 #include "batch/manifest/job_description.h"
-#include <ffd/lattice.h>
+#include <ffd/job.h>
 #include <stdint.h>
 
 /* Values from the command line, for all jobs. */
 typedef struct job_commons {
-    const char *folder;                 /* of the table; "": the current one */
-    const char *out_dir;                /* folder of outputs; or NULL */
-    const char *ending;                 /* of outputs that the inputs name; NULL: that of the input */
-    const char *input;                  /* for rows without one; or NULL */
-    const ffd_lattice_source *lattices; /* for jobs without any */
-    size_t lattice_count;
-    const char *const *morphs; /* lattice_count names, if each lattice makes a morph target; or NULL */
-    const uint8_t *skipped;    /* of a table's columns: whether they are left out */
-    bool decimal_comma;        /* numbers may have a decimal comma */
-    uint8_t *points;           /* of a table's columns: csv_point of their numbers so far */
+    const char *folder;              /* of the table; "": the current one */
+    const char *out_dir;             /* folder of outputs; or NULL */
+    const char *ending;              /* of outputs that the inputs name; NULL: that of the input */
+    const char *input;               /* for rows without one; or NULL */
+    const ffd_deform_desc *defaults; /* lattices and morph targets for jobs without any; or NULL */
+    const uint8_t *skipped;          /* of a table's columns: whether they are left out */
+    bool decimal_comma;              /* numbers may have a decimal comma */
+    uint8_t *points;                 /* of a table's columns: csv_point of their numbers so far */
 } job_commons;
 
 /* Numbers that may be read otherwise than they were meant. All zeros: none. */

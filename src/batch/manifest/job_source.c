@@ -23,6 +23,7 @@ struct job_source {
     char *folder;       /* for frame.folder */
     uint64_t count;     /* jobs so far, of all shards */
     uint64_t line;      /* first line of the last job */
+    const char *text;   /* of the last job of a callback */
     line_reader reader; /* of the manifest or table */
     csv_table table;
     bool numbers_outputs; /* several rows may use one mesh, so outputs get the number of the row */
@@ -54,26 +55,14 @@ static ffd_status read_manifest_line(job_source *source, batch_job *job)
 
 /* Tables */
 
-/* Returns the ending that --output-format gives to outputs; NULL: none. */
-static const char *ending_of(const job_source_desc *desc)
-{
-    const char *ending = NULL;
-    for (size_t i = 0; i < desc->default_count; i++)
-        if (strcmp(desc->defaults[i].name, "output-format") == 0)
-            ending = desc->defaults[i].value;
-    return ending;
-}
-
 static job_commons list_commons(const job_source *source)
 {
     const job_source_desc *const desc = &source->desc;
     return (job_commons){.folder = source->folder,
                          .out_dir = desc->out_dir,
-                         .ending = ending_of(desc),
+                         .ending = desc->ending,
                          .input = desc->pattern,
-                         .lattices = desc->lattices,
-                         .lattice_count = desc->lattice_count,
-                         .morphs = desc->morphs,
+                         .defaults = desc->defaults,
                          .skipped = source->table.skipped,
                          .decimal_comma = source->table.separator != ',',
                          .points = source->table.points};
@@ -251,11 +240,17 @@ ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_e
         return ffd_fail_memory(error);
     (*source)->desc = *desc;
     (*source)->table.flaws.strict = desc->strict;
-    (*source)->frame =
-        (batch_frame){desc->pattern,  "", desc->defaults, desc->default_count, desc->resume, desc->pictures,
-                      desc->positions};
+    (*source)->frame = (batch_frame){desc->next ? "jobs" : desc->pattern,
+                                     "",
+                                     desc->defaults,
+                                     desc->ending,
+                                     desc->resume,
+                                     desc->pictures,
+                                     desc->positions};
     ffd_status status;
-    if (desc->manifest)
+    if (desc->next)
+        status = FFD_OK;
+    else if (desc->manifest)
         status = open_text(*source, desc->manifest, error);
     else if (desc->table)
         status = open_table(*source, error);
@@ -270,10 +265,24 @@ ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_e
     return status;
 }
 
+/* Asks the caller for the next line. */
+static ffd_status ask_caller(job_source *source, line_state *state, ffd_error *error)
+{
+    source->text = NULL;
+    const ffd_status status = source->desc.next(source->desc.next_user, source->count, &source->text);
+    *state = status == FFD_OK && source->text ? LINE_READ : LINE_NONE;
+    source->line = source->count + 1;
+    return status == FFD_OK ? FFD_OK
+                            : ffd_fail(error, ffd_status_known(status),
+                                       "the caller's function for jobs has failed (%d)", (int)status);
+}
+
 /* Finds the next job of any shard. */
 static ffd_status find_next(job_source *source, line_state *state, bool *valid, ffd_error *error)
 {
     *valid = true;
+    if (source->desc.next)
+        return ask_caller(source, state, error);
     if (source->desc.manifest) {
         const ffd_status status = ffd_lines_next_filled(&source->reader, state, error);
         source->line = source->reader.number;
@@ -333,17 +342,18 @@ ffd_status ffd_jobs_next(job_source *source, batch_job *job, line_state *state, 
     } while (!mine);
     job->line = source->line;
     job->row = source->count - 1;
-    const ffd_status status = source->desc.manifest ? read_manifest_line(source, job)
-                              : source->desc.table
-                                  ? read_row(source, valid, job)
-                                  : read_file(source, source->files.paths[source->count - 1], job);
+    const ffd_status status =
+        source->desc.next       ? ffd_job_parse(&source->frame, source->text, strlen(source->text), job)
+        : source->desc.manifest ? read_manifest_line(source, job)
+        : source->desc.table    ? read_row(source, valid, job)
+                                : read_file(source, source->files.paths[source->count - 1], job);
     return status ? ffd_fail_memory(error) : FFD_OK;
 }
 
 bool ffd_jobs_come_once(const job_source_desc *desc)
 {
     const char *const text = desc->manifest ? desc->manifest : desc->table;
-    return text && ffd_file_reads_once(text);
+    return (desc->next && !desc->repeats) || (text && ffd_file_reads_once(text));
 }
 
 ffd_status ffd_jobs_total(const job_source_desc *desc, uint64_t *total, ffd_error *error)

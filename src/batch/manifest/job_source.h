@@ -3,21 +3,23 @@
 #ifndef FFD_BATCH_MANIFEST_JOB_SOURCE_H
 #define FFD_BATCH_MANIFEST_JOB_SOURCE_H
 
-#include "batch/manifest/job_words.h"
+#include "batch/manifest/batch_job.h"
 #include "batch/manifest/lines.h"
 #include "mesh/flaws.h"
+#include <ffd/batch.h>
 
 typedef struct job_source_desc {
-    const char *manifest; /* JSON Lines; "-": standard input; or NULL */
-    const char *table;    /* CSV, whose first row names the columns; or NULL */
-    const char *pattern;  /* with a table: the mesh of rows without "in"; else a pattern for meshes */
-    const ffd_lattice_source *lattices; /* for jobs that name none */
-    size_t lattice_count;
-    const char *const *morphs; /* lattice_count names, if each lattice makes a morph target; or NULL */
-    const char *ignored;       /* columns of the table to ignore, "a,b"; or NULL */
+    const char *manifest;         /* JSON Lines; "-": standard input; or NULL */
+    const char *table;            /* CSV, whose first row names the columns; or NULL */
+    ffd_batch_next_function next; /* lines of a manifest; or NULL */
+    void *next_user;
+    bool repeats;        /* next can be asked again from the first line on */
+    const char *pattern; /* with a table: the mesh of rows without "in"; else a pattern for meshes */
+    const char *ignored; /* columns of the table to ignore, "a,b"; or NULL */
     const char *out_dir; /* pattern: folder of outputs, which keep their names; table: folder of "out" */
-    const batch_default *defaults;
-    size_t default_count;
+    const ffd_deform_desc *defaults;  /* for jobs that do not say otherwise: lattices where the jobs come from
+                                         no manifest, and all other settings; or NULL */
+    const char *ending;               /* of outputs, by the default output_format; or NULL */
     bool resume, pictures, positions; /* as in batch_frame */
     bool strict;                      /* refuse a table with flaws whose meaning is clear */
     uint64_t shard, shards;           /* take the jobs shard, shard + shards, .. of all, counted from 0 */

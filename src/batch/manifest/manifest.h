@@ -2,7 +2,7 @@
 #ifndef FFD_BATCH_MANIFEST_MANIFEST_H
 #define FFD_BATCH_MANIFEST_MANIFEST_H
 
-#include "batch/manifest/job_words.h"
+#include "batch/manifest/batch_job.h"
 
 /* Parses a line into an empty job whose line number is set. Errors in the line are stored in job->error.
    Returns FFD_OK or FFD_E_MEMORY. */

@@ -8,41 +8,27 @@
 /* The most bytes that a message shows. */
 #define SHOWN ((size_t)160)
 
-/* Returns "NAME=VALUE" of a word "--set=NAME=VALUE"; NULL: another word. */
-static const char *setting_of(const char *word)
+static void write_setting(json_text *json, const ffd_setting *setting)
 {
-    return strncmp(word, "--set=", 6) == 0 ? word + 6 : NULL;
-}
-
-static void write_setting(json_text *json, const char *setting)
-{
-    const char *const equals = strchr(setting, '=');
-    byte_buffer name = {0};
     json_setting value = {0};
-    if (!equals)
-        return;
-    ffd_buffer_append(&name, setting, (size_t)(equals - setting));
-    char *const key = ffd_buffer_finish(&name);
-    if (!key || ffd_json_setting_parse(equals + 1, JSON_NO_NUL | JSON_DOUBLES, &value) == FFD_E_MEMORY)
+    if (ffd_json_setting_parse(setting->value, JSON_NO_NUL | JSON_DOUBLES, &value) == FFD_E_MEMORY)
         json->out->failed = true;
     else if (value.tree.count)
-        ffd_json_raw(json, key, value.tree.text + value.tree.values[0].begin,
+        ffd_json_raw(json, setting->name, value.tree.text + value.tree.values[0].begin,
                      value.tree.values[0].end - value.tree.values[0].begin);
     else
-        ffd_json_null(json, key); /* neither JSON nor UTF-8: the job fails anyway */
+        ffd_json_null(json, setting->name); /* neither JSON nor UTF-8: the job fails anyway */
     ffd_json_setting_free(&value);
-    ffd_free(key);
 }
 
-void ffd_settings_json(const char *words, size_t count, byte_buffer *text)
+void ffd_settings_json(const ffd_deform_desc *desc, byte_buffer *text)
 {
     byte_buffer whole = {0};
     json_text json;
     ffd_json_begin(&json, &whole);
     ffd_json_object(&json, NULL, true);
-    for (size_t i = 0; i < count; i++, words += strlen(words) + 1)
-        if (setting_of(words))
-            write_setting(&json, setting_of(words));
+    for (size_t i = 0; i < desc->set_count; i++)
+        write_setting(&json, &desc->set[i]);
     ffd_json_end(&json, '}');
     if (!whole.failed)
         ffd_json_join_lines(whole.data, whole.size, text);
@@ -62,15 +48,11 @@ static void shorten(byte_buffer *text, size_t most)
     ffd_buffer_text(text, "...");
 }
 
-void ffd_settings_show(const char *words, size_t count, byte_buffer *text)
+void ffd_settings_show(const ffd_deform_desc *desc, byte_buffer *text)
 {
     byte_buffer shown = {0};
-    for (size_t i = 0; i < count; i++, words += strlen(words) + 1) {
-        if (!setting_of(words))
-            continue;
-        ffd_buffer_text(&shown, shown.size ? ", " : "");
-        ffd_buffer_text(&shown, setting_of(words));
-    }
+    for (size_t i = 0; i < desc->set_count; i++)
+        ffd_buffer_format(&shown, "%s%s=%s", i ? ", " : "", desc->set[i].name, desc->set[i].value);
     shorten(&shown, SHOWN);
     ffd_buffer_append(text, shown.data, shown.size);
     text->failed = text->failed || shown.failed;

@@ -1,4 +1,5 @@
 #include "cli/pages/value.h"
+#include "cli/member.h"
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -76,11 +77,15 @@ static pages_value parse(const char *text)
 pages_value pages_option_value(const cli_option *option)
 {
     pages_value value = parse(option->value);
-    if (!option->choices || option->set == cli_set_choice)
+    const ffd_member *const member =
+        option->set == cli_set_member ? ffd_deform_member_of(option->name) : NULL;
+    const char *const *const words =
+        member && member->kind == FFD_MEMBER_GATES ? member->words : option->choices;
+    if (!words || option->set == cli_set_choice)
         return value;
     value.list = true;
-    for (int i = 0; option->choices[i]; i++)
-        append(value.words, " ", option->choices[i], strlen(option->choices[i]));
+    for (int i = 0; words[i]; i++)
+        append(value.words, " ", words[i], strlen(words[i]));
     return value;
 }
 

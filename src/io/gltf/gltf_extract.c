@@ -32,7 +32,7 @@ typedef struct extractor {
     size_t *colours;                       /* per part: the accessor of its colours; GLTF_NONE: none yet */
     intern_table texcoords;                /* keys: shown_texcoords */
     size_t *first_texcoord;                /* per key of texcoords */
-    size_t texcoords_capacity;
+    size_t texcoords_capacity, texcoord_count;
     ffd_error *error;
 } extractor;
 
@@ -47,18 +47,6 @@ typedef struct drawn {
     bool mirrored;
 } drawn;
 
-static const gltf_mesh_uses *uses_of(const extractor *e, size_t mesh)
-{
-    return &e->document->mesh_uses[mesh];
-}
-
-/* Returns the node of a use of a mesh; GLTF_NONE: none. */
-static size_t node_of(const extractor *e, size_t mesh, size_t n)
-{
-    const gltf_mesh_uses *const uses = uses_of(e, mesh);
-    return uses->nodes ? uses->nodes[n] : GLTF_NONE;
-}
-
 /* Whether a node is drawn: not if it is hidden, stands for another, or has instances. */
 static bool is_drawn(const gltf_document *d, size_t node)
 {
@@ -66,12 +54,25 @@ static bool is_drawn(const gltf_document *d, size_t node)
            (!d->stands_in[node] && !ffd_gltf_is_hidden(d, node) && !ffd_gltf_instanced_node(d, node));
 }
 
-static bool is_mesh_drawn(const extractor *e, size_t m)
+static bool is_primitive_drawn(const gltf_document *d, const gltf_primitive *primitive)
 {
-    for (size_t n = 0; n < uses_of(e, m)->node_count; n++)
-        if (is_drawn(e->document, node_of(e, m, n)))
+    const gltf_instance *const instances = ffd_gltf_instances(d, primitive);
+    for (size_t n = 0; n < d->mesh_uses[primitive->mesh].node_count; n++)
+        if (is_drawn(d, instances[n].node))
             return true;
     return false;
+}
+
+/* Visits the instances that are drawn by mesh, node and primitive, the order of models. */
+static ffd_status visit_drawn(extractor *e, ffd_status (*visit)(extractor *, const gltf_instance *))
+{
+    const gltf_document *const d = e->document;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t n = 0; n < d->mesh_uses[m].node_count; n++)
+            for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, m, p));)
+                if (is_drawn(d, ffd_gltf_instances(d, p)[n].node))
+                    TRY(visit(e, &ffd_gltf_instances(d, p)[n]));
+    return FFD_OK;
 }
 
 #define SET_NAME 32
@@ -81,31 +82,32 @@ static void name_set(unsigned long long set, char name[SET_NAME])
     snprintf(name, SET_NAME, "TEXCOORD_%llu", set);
 }
 
-/* Finds the texture coordinates of a primitive under the node of a use of its mesh. */
-static shown_texcoords texcoords_of(const extractor *e, const gltf_primitive *primitive, size_t n)
+/* Finds the texture coordinates of a primitive under a node. */
+static shown_texcoords texcoords_of(const extractor *e, const gltf_instance *instance)
 {
     const gltf_document *const d = e->document;
+    const gltf_primitive *const primitive = instance->primitive;
     shown_texcoords found = {.primitive = GLTF_NONE, .node = GLTF_NONE, .set = GLTF_NONE};
     char name[SET_NAME];
     bool stands_in;
-    const size_t set = ffd_gltf_texcoords(d, primitive, &found.taken, &stands_in),
-                 node = node_of(e, primitive->mesh, n);
+    const size_t set = ffd_gltf_texcoords(d, primitive, &found.taken, &stands_in);
     name_set(set, name);
     if (found.taken.accessor == GLTF_NONE || e->state == MESH_STORED ||
-        !ffd_gltf_add_shapes(d, primitive, node, name, (size_t)d->model.accessors[found.taken.accessor].count,
-                             2, 2, NULL))
+        !ffd_gltf_add_shapes(d, primitive, instance->node, name,
+                             (size_t)d->model.accessors[found.taken.accessor].count, 2, 2, NULL))
         return found;
     found.primitive = (size_t)(primitive - d->model.primitives);
-    found.node = node;
+    found.node = instance->node;
     found.set = set;
     return found;
 }
 
-/* Interns the texture coordinates of a primitive, and adds new ones to *count. */
-static ffd_status add_texcoords(extractor *e, const gltf_primitive *primitive, size_t n, size_t *count)
+/* Interns the texture coordinates of a primitive under a node, and counts new ones. */
+static ffd_status add_texcoords(extractor *e, const gltf_instance *instance)
 {
     const gltf_document *d = e->document;
-    const shown_texcoords texcoords = texcoords_of(e, primitive, n);
+    const shown_texcoords texcoords = texcoords_of(e, instance);
+    size_t *const count = &e->texcoord_count;
     uint32_t index;
     if (texcoords.taken.accessor == GLTF_NONE || *count > MODEL_VALUES_MAX)
         return FFD_OK; /* too many: refused later */
@@ -123,9 +125,9 @@ static ffd_status add_texcoords(extractor *e, const gltf_primitive *primitive, s
 }
 
 /* Returns the index of a primitive's first texture coordinate, GLTF_NONE if it has none. */
-static size_t find_texcoords(const extractor *e, const gltf_primitive *primitive, size_t n)
+static size_t find_texcoords(const extractor *e, const gltf_instance *instance)
 {
-    const shown_texcoords texcoords = texcoords_of(e, primitive, n);
+    const shown_texcoords texcoords = texcoords_of(e, instance);
     uint32_t index;
     return ffd_intern_find(&e->texcoords, &texcoords, sizeof texcoords, &index) ? e->first_texcoord[index]
                                                                                 : GLTF_NONE;
@@ -135,8 +137,7 @@ static size_t find_texcoords(const extractor *e, const gltf_primitive *primitive
 static ffd_status count_values(extractor *e)
 {
     const gltf_document *d = e->document;
-    size_t positions = 0, texcoords = 0, normals = 0;
-    ffd_status status = FFD_OK;
+    size_t positions = 0, normals = 0;
     for (size_t i = 0; i < d->base.part_count; i++) {
         e->first_position[i] = positions;
         e->first_normal[i] = normals;
@@ -146,12 +147,8 @@ static ffd_status count_values(extractor *e)
         positions += d->mesh_parts[i].repeats_positions ? 0 : d->mesh_parts[i].vertex_count;
         normals += d->mesh_parts[i].normal_count;
     }
-    for (size_t m = 0; m < d->model.mesh_count && !status; m++)
-        for (size_t n = 0; n < uses_of(e, m)->node_count; n++)
-            for (const gltf_primitive *p = NULL; status == FFD_OK && (p = ffd_gltf_next_primitive(d, m, p));)
-                if (is_drawn(d, node_of(e, m, n)))
-                    status = add_texcoords(e, p, n, &texcoords);
-    return status ? status : ffd_model_make_values(e->model, positions, texcoords, normals, e->error);
+    TRY(visit_drawn(e, add_texcoords));
+    return ffd_model_make_values(e->model, positions, e->texcoord_count, normals, e->error);
 }
 
 /* Reads a stream's results where they differ from the file's values as floats, else the file's values: stored
@@ -240,15 +237,16 @@ static void fill_values(const extractor *e)
 
 /* Reads the colours of a primitive, which are linear, and clamps them to 0 to 1 as viewers do (glTF 2.0,
    3.9.2 and 3.7.2.1). */
-static ffd_status take_colours(extractor *e, const gltf_primitive *primitive, size_t n, const drawn *drawing)
+static ffd_status take_colours(extractor *e, const gltf_instance *instance, const drawn *drawing)
 {
     const gltf_document *d = e->document;
+    const gltf_primitive *const primitive = instance->primitive;
     const size_t a = ffd_gltf_attribute(d, primitive, "COLOR_0", 3, 4);
     if (a == GLTF_NONE || a == e->colours[drawing->part])
         return FFD_OK;
     e->colours[drawing->part] = a;
-    const size_t count = (size_t)d->model.accessors[drawing->primitive->accessor[GLTF_POSITION]].count;
-    const size_t components = (size_t)d->model.accessors[a].rows, node = node_of(e, primitive->mesh, n);
+    const size_t count = (size_t)d->model.accessors[primitive->accessor[GLTF_POSITION]].count;
+    const size_t components = (size_t)d->model.accessors[a].rows, node = instance->node;
     const bool shapes = e->state == MESH_SHOWN &&
                         ffd_gltf_add_shapes(d, primitive, node, "COLOR_0", count, components, 4, NULL);
     const bool coarse = d->model.accessors[a].component == GLTF_U8 && !shapes &&
@@ -374,10 +372,10 @@ static bool is_mirrored(const gltf_document *d, size_t part)
     return mat_determinant(transform) < 0;
 }
 
-static ffd_status add_instance(extractor *e, const gltf_primitive *primitive, size_t n)
+static ffd_status add_instance(extractor *e, const gltf_instance *instance)
 {
     const gltf_document *d = e->document;
-    const gltf_instance *instance = &ffd_gltf_instances(d, primitive)[n];
+    const gltf_primitive *const primitive = instance->primitive;
     const size_t part = instance->part[GLTF_POSITION], normals = instance->part[GLTF_NORMAL];
     if (part == GLTF_NONE)
         return FFD_OK;
@@ -390,13 +388,13 @@ static ffd_status add_instance(extractor *e, const gltf_primitive *primitive, si
                      .part = part,
                      .position = e->first_position[part],
                      .normal = normals == GLTF_NONE ? GLTF_NONE : e->first_normal[normals],
-                     .texcoord = find_texcoords(e, primitive, n),
+                     .texcoord = find_texcoords(e, instance),
                      .mirrored = is_mirrored(d, part)};
     ffd_status status = ffd_gltf_read_corners(d, primitive, &drawing.corners, &drawing.count, e->error);
     if (!status)
-        status = begin_run(e, primitive, node_of(e, primitive->mesh, n));
+        status = begin_run(e, primitive, instance->node);
     if (!status)
-        status = take_colours(e, primitive, n, &drawing);
+        status = take_colours(e, instance, &drawing);
     if (!status)
         status = drawing.primitive->mode == MODE_POINTS     ? add_points(e, &drawing)
                  : drawing.primitive->mode < MODE_TRIANGLES ? add_lines(e, &drawing)
@@ -447,7 +445,7 @@ static uint32_t features_of(const extractor *e)
     const gltf_document *d = e->document;
     uint32_t found = 0;
     for (size_t i = 0; i < d->model.primitive_count; i++)
-        if (is_mesh_drawn(e, d->model.primitives[i].mesh))
+        if (is_primitive_drawn(d, &d->model.primitives[i]))
             found |= features_of_primitive(e, &d->model.primitives[i]);
     for (size_t n = 0; n < d->model.node_count; n++)
         found |= d->model.nodes[n].child_count > 0 ? MODEL_HAS_HIERARCHY : 0;
@@ -505,11 +503,8 @@ static ffd_status extract(extractor *e)
     if (e->model->wants_details)
         status = number_positions(e);
     e->model->nodes_left = d->instanced_node_count;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t n = 0; n < uses_of(e, m)->node_count; n++)
-            for (const gltf_primitive *p = NULL; status == FFD_OK && (p = ffd_gltf_next_primitive(d, m, p));)
-                if (is_drawn(d, node_of(e, m, n)))
-                    status = add_instance(e, p, n);
+    if (!status)
+        status = visit_drawn(e, add_instance);
     e->model->features = features_of(e);
     return status;
 }

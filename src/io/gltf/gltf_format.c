@@ -1,7 +1,6 @@
 /* gltf_format.c - the table of functions for .gltf and .glb files. */
 #include "io/gltf/gltf_format.h"
 #include "io/gltf/edit/gltf_rig.h"
-#include "io/gltf/gltf_open.h"
 #include "io/gltf/gltf_skeleton.h"
 #include "io/gltf/model/gltf_faces.h"
 #include "io/gltf/model/gltf_functions.h"

@@ -1,4 +1,4 @@
-#include "io/gltf/gltf_open.h"
+/* gltf_open.c - opens and closes a document. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/processors.h"
@@ -7,7 +7,6 @@
 #include "io/gltf/model/gltf_instancing.h"
 #include "io/gltf/model/gltf_parts.h"
 #include "io/gltf/model/gltf_refuse.h"
-#include "io/gltf/model/gltf_results.h"
 #include "io/gltf/model/gltf_scene.h"
 #include "io/gltf/model/gltf_skin.h"
 #include "io/gltf/model/gltf_splats.h"
@@ -249,6 +248,7 @@ static void free_morphs(gltf_document *d)
         for (size_t i = 0; i < d->morphs[k].result_count; i++)
             ffd_free(d->morphs[k].results[i]);
         ffd_free(d->morphs[k].results);
+        ffd_free(d->morphs[k].places);
         ffd_free(d->morphs[k].name);
     }
     ffd_free(d->morphs);
@@ -363,14 +363,15 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
     return status == FFD_OK && no_memory ? ffd_fail_memory(error) : status;
 }
 
-ffd_status ffd_gltf_open_within(file_input *input, const ffd_source *source, const memory_budget *budget,
-                                mesh_document **document, ffd_error *error)
+ffd_status ffd_gltf_open(file_input *input, const ffd_source *source, mesh_document **document,
+                         ffd_error *error)
 {
     *document = NULL;
     gltf_document *d = ffd_alloc_zero(1, sizeof *d);
     if (!d)
         return ffd_fail_memory(error);
-    d->base.budget = *budget;
+    d->base.budget = ffd_budget_make(source->memory);
+    ffd_budget_add_file(&d->base.budget, input->size, KEPT_PER_BYTE);
     d->base.flaws.strict = source->strict;
     d->space = source->space;
     d->threads = source->threads > 0 ? source->threads : ffd_processor_count();
@@ -385,14 +386,6 @@ ffd_status ffd_gltf_open_within(file_input *input, const ffd_source *source, con
     *input = (file_input){0};
     *document = &d->base;
     return FFD_OK;
-}
-
-ffd_status ffd_gltf_open(file_input *input, const ffd_source *source, mesh_document **document,
-                         ffd_error *error)
-{
-    memory_budget budget = ffd_budget_make(source->memory);
-    ffd_budget_add_file(&budget, input->size, KEPT_PER_BYTE);
-    return ffd_gltf_open_within(input, source, &budget, document, error);
 }
 
 void ffd_gltf_close(mesh_document *document)

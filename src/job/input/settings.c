@@ -15,41 +15,44 @@ static const char *const resources_words[] = {"copy", "reference", NULL};
 static const char *const isa_words[] = {"auto", "scalar", "sse2", "avx2", "avx512", NULL};
 static const char *const format_words[] = {"auto", "obj", "gltf", "glb", "ply", "off", "stl", NULL};
 
+static const char *const gate_words[] = {"folds", "outside", "multiple", "singular", "invalid", "tear",
+                                         "tear=", "flipped", "flipped=", "edges=",   NULL};
+
 #define AT(member) offsetof(ffd_deform_desc, member)
 static const ffd_member members[] = {
-    {"input.format", FFD_MEMBER_FORMAT, AT(input.format), 0, format_words},
-    {"input.space", FFD_MEMBER_CHOICE, AT(input.space), 0, space_words},
-    {"input.memory", FFD_MEMBER_BYTES, AT(input.memory), 0, NULL},
-    {"input.strict", FFD_MEMBER_FLAG, AT(input.strict), 0, NULL},
-    {"input.allow_extensions", FFD_MEMBER_LIST, AT(input.allow_extensions), AT(input.allow_extension_count),
-     NULL},
-    {"output", FFD_MEMBER_TEXT, AT(output), 0, NULL},
-    {"output_format", FFD_MEMBER_FORMAT, AT(output_format), 0, format_words},
-    {"lattices", FFD_MEMBER_LIST, AT(lattices), AT(lattice_count), NULL},
-    {"blocks", FFD_MEMBER_FLAG, AT(blocks), 0, NULL},
-    {"set", FFD_MEMBER_LIST, AT(set), AT(set_count), NULL},
-    {"outside", FFD_MEMBER_CHOICE, AT(outside), 0, outside_words},
-    {"falloff", FFD_MEMBER_LENGTH, AT(falloff), 0, NULL},
-    {"snap", FFD_MEMBER_LENGTH, AT(snap), 0, NULL},
-    {"embedding", FFD_MEMBER_TEXT, AT(embedding.path), 0, NULL},
-    {"fail_on", FFD_MEMBER_GATES, AT(fail_on), 0, NULL},
-    {"quality", FFD_MEMBER_FLAG, AT(quality), 0, NULL},
-    {"normals", FFD_MEMBER_CHOICE, AT(normals), 0, normals_words},
-    {"rig", FFD_MEMBER_CHOICE, AT(rig), 0, rig_words},
-    {"as_morph", FFD_MEMBER_TEXT, AT(as_morph), 0, NULL},
-    {"morphs", FFD_MEMBER_LIST, AT(morphs), AT(lattice_count), NULL},
-    {"clips", FFD_MEMBER_LIST, AT(clips), AT(clip_count), NULL},
-    {"only", FFD_MEMBER_LIST, AT(only), AT(only_count), NULL},
-    {"resources", FFD_MEMBER_CHOICE, AT(resources), 0, resources_words},
-    {"threads", FFD_MEMBER_COUNT, AT(threads), 0, NULL},
-    {"isa", FFD_MEMBER_CHOICE, AT(isa), 0, isa_words},
-    {"force", FFD_MEMBER_FLAG, AT(force), 0, NULL},
-    {"if_changed", FFD_MEMBER_FLAG, AT(if_changed), 0, NULL},
-    {"in_place", FFD_MEMBER_FLAG, AT(in_place), 0, NULL},
-    {"dry_run", FFD_MEMBER_FLAG, AT(dry_run), 0, NULL},
-    {"depfile", FFD_MEMBER_OBJECT, AT(depfile), 0, NULL},
-    {"positions", FFD_MEMBER_OBJECT, AT(positions), 0, NULL},
-    {"timeout", FFD_MEMBER_TIME, AT(timeout), 0, NULL},
+    {"input.format", "input-format", FFD_MEMBER_FORMAT, AT(input.format), 0, format_words, 0},
+    {"input.space", "space", FFD_MEMBER_CHOICE, AT(input.space), 0, space_words, 0},
+    {"input.memory", "memory", FFD_MEMBER_BYTES, AT(input.memory), 0, NULL, FFD_MEMBER_IS_IDLE},
+    {"input.strict", "strict", FFD_MEMBER_FLAG, AT(input.strict), 0, NULL, 0},
+    {"input.allow_extensions", "allow-extension", FFD_MEMBER_TEXTS, AT(input.allow_extensions),
+     AT(input.allow_extension_count), NULL, 0},
+    {"output", NULL, FFD_MEMBER_TEXT, AT(output), 0, NULL, FFD_MEMBER_IS_PATH},
+    {"output_format", "output-format", FFD_MEMBER_FORMAT, AT(output_format), 0, format_words, 0},
+    {"lattices", "lattice", FFD_MEMBER_LATTICES, AT(lattices), AT(lattice_count), NULL, 0},
+    {"blocks", "blocks", FFD_MEMBER_FLAG, AT(blocks), 0, NULL, 0},
+    {"set", "set", FFD_MEMBER_VALUES, AT(set), AT(set_count), NULL, 0},
+    {"outside", "outside", FFD_MEMBER_CHOICE, AT(outside), 0, outside_words, 0},
+    {"falloff", "falloff", FFD_MEMBER_LENGTH, AT(falloff), 0, NULL, 0},
+    {"snap", "snap", FFD_MEMBER_DISTANCE, AT(snap), AT(snap_relative), NULL, 0},
+    {"embedding", "embedding", FFD_MEMBER_TEXT, AT(embedding.path), 0, NULL, FFD_MEMBER_IS_PATH},
+    {"fail_on", "fail-on", FFD_MEMBER_GATES, AT(fail_on), 0, gate_words, 0},
+    {"quality", NULL, FFD_MEMBER_FLAG, AT(quality), 0, NULL, FFD_MEMBER_IS_IDLE},
+    {"normals", "normals", FFD_MEMBER_CHOICE, AT(normals), 0, normals_words, 0},
+    {"rig", "rig", FFD_MEMBER_CHOICE, AT(rig), 0, rig_words, 0},
+    {"as_morph", "as-morph", FFD_MEMBER_TEXT, AT(as_morph), 0, NULL, 0},
+    {"morphs", "morph", FFD_MEMBER_MORPHS, AT(morphs), AT(lattice_count), NULL, 0},
+    {"clips", "clip", FFD_MEMBER_CLIPS, AT(clips), AT(clip_count), NULL, 0},
+    {"only", "only", FFD_MEMBER_SELECTORS, AT(only), AT(only_count), NULL, 0},
+    {"resources", "resources", FFD_MEMBER_CHOICE, AT(resources), 0, resources_words, 0},
+    {"threads", "threads", FFD_MEMBER_COUNT, AT(threads), 0, NULL, FFD_MEMBER_IS_IDLE},
+    {"isa", "isa", FFD_MEMBER_CHOICE, AT(isa), 0, isa_words, FFD_MEMBER_IS_IDLE},
+    {"force", "force", FFD_MEMBER_FLAG, AT(force), 0, NULL, FFD_MEMBER_IS_IDLE},
+    {"if_changed", "if-changed", FFD_MEMBER_FLAG, AT(if_changed), 0, NULL, FFD_MEMBER_IS_IDLE},
+    {"in_place", "in-place", FFD_MEMBER_FLAG, AT(in_place), 0, NULL, 0},
+    {"dry_run", NULL, FFD_MEMBER_FLAG, AT(dry_run), 0, NULL, FFD_MEMBER_IS_IDLE},
+    {"depfile", NULL, FFD_MEMBER_OBJECT, AT(depfile), 0, NULL, FFD_MEMBER_IS_IDLE},
+    {"positions", NULL, FFD_MEMBER_OBJECT, AT(positions), 0, NULL, 0},
+    {"timeout", "timeout", FFD_MEMBER_TIME, AT(timeout), 0, NULL, FFD_MEMBER_IS_IDLE},
 };
 enum { MEMBERS = sizeof members / sizeof *members };
 
@@ -85,17 +88,30 @@ const ffd_member *ffd_deform_member(size_t index)
     return index < MEMBERS ? &members[index] : NULL;
 }
 
+const ffd_member *ffd_deform_member_of(const char *option)
+{
+    size_t m = 0;
+    while (m < MEMBERS && !(members[m].option && strcmp(members[m].option, option) == 0))
+        m++;
+    return m < MEMBERS ? &members[m] : NULL;
+}
+
+bool ffd_member_is_list(const ffd_member *member)
+{
+    return member->kind >= FFD_MEMBER_TEXTS && member->kind <= FFD_MEMBER_MORPHS;
+}
+
 /* The number of a choice, or of the elements of a list. */
 static size_t number_of(const ffd_deform_desc *desc, const ffd_member *member)
 {
     const char *const base = (const char *)desc;
     size_t count;
     int choice;
-    if (member->kind != FFD_MEMBER_LIST) {
+    if (!ffd_member_is_list(member)) {
         memcpy(&choice, base + member->offset, sizeof choice);
         return (size_t)choice;
     }
-    memcpy(&count, base + member->count, sizeof count);
+    memcpy(&count, base + member->second, sizeof count);
     return count;
 }
 
@@ -106,19 +122,54 @@ static double value_of(const ffd_deform_desc *desc, const ffd_member *member)
     return value;
 }
 
-static bool is_set(const ffd_deform_desc *desc, const ffd_member *member)
+static bool is_number(const ffd_member *member)
 {
-    static const size_t sizes[] = {
-        [FFD_MEMBER_FLAG] = sizeof(bool),          [FFD_MEMBER_CHOICE] = sizeof(int),
-        [FFD_MEMBER_FORMAT] = sizeof(int),         [FFD_MEMBER_COUNT] = sizeof(int),
-        [FFD_MEMBER_BYTES] = sizeof(uint64_t),     [FFD_MEMBER_GATES] = sizeof(unsigned),
-        [FFD_MEMBER_TEXT] = sizeof(const char *),  [FFD_MEMBER_LIST] = sizeof(const void *),
-        [FFD_MEMBER_OBJECT] = sizeof(const void *)};
+    return member->kind == FFD_MEMBER_LENGTH || member->kind == FFD_MEMBER_DISTANCE ||
+           member->kind == FFD_MEMBER_TIME;
+}
+
+/* By kind. */
+static const size_t sizes[] = {
+    [FFD_MEMBER_FLAG] = sizeof(bool),          [FFD_MEMBER_CHOICE] = sizeof(int),
+    [FFD_MEMBER_FORMAT] = sizeof(int),         [FFD_MEMBER_COUNT] = sizeof(int),
+    [FFD_MEMBER_LENGTH] = sizeof(double),      [FFD_MEMBER_DISTANCE] = sizeof(double),
+    [FFD_MEMBER_TIME] = sizeof(double),        [FFD_MEMBER_BYTES] = sizeof(uint64_t),
+    [FFD_MEMBER_GATES] = sizeof(unsigned),     [FFD_MEMBER_TEXT] = sizeof(const char *),
+    [FFD_MEMBER_OBJECT] = sizeof(const void *)};
+
+#define PIECE(member) ((member_piece){AT(member), sizeof((ffd_deform_desc *)0)->member})
+
+size_t ffd_member_pieces(const ffd_member *member, member_piece pieces[MEMBER_PIECES])
+{
+    size_t count = 0;
+    pieces[count++] = (member_piece){member->offset, sizes[member->kind]};
+    if (member->kind == FFD_MEMBER_DISTANCE)
+        pieces[count++] = (member_piece){member->second, sizeof(bool)};
+    if (member->kind == FFD_MEMBER_GATES) {
+        pieces[count++] = PIECE(tear_most);
+        pieces[count++] = PIECE(flipped_most);
+        pieces[count++] = PIECE(edges_most);
+    }
+    return count;
+}
+
+void ffd_member_copy(const ffd_member *member, const ffd_deform_desc *from, ffd_deform_desc *to)
+{
+    member_piece pieces[MEMBER_PIECES];
+    const size_t count = ffd_member_pieces(member, pieces);
+    for (size_t i = 0; i < count; i++)
+        memcpy((char *)to + pieces[i].offset, (const char *)from + pieces[i].offset, pieces[i].size);
+}
+
+bool ffd_member_is_set(const ffd_deform_desc *desc, const ffd_member *member)
+{
     static const char zeros[sizeof(uint64_t)];
-    if (member->kind == FFD_MEMBER_LENGTH || member->kind == FFD_MEMBER_TIME)
+    if (is_number(member))
         return value_of(desc, member) > 0;
-    return memcmp((const char *)desc + member->offset, zeros, sizes[member->kind]) != 0 &&
-           (member->kind != FFD_MEMBER_LIST || number_of(desc, member) > 0);
+    if (ffd_member_is_list(member))
+        return number_of(desc, member) > 0 &&
+               memcmp((const char *)desc + member->offset, zeros, sizeof(const void *)) != 0;
+    return memcmp((const char *)desc + member->offset, zeros, sizes[member->kind]) != 0;
 }
 
 bool ffd_setting_is_set(const ffd_deform_desc *desc, const char *setting)
@@ -129,23 +180,23 @@ bool ffd_setting_is_set(const ffd_deform_desc *desc, const char *setting)
     while (m < MEMBERS &&
            (strlen(members[m].name) != length || memcmp(members[m].name, setting, length) != 0))
         m++;
-    if (m == MEMBERS || !is_set(desc, &members[m]))
+    if (m == MEMBERS || !ffd_member_is_set(desc, &members[m]))
         return false;
     if (!word)
         return true;
     const size_t index = number_of(desc, &members[m]);
-    return members[m].kind == FFD_MEMBER_LIST ? index > 1 : strcmp(members[m].words[index], word) == 0;
+    return ffd_member_is_list(&members[m]) ? index > 1 : strcmp(members[m].words[index], word) == 0;
 }
 
 static ffd_status check_range(const ffd_deform_desc *desc, const ffd_member *member, ffd_error *error)
 {
     size_t words = 0;
-    while (member->words && member->words[words])
+    while (member->kind != FFD_MEMBER_GATES && member->words && member->words[words])
         words++;
     if (words > 0 && number_of(desc, member) >= words)
         return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a value of %s", (int)number_of(desc, member),
                         member->name);
-    if (member->kind != FFD_MEMBER_LENGTH && member->kind != FFD_MEMBER_TIME)
+    if (!is_number(member))
         return FFD_OK;
     const double value = value_of(desc, member);
     const bool is_time = member->kind == FFD_MEMBER_TIME;

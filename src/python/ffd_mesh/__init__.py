@@ -10,6 +10,7 @@ Points are arrays (N, 3) of float32 or float64; control points are arrays (nu, n
 printed.
 """
 
+from ._batch import batch
 from ._embed import EmbeddedBytes, embed_bytes, embed_file
 from ._embedding import Embedding, Status
 from ._errors import (ArgumentError, Cancelled, EmbeddingError, Error, ExistsError, FileError, GateError, InvalidError,
@@ -31,7 +32,7 @@ __version__: str = _lib.ffd_version().decode()
 __all__ = [
     "ArgumentError", "Cancelled", "Csr", "Deformed", "DeformedBytes", "EmbeddedBytes", "Embedding", "EmbeddingError", "Error",
     "ExistsError", "FileError", "Folds", "GateError", "InvalidError", "JacobianBytes", "Lattice", "LimitError",
-    "OutOfMemoryError", "Parameter", "Positions", "Result", "Status", "UnsupportedError", "ViewBytes", "check_bytes",
+    "OutOfMemoryError", "Parameter", "Positions", "Result", "Status", "UnsupportedError", "ViewBytes", "batch", "check_bytes",
     "check_file", "compare_bytes", "compare_files", "deform_bytes", "deform_file", "deform_mesh", "embed_bytes", "embed_file",
     "info", "info_bytes", "jacobian_bytes", "jacobian_file", "parameters", "positions_bytes", "positions_file", "schema",
     "view_bytes", "view_file",

@@ -41,6 +41,15 @@ def described(source: Any, lattices: Any, options: dict[str, Any],
 
 
 @contextlib.contextmanager
+def defaults_described(lattices: Any, options: dict[str, Any], known: Collection[str]) -> Iterator[Any]:
+    """Yields the description that the jobs of a batch have in common. Its lattices are files, which other processes read."""
+    desc = library.filled("ffd_deform_desc")
+    kept = [None if lattices is None else _set_lattices(desc, lattices), _set_options(desc, options, known)]
+    yield desc
+    del kept
+
+
+@contextlib.contextmanager
 def embedding_described(source: Any, lattice: AnyLattice, options: dict[str, Any],
                         known: Collection[str]) -> Iterator[tuple[Any, list[str]]]:
     """The same of a job that embeds, in one lattice."""
@@ -203,7 +212,7 @@ def _set_member(desc: Any, option: str, value: Any) -> Any:
     """Sets the member of an option. Returns an object that must stay alive."""
     member = _MEMBERS[option]
     structure, name = (desc.input if member.name.startswith("input.") else desc), member.name.removeprefix("input.")
-    if member.kind == "list":
+    if member.kind in ("texts", "selectors", "clips"):
         texts, count = _texts(value, option)
         setattr(structure, name, texts)
         setattr(structure, name.removesuffix("s") + "_count", count)

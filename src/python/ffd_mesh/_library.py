@@ -138,6 +138,11 @@ def call(function: Any, *arguments: Any) -> None:
         raise failure(status, error)
 
 
+def native(name: str) -> int:
+    """The address of a callback of the extension."""
+    return getattr(_native, name)
+
+
 class Run:
     """An ffd_run_options, with the caller's progress function and the exception that it may raise."""
 

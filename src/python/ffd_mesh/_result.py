@@ -36,6 +36,13 @@ class Result:
     displacement: Any
     behind: Any
     flaws: Any
+    # Of a job of a batch:
+    error: Error | None
+    input: str | None
+    output: str | None
+    skipped: bool
+    line: int
+    row: int
 
     def __init__(self, found: Any, warnings: list[str]) -> None:
         for name, _ in found._fields_:

@@ -1,12 +1,11 @@
-#include "io/gltf/edit/gltf_clip.h"
+/* gltf_clip.c - animations of the weights of morph targets from clips. */
 #include "base/memory/memory.h"
 #include "base/text/buffer_binary.h"
 #include "base/text/number.h"
 #include "base/text/words.h"
-#include "io/gltf/edit/gltf_grown.h"
 #include "io/gltf/edit/gltf_json_insert.h"
 #include "io/gltf/edit/gltf_left_bytes.h"
-#include "io/gltf/edit/gltf_target_names.h"
+#include "io/gltf/edit/gltf_morphs.h"
 #include "io/gltf/model/gltf_parts.h"
 #include "io/gltf/read/gltf_users.h"
 #include "json/json_text.h"
@@ -20,10 +19,8 @@
 #define IS_ZERO (UINT32_MAX - 1)
 
 typedef struct clip_writer {
-    gltf_grown file;
+    gltf_edit *file;
     memory_budget budget;
-    const clip_target *targets;
-    size_t target_count;
     const morph_clip *clip; /* the clip being written */
     size_t input;           /* accessor of its times; GLTF_NONE: not added yet */
     /* Per mesh: the sampler of its nodes without weights of their own; GLTF_NONE: not added yet. */
@@ -31,8 +28,7 @@ typedef struct clip_writer {
     size_t sampler_count, channel_count;
     byte_buffer sampler_text, channel_text;
     byte_buffer added;    /* new animations, with commas */
-    gltf_values replaced; /* animations that clips replace */
-    uint64_t bytes_left;  /* bytes that these leave unused */
+    gltf_values replaced; /* animations that clips have replaced so far; lent */
     ffd_error *error;
 } clip_writer;
 
@@ -88,8 +84,8 @@ static void put_name(const char *name, byte_buffer *text)
    number. */
 static size_t add_accessor(clip_writer *w, size_t count, const char *extra)
 {
-    gltf_grown *const file = &w->file;
-    const gltf_document *const d = w->file.document;
+    gltf_edit *const file = w->file;
+    const gltf_document *const d = w->file->document;
     ffd_buffer_format(&file->accessors,
                       "%s{\"bufferView\":%zu,\"byteOffset\":%zu,\"componentType\":5126,\"count\":%zu,"
                       "\"type\":\"SCALAR\"%s}",
@@ -107,14 +103,14 @@ static void add_times(clip_writer *w)
     snprintf(bounds, sizeof bounds, ",\"min\":[%s],\"max\":[%s]", least, most);
     w->input = add_accessor(w, clip->key_count, bounds);
     for (size_t k = 0; k < clip->key_count; k++)
-        ffd_buffer_float(&w->file.bytes, (double)clip->times[k]);
+        ffd_buffer_float(&w->file->bytes, (double)clip->times[k]);
 }
 
 /* Finds the targets of a mesh that the clip drives, and their names in the clip. Returns whether there are
    any. */
 static bool find_driven(clip_writer *w, size_t mesh, uint32_t *names, size_t count)
 {
-    const gltf_document *const d = w->file.document;
+    const gltf_document *const d = w->file->document;
     uint32_t *const values = ffd_gltf_list_target_names(d, mesh);
     bool any = false, failed = !values;
     for (size_t t = 0; t < count; t++) {
@@ -127,11 +123,11 @@ static bool find_driven(clip_writer *w, size_t mesh, uint32_t *names, size_t cou
         ffd_free(name);
     }
     ffd_free(values);
-    w->file.edits.failed = w->file.edits.failed || failed;
+    w->file->edits.failed = w->file->edits.failed || failed;
     /* Further targets are known by their places: extras may have no room for their names. */
-    for (size_t k = 0; k < w->target_count; k++) {
-        const size_t place = w->targets[k].places[mesh];
-        const char *const name = w->targets[k].name;
+    for (size_t k = 0; k < d->morph_count; k++) {
+        const size_t place = d->morphs[k].places[mesh];
+        const char *const name = d->morphs[k].name;
         if (place >= count)
             continue;
         if (!ffd_intern_find(&w->clip->names, name, strlen(name), &names[place]))
@@ -164,12 +160,12 @@ static bool put_weights(clip_writer *w, const uint32_t *names, size_t count, uin
     double *const weights = ffd_alloc_zero(clip->names.count, sizeof *weights); /* of one key, by name */
     const bool done = row && weights;
     if (done)
-        find_defaults(w->file.document, names, count, default_value, row);
+        find_defaults(w->file->document, names, count, default_value, row);
     for (size_t k = 0; done && k < clip->key_count; k++) {
         for (size_t i = clip->starts[k]; i < clip->starts[k + 1]; i++)
             weights[clip->weights[i].target] = clip->weights[i].weight;
         for (size_t t = 0; t < count; t++)
-            ffd_buffer_float(&w->file.bytes, names[t] < IS_ZERO ? weights[names[t]] : row[t]);
+            ffd_buffer_float(&w->file->bytes, names[t] < IS_ZERO ? weights[names[t]] : row[t]);
         for (size_t i = clip->starts[k]; i < clip->starts[k + 1]; i++)
             weights[clip->weights[i].target] = 0;
     }
@@ -194,7 +190,7 @@ static ffd_status add_sampler(clip_writer *w, const uint32_t *names, size_t coun
 /* Adds a channel for a node if the clip drives targets of its mesh. names: room for one per target. */
 static ffd_status add_channel(clip_writer *w, size_t node, uint32_t *names)
 {
-    const gltf_document *const d = w->file.document;
+    const gltf_document *const d = w->file->document;
     if (d->model.nodes[node].mesh < 0)
         return FFD_OK;
     const size_t mesh = (size_t)d->model.nodes[node].mesh, count = d->mesh_uses[mesh].target_count;
@@ -216,7 +212,7 @@ static ffd_status add_channel(clip_writer *w, size_t node, uint32_t *names)
 /* Returns the animation of the clip's name; JSON_NONE: none. */
 static uint32_t find_animation(const clip_writer *w, uint32_t animations)
 {
-    const json_tree *const tree = &w->file.document->tree;
+    const json_tree *const tree = &w->file->document->tree;
     for (uint32_t v = ffd_json_tree_first(tree, animations); v != JSON_NONE;
          v = ffd_json_tree_after(tree, v)) {
         const uint32_t name = ffd_json_tree_member(tree, v, "name");
@@ -246,13 +242,13 @@ static ffd_status warn_of_replaced(clip_writer *w, uint32_t old, const char *nam
 {
     char left[80] = "";
     uint64_t bytes;
-    w->replaced.values[w->replaced.count++] = old;
-    if (!count_own_bytes(w->file.document, old, &w->replaced, &bytes))
+    w->replaced.count++;
+    if (!count_own_bytes(w->file->document, old, &w->replaced, &bytes))
         return ffd_fail_memory(w->error);
-    w->bytes_left += bytes;
+    w->file->bytes_left += bytes;
     if (bytes > 0)
         snprintf(left, sizeof left, "; %" PRIu64 " bytes that only it used stay in the file", bytes);
-    ffd_log_line(w->file.log, FFD_LOG_WARNING, "has an animation \"%s\" already: it is replaced%s", name,
+    ffd_log_line(w->file->log, FFD_LOG_WARNING, "has an animation \"%s\" already: it is replaced%s", name,
                  left);
     return FFD_OK;
 }
@@ -260,11 +256,12 @@ static ffd_status warn_of_replaced(clip_writer *w, uint32_t old, const char *nam
 /* Replaces the animation of the clip's name, or adds the clip to the new animations. */
 static ffd_status place_clip(clip_writer *w, uint32_t animations)
 {
-    gltf_grown *const file = &w->file;
+    gltf_edit *const file = w->file;
     const json_tree *const tree = &file->document->tree;
     const uint32_t old = find_animation(w, animations);
     char shown[80];
     byte_buffer text = {0};
+    file->any = true;
     ffd_name_shown(w->clip->name, shown, sizeof shown);
     TRY(old == JSON_NONE ? FFD_OK : warn_of_replaced(w, old, shown));
     ffd_buffer_text(&text, old == JSON_NONE && w->added.size > 0 ? ",{\"name\":" : "{\"name\":");
@@ -289,7 +286,7 @@ static ffd_status place_clip(clip_writer *w, uint32_t animations)
 
 static ffd_status add_clip(clip_writer *w, const morph_clip *clip, uint32_t *names, uint32_t animations)
 {
-    const gltf_document *const d = w->file.document;
+    const gltf_document *const d = w->file->document;
     char shown[80];
     ffd_status status = FFD_OK;
     w->clip = clip;
@@ -304,51 +301,62 @@ static ffd_status add_clip(clip_writer *w, const morph_clip *clip, uint32_t *nam
     ffd_name_shown(clip->name, shown, sizeof shown);
     if (w->channel_count > 0)
         return place_clip(w, animations);
-    ffd_log_line(w->file.log, FFD_LOG_WARNING,
+    ffd_log_line(w->file->log, FFD_LOG_WARNING,
                  "no node has a morph target for the animation \"%s\": it is left out", shown);
     return FFD_OK;
 }
 
-static ffd_status add_all(clip_writer *w, const morph_clip *clips, size_t count, file_input *made)
+/* Notes the animations that clips replace: those of their names, unless a clip drives nothing. names: room
+   for one per target of a mesh. */
+static void find_replaced(clip_writer *w, uint32_t *names, uint32_t animations)
 {
-    const gltf_document *const d = w->file.document;
+    const gltf_document *const d = w->file->document;
+    for (size_t c = 0; c < d->clip_count; c++) {
+        bool any = false;
+        w->clip = &d->clips[c];
+        const uint32_t old = find_animation(w, animations);
+        for (size_t n = 0; n < d->model.node_count && old != JSON_NONE && !any; n++) {
+            const int mesh = d->model.nodes[n].mesh;
+            any = mesh >= 0 && find_driven(w, (size_t)mesh, names, d->mesh_uses[mesh].target_count);
+        }
+        if (any)
+            w->file->replaced.values[w->file->replaced.count++] = old;
+    }
+}
+
+static ffd_status add_all(clip_writer *w, uint32_t *names)
+{
+    gltf_document *const d = w->file->document;
     const uint32_t animations = ffd_json_tree_member(&d->tree, 0, "animations");
+    find_replaced(w, names, animations);
+    d->replaced = &w->file->replaced;
+    w->replaced.values = w->file->replaced.values;
+    ffd_gltf_extend_weights(w->file);
+    for (size_t c = 0; c < d->clip_count; c++)
+        TRY(add_clip(w, &d->clips[c], names, animations));
+    if (animations == JSON_NONE)
+        ffd_gltf_add_elements(d, &(gltf_values){0}, "animations", &w->added, &w->file->edits);
+    else if (w->added.size > 0)
+        ffd_gltf_insert_last(d, animations, &w->added, &w->file->edits);
+    return w->file->bytes.failed ? ffd_fail_memory(w->error) : FFD_OK;
+}
+
+ffd_status ffd_gltf_animate_weights(gltf_edit *edit, ffd_error *error)
+{
+    gltf_document *const d = edit->document;
+    clip_writer w = {.file = edit, .budget = d->base.budget, .error = error};
     size_t most = 0;
     for (size_t m = 0; m < d->model.mesh_count; m++)
         most = d->mesh_uses[m].target_count > most ? d->mesh_uses[m].target_count : most;
     uint32_t *const names = ffd_alloc(most, sizeof *names);
-    w->samplers = ffd_alloc(d->model.mesh_count, sizeof *w->samplers);
-    w->replaced.values = ffd_alloc(count, sizeof *w->replaced.values);
-    ffd_status status = names && w->samplers && w->replaced.values ? FFD_OK : ffd_fail_memory(w->error);
-    for (size_t c = 0; c < count && !status; c++)
-        status = add_clip(w, &clips[c], names, animations);
+    w.samplers = ffd_alloc(d->model.mesh_count, sizeof *w.samplers);
+    edit->replaced.values = ffd_alloc(d->clip_count, sizeof *edit->replaced.values);
+    const ffd_status status =
+        names && w.samplers && edit->replaced.values ? add_all(&w, names) : ffd_fail_memory(error);
     ffd_free(names);
-    if (status || w->file.accessor_count == 0)
-        return status;
-    if (animations == JSON_NONE)
-        ffd_gltf_add_elements(d, &(gltf_values){0}, "animations", &w->added, &w->file.edits);
-    else if (w->added.size > 0)
-        ffd_gltf_insert_last(d, animations, &w->added, &w->file.edits);
-    return ffd_gltf_grown_write(&w->file, made, w->error);
-}
-
-ffd_status ffd_gltf_add_clips(const gltf_document *d, const morph_clip *clips, size_t clip_count,
-                              const clip_target *targets, size_t target_count, const mesh_log *log,
-                              file_input *made, uint64_t *bytes_left, ffd_error *error)
-{
-    clip_writer w = {.file = {.document = d, .log = log},
-                     .budget = d->base.budget,
-                     .targets = targets,
-                     .target_count = target_count,
-                     .error = error};
-    *made = (file_input){0};
-    const ffd_status status = add_all(&w, clips, clip_count, made);
-    *bytes_left += w.bytes_left;
     ffd_free(w.samplers);
-    ffd_free(w.replaced.values);
     ffd_buffer_free(&w.sampler_text);
     ffd_buffer_free(&w.channel_text);
     ffd_buffer_free(&w.added);
-    ffd_gltf_grown_free(&w.file);
     return status;
 }

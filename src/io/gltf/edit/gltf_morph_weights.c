@@ -1,20 +1,20 @@
-#include "io/gltf/edit/gltf_morph_weights.h"
+/* gltf_morph_weights.c - what further morph targets get in the animations of a file. */
 #include "base/memory/memory.h"
 #include "base/text/buffer_binary.h"
 #include "base/text/words.h"
 #include "io/gltf/edit/gltf_json_insert.h"
-#include "io/gltf/edit/gltf_target_names.h"
+#include "io/gltf/edit/gltf_morphs.h"
 #include "io/gltf/read/gltf_elements.h"
 #include "io/gltf/read/gltf_index_table.h"
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 /* An output that some channels of a sampler need. */
 typedef struct wanted_output {
     size_t sampler;
-    size_t targets; /* the number of morph targets of the mesh that they drive; the output has one more */
-    bool is_single; /* they drive only the weight of the further target, which is to be 0 */
+    size_t targets; /* the number of morph targets that the file has of the mesh that they drive */
+    size_t added;   /* how many more the mesh gets, and the output has */
+    bool is_single; /* they drive only the weight of a further target, which is to be 0 */
     size_t made;    /* the new accessor; GLTF_NONE: the old one stays */
     size_t place;   /* the number of the sampler that gets it */
     size_t next;    /* of the same sampler; GLTF_NONE: the last one */
@@ -40,21 +40,15 @@ typedef struct channel_note {
 } channel_note;
 
 typedef struct weight_writer {
-    gltf_grown *file;
-    const bool *meshes;
+    gltf_edit *file;
     channel_note stale; /* their weights are not one for each morph target */
     channel_note odd;   /* likewise, and they are left as they are */
 } weight_writer;
 
-static bool read_index(const gltf_grown *file, uint32_t object, const char *key, size_t count, size_t *index)
+/* Returns a member of an object as a whole number below count; GLTF_NONE if it is not one. */
+static size_t index_of(const gltf_document *d, uint32_t object, const char *key, size_t count)
 {
-    double number;
-    if (!ffd_json_tree_number(&file->document->tree, ffd_json_tree_member(&file->document->tree, object, key),
-                              &number) ||
-        !(number >= 0 && number < (double)count) || floor(number) < number)
-        return false;
-    *index = (size_t)number;
-    return true;
+    return ffd_gltf_index(d, ffd_json_tree_member(&d->tree, object, key), count);
 }
 
 /* What a channel drives. */
@@ -86,7 +80,7 @@ static driven follow_pointer(const gltf_document *d, const char *pointer)
     return what;
 }
 
-static driven find_target(gltf_grown *file, uint32_t target)
+static driven find_target(gltf_edit *file, uint32_t target)
 {
     const gltf_document *d = file->document;
     driven what = {GLTF_NONE, GLTF_NONE};
@@ -101,9 +95,9 @@ static driven find_target(gltf_grown *file, uint32_t target)
         return what;
     }
     const uint32_t path = ffd_json_tree_member(&d->tree, target, "path");
-    size_t node;
-    if (path != JSON_NONE && ffd_json_tree_string_is(&d->tree, path, "weights") &&
-        read_index(file, target, "node", d->model.node_count, &node) && d->model.nodes[node].mesh >= 0)
+    const size_t node = index_of(d, target, "node", d->model.node_count);
+    if (path != JSON_NONE && ffd_json_tree_string_is(&d->tree, path, "weights") && node != GLTF_NONE &&
+        d->model.nodes[node].mesh >= 0)
         what.mesh = (size_t)d->model.nodes[node].mesh;
     return what;
 }
@@ -117,7 +111,7 @@ static void end_animation(animation *a)
     ffd_free(a->outputs);
 }
 
-static bool begin_animation(const gltf_grown *file, uint32_t value, animation *a)
+static bool begin_animation(const gltf_edit *file, uint32_t value, animation *a)
 {
     const json_tree *tree = &file->document->tree;
     a->samplers = ffd_json_tree_member(tree, value, "samplers");
@@ -139,12 +133,14 @@ static bool begin_animation(const gltf_grown *file, uint32_t value, animation *a
     return true;
 }
 
-/* Returns the wanted output with these properties, which is added if it is new; GLTF_NONE: memory ran out. */
-static size_t want_output(animation *a, size_t sampler, size_t targets, bool is_single)
+/* Returns the output that a sampler gets for the weights of a mesh, which is added if it is new; GLTF_NONE:
+   memory ran out. */
+static size_t want_output(animation *a, size_t sampler, const gltf_mesh_uses *mesh, bool is_single)
 {
+    const size_t targets = mesh->filed_targets, added = mesh->target_count - targets;
     size_t *last = &a->first[sampler];
-    while (*last != GLTF_NONE &&
-           (a->outputs[*last].targets != targets || a->outputs[*last].is_single != is_single))
+    while (*last != GLTF_NONE && (a->outputs[*last].targets != targets || a->outputs[*last].added != added ||
+                                  a->outputs[*last].is_single != is_single))
         last = &a->outputs[*last].next;
     if (*last != GLTF_NONE)
         return *last;
@@ -153,27 +149,29 @@ static size_t want_output(animation *a, size_t sampler, size_t targets, bool is_
     if (!ffd_grow((void **)&a->outputs, &a->output_capacity, index + 1, sizeof *a->outputs))
         return GLTF_NONE;
     a->outputs[a->output_count++] =
-        (wanted_output){sampler, targets, is_single, GLTF_NONE, sampler, GLTF_NONE};
+        (wanted_output){sampler, targets, added, is_single, GLTF_NONE, sampler, GLTF_NONE};
     return index;
 }
 
-/* Finds the channels that drive weights of the meshes. */
-static bool find_drivers(const weight_writer *w, animation *a)
+/* Finds the channels that drive weights of meshes with further targets. */
+static bool find_drivers(gltf_edit *file, animation *a)
 {
-    gltf_grown *const file = w->file;
     const json_tree *tree = &file->document->tree;
     size_t c = 0;
     for (uint32_t v = ffd_json_tree_first(tree, a->channels); v != JSON_NONE;
          v = ffd_json_tree_after(tree, v), c++) {
-        size_t sampler;
+        const size_t sampler = index_of(file->document, v, "sampler", a->sampler_count);
         a->wanted[c] = GLTF_NONE;
-        if (!read_index(file, v, "sampler", a->sampler_count, &sampler))
+        if (sampler == GLTF_NONE)
             continue;
         const driven what = find_target(file, ffd_json_tree_member(tree, v, "target"));
-        const bool grows = what.mesh != GLTF_NONE && w->meshes[what.mesh];
-        const size_t targets = grows ? file->document->mesh_uses[what.mesh].target_count : 0;
-        if (grows && (what.weight == GLTF_NONE || what.weight == targets)) {
-            a->wanted[c] = want_output(a, sampler, targets, what.weight != GLTF_NONE);
+        const gltf_mesh_uses *const mesh =
+            what.mesh == GLTF_NONE ? NULL : &file->document->mesh_uses[what.mesh];
+        const bool grows = mesh && mesh->target_count > mesh->filed_targets;
+        const bool drives_added = what.weight == GLTF_NONE || (mesh && what.weight >= mesh->filed_targets &&
+                                                               what.weight < mesh->target_count);
+        if (grows && drives_added) {
+            a->wanted[c] = want_output(a, sampler, mesh, what.weight != GLTF_NONE);
             if (a->wanted[c] == GLTF_NONE)
                 return false;
         } else {
@@ -192,23 +190,22 @@ typedef struct output_rows {
 
 /* Finds the layout of the output that a sampler has, for weights of the targets. Returns false if it is
    unknown. */
-static bool find_rows(const gltf_grown *file, uint32_t sampler, const wanted_output *wanted,
+static bool find_rows(const gltf_edit *file, uint32_t sampler, const wanted_output *wanted,
                       output_rows *layout)
 {
     const gltf_document *d = file->document;
     const uint32_t interpolation = ffd_json_tree_member(&d->tree, sampler, "interpolation");
     const bool cubic =
         interpolation != JSON_NONE && ffd_json_tree_string_is(&d->tree, interpolation, "CUBICSPLINE");
-    size_t input;
-    if (!read_index(file, sampler, "output", d->model.accessor_count, &layout->accessor))
+    const size_t input = index_of(d, sampler, "input", d->model.accessor_count);
+    layout->accessor = index_of(d, sampler, "output", d->model.accessor_count);
+    if (layout->accessor == GLTF_NONE)
         return false;
     const gltf_accessor *const old = &d->model.accessors[layout->accessor];
     const size_t count = (size_t)old->count, parts = cubic ? 3 : 1, row = parts * wanted->targets;
     if (count == 0 || old->columns * old->rows != 1 || !d->layouts[layout->accessor].readable)
         return false;
-    const size_t keys = read_index(file, sampler, "input", d->model.accessor_count, &input)
-                            ? (size_t)d->model.accessors[input].count
-                            : 0;
+    const size_t keys = input == GLTF_NONE ? 0 : (size_t)d->model.accessors[input].count;
     const bool is_whole = keys > 0 && count % keys == 0 && count / keys % parts == 0;
     layout->width = is_whole ? count / (keys * parts) : wanted->targets;
     layout->fits = keys == 0 || (is_whole && layout->width == wanted->targets && !wanted->is_single);
@@ -219,14 +216,14 @@ static bool find_rows(const gltf_grown *file, uint32_t sampler, const wanted_out
     return layout->rows > 0 && (keys > 0 || count % row == 0);
 }
 
-/* Makes an output in which the further target has the weight 0, after those of the others: as many values as
-   the old output has for them, and zeros. Zeros alone need no bytes. */
+/* Makes an output in which the further targets have the weight 0, after those of the others: as many values
+   as the old output has for them, and zeros. Zeros alone need no bytes. */
 static void write_output(const weight_writer *w, const output_rows *old, wanted_output *wanted)
 {
     const gltf_document *d = w->file->document;
-    gltf_grown *const file = w->file;
+    gltf_edit *const file = w->file;
     const size_t kept = wanted->is_single ? 0 : old->width < wanted->targets ? old->width : wanted->targets;
-    const size_t width = wanted->is_single ? 1 : wanted->targets + 1;
+    const size_t width = wanted->is_single ? 1 : wanted->targets + wanted->added;
     const size_t count = (size_t)d->model.accessors[old->accessor].count;
     ffd_buffer_text(&file->accessors, file->accessor_count > 0 ? ",{" : "{");
     if (kept > 0)
@@ -284,7 +281,7 @@ static void make_outputs(weight_writer *w, animation *a)
 }
 
 /* Appends the text of a JSON value in which one number is replaced. */
-static void copy_with_number(const gltf_grown *file, uint32_t value, uint32_t index, size_t with,
+static void copy_with_number(const gltf_edit *file, uint32_t value, uint32_t index, size_t with,
                              byte_buffer *text)
 {
     const json_tree *tree = &file->document->tree;
@@ -296,7 +293,7 @@ static void copy_with_number(const gltf_grown *file, uint32_t value, uint32_t in
 
 /* Gives samplers their new outputs: the first one to the sampler itself, unless it also drives something
    else, and the others to copies of it. */
-static void place_outputs(gltf_grown *file, animation *a)
+static void place_outputs(gltf_edit *file, animation *a)
 {
     const gltf_document *d = file->document;
     byte_buffer copies = {0};
@@ -323,7 +320,7 @@ static void place_outputs(gltf_grown *file, animation *a)
     ffd_buffer_free(&copies);
 }
 
-static void redirect_channels(gltf_grown *file, const animation *a)
+static void redirect_channels(gltf_edit *file, const animation *a)
 {
     const json_tree *tree = &file->document->tree;
     size_t c = 0;
@@ -349,15 +346,17 @@ static void warn(const weight_writer *w, const channel_note *note, const char *o
                  ffd_plural(note->count, one, many), pointer, more);
 }
 
-void ffd_gltf_extend_weights(gltf_grown *file, const bool *meshes)
+void ffd_gltf_extend_weights(gltf_edit *file)
 {
     const json_tree *tree = &file->document->tree;
     const uint32_t animations = ffd_json_tree_member(tree, 0, "animations");
-    weight_writer w = {.file = file, .meshes = meshes};
+    weight_writer w = {.file = file};
     for (uint32_t v = ffd_json_tree_first(tree, animations); v != JSON_NONE && !file->edits.failed;
          v = ffd_json_tree_after(tree, v)) {
         animation a = {0};
-        if (begin_animation(file, v, &a) && find_drivers(&w, &a)) {
+        if (ffd_gltf_is_replaced(file->document, v))
+            continue;
+        if (begin_animation(file, v, &a) && find_drivers(file, &a)) {
             make_outputs(&w, &a);
             place_outputs(file, &a);
             redirect_channels(file, &a);

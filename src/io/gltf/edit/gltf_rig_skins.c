@@ -100,17 +100,13 @@ static void mark_skins(const gltf_document *d, bool *shown, bool *staying)
     for (size_t n = 0; n < d->model.node_count; n++)
         if (!d->in_scene[n] && d->model.nodes[n].mesh >= 0 && d->model.nodes[n].skin >= 0)
             staying[d->model.nodes[n].skin] = true;
-    for (size_t m = 0; m < d->model.mesh_count; m++) {
-        const gltf_mesh_uses *const uses = &d->mesh_uses[m];
-        for (size_t n = 0; uses->nodes && n < uses->node_count; n++) {
-            const int skin = d->model.nodes[uses->nodes[n]].skin;
-            if (skin < 0)
-                continue;
-            shown[skin] = true;
-            for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, m, p));)
-                staying[skin] =
-                    staying[skin] || (ffd_gltf_is_skinned(p) && !ffd_gltf_instances(d, p)[n].selected);
-        }
+    for (size_t i = 0; i < d->instance_count; i++) {
+        const gltf_instance *const instance = &d->instances[i];
+        const int skin = instance->node == GLTF_NONE ? -1 : d->model.nodes[instance->node].skin;
+        if (skin < 0)
+            continue;
+        shown[skin] = true;
+        staying[skin] = staying[skin] || (ffd_gltf_is_skinned(instance->primitive) && !instance->selected);
     }
 }
 

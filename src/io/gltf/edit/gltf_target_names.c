@@ -1,6 +1,7 @@
-#include "io/gltf/edit/gltf_target_names.h"
+/* gltf_target_names.c - the names of morph targets. */
 #include "base/memory/memory.h"
 #include "io/gltf/edit/gltf_json_insert.h"
+#include "io/gltf/edit/gltf_morphs.h"
 #include "json/json_text.h"
 
 static bool is_array(const gltf_document *d, uint32_t value)
@@ -28,15 +29,15 @@ static void take_names(const gltf_document *d, uint32_t list, uint32_t *names, s
 
 uint32_t *ffd_gltf_list_target_names(const gltf_document *d, size_t mesh)
 {
-    const size_t count = d->mesh_uses[mesh].target_count;
+    const size_t count = d->mesh_uses[mesh].target_count, filed = d->mesh_uses[mesh].filed_targets;
     uint32_t *const names = ffd_alloc(count, sizeof *names);
     if (!names)
         return NULL;
     for (size_t t = 0; t < count; t++)
         names[t] = JSON_NONE;
-    take_names(d, list_of(d, d->mesh_values.values[mesh]), names, count);
+    take_names(d, list_of(d, d->mesh_values.values[mesh]), names, filed);
     for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh, p));)
-        take_names(d, list_of(d, p->value), names, count);
+        take_names(d, list_of(d, p->value), names, filed);
     return names;
 }
 
@@ -57,107 +58,132 @@ bool ffd_gltf_find_target(const gltf_document *d, size_t mesh, const char *name,
     return names;
 }
 
-/* The names to add. */
-typedef struct name_writer {
-    gltf_grown *file;
-    size_t mesh, count; /* count: targets before the further one */
-    const uint32_t *names;
-    const char *name; /* of the further target */
-} name_writer;
-
-/* Writes a name as a JSON string. */
-static void write_name(const char *name, byte_buffer *text)
+/* Whether the extras of a mesh have a list of names, or room for one. */
+static bool can_hold_names(const gltf_document *d, size_t mesh)
 {
-    json_text json;
-    ffd_json_begin(&json, text);
-    ffd_json_string(&json, NULL, name);
+    const uint32_t extras = ffd_json_tree_member(&d->tree, d->mesh_values.values[mesh], "extras");
+    const uint32_t names = ffd_json_tree_member(&d->tree, extras, "targetNames");
+    return (extras == JSON_NONE || d->tree.values[extras].kind == JSON_OBJECT) &&
+           (names == JSON_NONE || is_array(d, names));
 }
 
-/* Writes the names of the targets from `first` on, and that of the further one. */
-static void write_names(const name_writer *w, size_t first, byte_buffer *text)
-{
-    const json_tree *const tree = &w->file->document->tree;
-    for (size_t t = first; t < w->count; t++) {
-        const json_value *const name = w->names[t] == JSON_NONE ? NULL : &tree->values[w->names[t]];
-        if (name)
-            ffd_buffer_append(text, tree->text + name->begin, name->end - name->begin);
-        else
-            ffd_buffer_format(text, "\"target_%zu\"", t);
-        ffd_buffer_text(text, ",");
-    }
-    write_name(w->name, text);
-}
-
-/* Logs which targets of the mesh have got a name: those from `first` on that had none. */
-static void log_named(const name_writer *w, size_t first)
+/* Logs which targets of a mesh get a name: those that have none, and have no place in its list. */
+static void log_named(const gltf_document *d, size_t mesh, const uint32_t *names, const mesh_log *log)
 {
     size_t count = 0, least = 0, last = 0;
-    for (size_t t = first; t < w->count; t++) {
-        if (w->names[t] != JSON_NONE)
+    for (size_t t = ffd_json_tree_count(&d->tree, list_of(d, d->mesh_values.values[mesh]));
+         t < d->mesh_uses[mesh].filed_targets; t++) {
+        if (names[t] != JSON_NONE)
             continue;
         least = count++ ? least : t;
         last = t;
     }
     if (count == 1)
-        ffd_log_line(w->file->log, FFD_LOG_INFO,
-                     "the unnamed morph target of mesh %zu is now called target_%zu", w->mesh, least);
+        ffd_log_line(log, FFD_LOG_INFO, "the unnamed morph target of mesh %zu is now called target_%zu", mesh,
+                     least);
     else if (count > 1)
-        ffd_log_line(w->file->log, FFD_LOG_INFO,
-                     "the unnamed morph targets of mesh %zu are now called target_%zu to target_%zu", w->mesh,
+        ffd_log_line(log, FFD_LOG_INFO,
+                     "the unnamed morph targets of mesh %zu are now called target_%zu to target_%zu", mesh,
                      least, last);
 }
 
-/* Completes a list. If it has more names than the mesh has targets, the new name replaces the first surplus
-   one. */
+bool ffd_gltf_log_target_name(const gltf_document *d, size_t mesh, const mesh_log *log)
+{
+    const gltf_mesh_uses *const uses = &d->mesh_uses[mesh];
+    uint32_t *const names = ffd_gltf_list_target_names(d, mesh);
+    if (!names)
+        return false;
+    if (!can_hold_names(d, mesh))
+        ffd_log_line(log, FFD_LOG_WARNING, "mesh %zu: its extras cannot hold the name of the morph target",
+                     mesh);
+    else if (uses->target_count == uses->filed_targets)
+        log_named(d, mesh, names, log);
+    ffd_free(names);
+    return true;
+}
+
+/* The names of the targets of a mesh. */
+typedef struct name_writer {
+    const gltf_document *document;
+    size_t mesh, filed; /* filed: targets before the further ones */
+    const uint32_t *names;
+    json_edits *edits;
+} name_writer;
+
+/* Writes the name of a further target as a JSON string. */
+static void write_added(const name_writer *w, size_t target, byte_buffer *text)
+{
+    const gltf_document *const d = w->document;
+    json_text json;
+    size_t k = 0;
+    while (d->morphs[k].places[w->mesh] != target)
+        k++;
+    ffd_json_begin(&json, text);
+    ffd_json_string(&json, NULL, d->morphs[k].name);
+}
+
+/* Writes the names of the targets from `first` on, and those of the further ones. */
+static void write_names(const name_writer *w, size_t first, byte_buffer *text)
+{
+    const json_tree *const tree = &w->document->tree;
+    for (size_t t = first; t < w->document->mesh_uses[w->mesh].target_count; t++) {
+        ffd_buffer_text(text, t > first ? "," : "");
+        if (t >= w->filed)
+            write_added(w, t, text);
+        else if (w->names[t] == JSON_NONE)
+            ffd_buffer_format(text, "\"target_%zu\"", t);
+        else
+            ffd_buffer_append(text, tree->text + tree->values[w->names[t]].begin,
+                              tree->values[w->names[t]].end - tree->values[w->names[t]].begin);
+    }
+}
+
+/* Completes a list. If it has more names than the mesh had targets, the new names replace the surplus ones.
+ */
 static void edit_list(const name_writer *w, uint32_t list)
 {
-    gltf_grown *const file = w->file;
-    const json_tree *const tree = &file->document->tree;
-    const size_t named = tree->values[list].count;
+    const json_tree *const tree = &w->document->tree;
+    const size_t count = w->document->mesh_uses[w->mesh].target_count, named = tree->values[list].count;
     byte_buffer text = {0};
-    write_names(w, named < w->count ? named : w->count, &text);
-    if (named <= w->count) {
-        ffd_gltf_insert_last(file->document, list, &text, &file->edits);
-    } else if (!text.failed) {
-        const json_value *value = &tree->values[ffd_json_tree_element(tree, list, w->count)];
-        ffd_edits_replace(&file->edits, value->begin, value->end, text.data, text.size);
+    for (size_t t = w->filed; t < count && t < named; t++) {
+        const json_value *const surplus = &tree->values[ffd_json_tree_element(tree, list, t)];
+        write_added(w, t, &text);
+        if (!text.failed)
+            ffd_edits_replace(w->edits, surplus->begin, surplus->end, text.data, text.size);
+        text.size = 0;
     }
-    file->edits.failed = file->edits.failed || text.failed;
+    write_names(w, named, &text);
+    if (named < count)
+        ffd_gltf_insert_last(w->document, list, &text, w->edits);
+    w->edits->failed = w->edits->failed || text.failed;
     ffd_buffer_free(&text);
 }
 
 static void edit_mesh(const name_writer *w)
 {
-    gltf_grown *const file = w->file;
-    const json_tree *const tree = &file->document->tree;
-    const uint32_t value = file->document->mesh_values.values[w->mesh];
-    const uint32_t extras = ffd_json_tree_member(tree, value, "extras");
-    const uint32_t names = ffd_json_tree_member(tree, extras, "targetNames");
+    const gltf_document *const d = w->document;
+    const uint32_t value = d->mesh_values.values[w->mesh];
+    const uint32_t extras = ffd_json_tree_member(&d->tree, value, "extras");
+    const uint32_t list = list_of(d, value);
     byte_buffer text = {0};
-    if ((extras != JSON_NONE && tree->values[extras].kind != JSON_OBJECT) ||
-        (names != JSON_NONE && !is_array(file->document, names))) {
-        ffd_log_line(file->log, FFD_LOG_WARNING,
-                     "mesh %zu: its extras cannot hold the name of the morph target", w->mesh);
+    if (!can_hold_names(d, w->mesh))
         return;
-    }
-    log_named(w, names == JSON_NONE ? 0 : tree->values[names].count);
-    if (names != JSON_NONE) {
-        edit_list(w, names);
+    if (list != JSON_NONE) {
+        edit_list(w, list);
         return;
     }
     ffd_buffer_text(&text, extras == JSON_NONE ? "\"extras\":{\"targetNames\":[" : "\"targetNames\":[");
     write_names(w, 0, &text);
     ffd_buffer_text(&text, extras == JSON_NONE ? "]}" : "]");
-    ffd_gltf_insert_last(file->document, extras == JSON_NONE ? value : extras, &text, &file->edits);
+    ffd_gltf_insert_last(d, extras == JSON_NONE ? value : extras, &text, w->edits);
     ffd_buffer_free(&text);
 }
 
-void ffd_gltf_add_target_name(gltf_grown *file, size_t mesh, const char *name)
+void ffd_gltf_edit_target_names(const gltf_document *d, size_t mesh, json_edits *edits)
 {
-    const gltf_document *const d = file->document;
     uint32_t *const names = ffd_gltf_list_target_names(d, mesh);
-    const name_writer w = {file, mesh, d->mesh_uses[mesh].target_count, names, name};
-    file->edits.failed = file->edits.failed || !names;
+    const name_writer w = {d, mesh, d->mesh_uses[mesh].filed_targets, names, edits};
+    edits->failed = edits->failed || !names;
     if (!names)
         return;
     edit_mesh(&w);

@@ -9,7 +9,8 @@
 ffd_status ffd_gltf_make_parts(gltf_document *document, ffd_error *error);
 
 /* Makes document->shapes, with the default weights of their nodes or meshes, and document->targets; call it
-   after ffd_gltf_make_parts. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+   after ffd_gltf_make_parts. Call it again when the model has got further targets: earlier results of
+   targets, and what splats change, are lost. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_gltf_make_shapes(gltf_document *document, ffd_error *error);
 
 /* Returns the array of default weights of a node or mesh; JSON_NONE if it has none, or it is not an array. */

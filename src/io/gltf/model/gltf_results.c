@@ -102,16 +102,6 @@ void ffd_gltf_complete_results(gltf_document *d)
         }
 }
 
-void ffd_gltf_free_result(gltf_stream *stream)
-{
-    ffd_free(stream->result);
-    ffd_free(stream->filled);
-    ffd_free(stream->bounds);
-    stream->result = NULL;
-    stream->filled = NULL;
-    stream->bounds = NULL;
-}
-
 /* Makes the result of a stream. Offsets of a further morph target start as zeros. Other results start as the
    file's content, but a tile is copied only when needed: most tiles are overwritten as a whole, and the
    others were just read and are in the cache. */

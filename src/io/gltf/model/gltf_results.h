@@ -7,9 +7,6 @@
 /* Copies the original vectors to every tile of the results that was not written. */
 void ffd_gltf_complete_results(gltf_document *document);
 
-/* Frees the arrays of a stream's result. */
-void ffd_gltf_free_result(gltf_stream *stream);
-
 /* Returns the bounds of count vectors; NaN is ignored. */
 gltf_tile_bounds ffd_gltf_find_bounds(const float *xyz, size_t count);
 

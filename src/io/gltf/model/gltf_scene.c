@@ -392,7 +392,7 @@ static void count_targets(gltf_document *d)
         const gltf_primitive *const primitive = &d->model.primitives[i];
         gltf_mesh_uses *const uses = &d->mesh_uses[primitive->mesh];
         if (primitive->target_count > uses->target_count)
-            uses->target_count = primitive->target_count;
+            uses->target_count = uses->filed_targets = primitive->target_count;
     }
 }
 

@@ -13,27 +13,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A use of a mesh by a node. */
-typedef struct mesh_use {
-    size_t mesh, use; /* GLTF_NONE: no use */
-} mesh_use;
-
-/* Returns the part of the positions of a primitive for a use of its mesh. */
-static size_t position_part(const gltf_document *d, const gltf_primitive *primitive, size_t use)
-{
-    return ffd_gltf_instances(d, primitive)[use].part[GLTF_POSITION];
-}
-
-static mesh_use find_use(const gltf_document *d, size_t part)
-{
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t n = 0; n < d->mesh_uses[m].node_count; n++)
-            for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, m, p));)
-                if (position_part(d, p, n) == part)
-                    return (mesh_use){m, n};
-    return (mesh_use){GLTF_NONE, GLTF_NONE};
-}
-
 /* Counts and clears the marks of a part. first: the number of its first vertex. */
 static uint64_t count_part(const gltf_document *d, size_t part, size_t first, uint8_t *marks)
 {
@@ -45,12 +24,15 @@ static uint64_t count_part(const gltf_document *d, size_t part, size_t first, ui
     return count;
 }
 
-static uint64_t count_use(const gltf_document *d, mesh_use at, const size_t *first, uint8_t *marks)
+/* The same for all parts of the node that a part is of, or of its mesh in mesh space. */
+static uint64_t count_node(const gltf_document *d, const gltf_part *of, const size_t *first, uint8_t *marks)
 {
     uint64_t count = 0;
-    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, at.mesh, p));) {
-        const size_t part = position_part(d, p, at.use);
-        if (part != GLTF_NONE)
+    for (size_t i = 0; i < d->instance_count; i++) {
+        const gltf_instance *const instance = &d->instances[i];
+        const size_t part = instance->part[GLTF_POSITION];
+        if (instance->node == of->node && instance->primitive->mesh == of->primitive->mesh &&
+            part != GLTF_NONE)
             count += count_part(d, part, first[part], marks);
     }
     return count;
@@ -86,14 +68,11 @@ uint64_t ffd_gltf_name_part(const mesh_document *document, uint64_t vertex, uint
         return 0; /* without memory the result has no name, which is not worth a failure */
     while (d->mesh_parts[part].repeats_positions || vertex >= first[part] + d->mesh_parts[part].vertex_count)
         part++;
-    const mesh_use at = find_use(d, part);
+    const gltf_part *const of = &d->parts[part];
     uint64_t count = 0;
-    if (at.mesh != GLTF_NONE) {
-        const size_t *const nodes = d->mesh_uses[at.mesh].nodes;
-        if ((nodes && write_name(d, "nodes", "node", nodes[at.use], name, capacity)) ||
-            write_name(d, "meshes", "mesh", at.mesh, name, capacity))
-            count = count_use(d, at, first, marks);
-    }
+    if ((of->node != GLTF_NONE && write_name(d, "nodes", "node", of->node, name, capacity)) ||
+        write_name(d, "meshes", "mesh", of->primitive->mesh, name, capacity))
+        count = count_node(d, of, first, marks);
     ffd_free(first);
     return count;
 }

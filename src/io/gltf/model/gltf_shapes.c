@@ -179,11 +179,14 @@ bool ffd_gltf_weight(const gltf_document *d, uint32_t value, double *weight)
     return ffd_json_tree_number(&d->tree, value, weight) && fabs(*weight) <= FLT_MAX;
 }
 
-/* Adds a primitive's weights to the shapes of its part; several of its targets may be the same shape. */
+/* Adds a primitive's weights to the shapes of its part; several of its targets may be the same shape. Those
+   that the file does not have weigh nothing. */
 static void add_weights(gltf_document *d, const gltf_instance *instance)
 {
-    uint32_t weight = ffd_gltf_first_weight(d, instance->primitive->mesh, instance->node);
-    for (size_t t = 0; t < instance->primitive->target_count && weight != JSON_NONE;
+    const gltf_primitive *const primitive = instance->primitive;
+    const size_t filed = d->mesh_uses[primitive->mesh].filed_targets;
+    uint32_t weight = ffd_gltf_first_weight(d, primitive->mesh, instance->node);
+    for (size_t t = 0; t < primitive->target_count && t < filed && weight != JSON_NONE;
          t++, weight = ffd_json_tree_after(&d->tree, weight)) {
         const size_t part = d->targets[instance->first_target + t];
         double number;
@@ -218,9 +221,29 @@ static ffd_status set_weights(gltf_document *d, ffd_error *error)
     return FFD_OK;
 }
 
+/* Forgets the shapes, and the splats, whose parts follow theirs. */
+static void drop_shapes(gltf_document *d)
+{
+    for (size_t i = d->base.part_count; i < ffd_gltf_part_count(d); i++)
+        for (int s = 0; s < GLTF_DEFORMED; s++)
+            ffd_gltf_free_result(&d->parts[i].streams[s]);
+    for (size_t i = 0; i < d->base.part_count; i++) {
+        d->parts[i].first_splat = GLTF_NONE;
+        d->mesh_parts[i].shape_count = 0;
+    }
+    for (size_t i = 0; i < d->instance_count; i++)
+        d->instances[i].first_splat = GLTF_NONE;
+    ffd_free(d->shapes);
+    ffd_free(d->targets);
+    d->shapes = NULL;
+    d->targets = NULL;
+    d->shape_count = d->splat_groups = 0;
+}
+
 ffd_status ffd_gltf_make_shapes(gltf_document *d, ffd_error *error)
 {
     size_t total;
+    drop_shapes(d);
     ffd_status status = count_targets(d, &total, error);
     if (status || total == 0)
         return status;

@@ -1,4 +1,5 @@
 #include "io/gltf/read/gltf_document.h"
+#include "base/memory/memory.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -46,6 +47,16 @@ uint32_t ffd_gltf_first(const gltf_document *d, uint32_t object, const char *key
     const uint32_t array = ffd_json_tree_member(&d->tree, object, key);
     const bool is_array = array != JSON_NONE && d->tree.values[array].kind == JSON_ARRAY;
     return is_array ? ffd_json_tree_first(&d->tree, array) : JSON_NONE;
+}
+
+void ffd_gltf_free_result(gltf_stream *stream)
+{
+    ffd_free(stream->result);
+    ffd_free(stream->filled);
+    ffd_free(stream->bounds);
+    stream->result = NULL;
+    stream->filled = NULL;
+    stream->bounds = NULL;
 }
 
 /* Documents whose files have fewer bytes together keep the pages of their mmap: finding a page again in the

@@ -114,6 +114,7 @@ typedef struct gltf_mesh_uses {
     size_t *nodes;           /* lent by document->scene_nodes; ascending */
     size_t node_count;       /* in mesh space 1 (nodes is NULL) */
     size_t target_count;     /* the largest number of morph targets of a primitive */
+    size_t filed_targets;    /* of these, those that the file has: saving may add further ones */
     bool is_used;            /* whether any node of the file has the mesh */
     bool used_outside_scene; /* whether a node outside the scene has it, or no node at all */
 } gltf_mesh_uses;
@@ -124,6 +125,9 @@ typedef struct gltf_morph {
     bool normals;    /* whether it has offsets of normals and tangents too */
     float **results; /* GLTF_DEFORMED arrays per part, each as in gltf_stream */
     size_t result_count;
+    /* Per mesh: its place among the mesh's targets; GLTF_NONE: the mesh does not get it. NULL before saving.
+     */
+    size_t *places;
 } gltf_morph;
 
 typedef struct gltf_document {
@@ -203,14 +207,15 @@ typedef struct gltf_document {
     size_t morph_count, morph_capacity;
     const morph_clip *clips; /* clip_count, lent: animations to add */
     size_t clip_count;
-    /* Number of accessors at the end of the model that the file did not have: zeros without bytes. */
-    size_t own_accessors;
     gltf_instanced_node *instanced_nodes; /* in the order of nodes */
     size_t instanced_node_count;
     /* The reason if the transforms of instances are unknown: the document can then only be described. */
     ffd_status instancing_status;
     ffd_error instancing_error;
-    struct gltf_rig *rig; /* how nodes follow the deformation (io/gltf/edit); NULL: they do not */
+    /* Lent: what saving changes and adds beside results (io/gltf/edit); NULL: nothing. */
+    struct gltf_edit *edit;
+    const gltf_values *replaced; /* lent: animations that the edit replaces; NULL: none */
+    struct gltf_rig *rig;        /* how nodes follow the deformation (io/gltf/edit); NULL: they do not */
     /* Per morph target of an instance: the part that holds its offsets; GLTF_NONE: not deformed. */
     size_t *targets;
 } gltf_document;
@@ -230,6 +235,9 @@ void ffd_gltf_forget_bytes(const gltf_document *document, const gltf_buffer *buf
    uncompressed. */
 void ffd_gltf_forget_elements(const gltf_document *document, size_t accessor, size_t first, size_t count);
 
+/* Frees the arrays of a stream's result. */
+void ffd_gltf_free_result(gltf_stream *stream);
+
 /* Converts a mesh document, which must be of glTF. */
 static inline const gltf_document *ffd_gltf_of(const mesh_document *document)
 {
@@ -246,6 +254,27 @@ static inline size_t ffd_gltf_shape_end(const gltf_document *document)
 static inline size_t ffd_gltf_part_count(const gltf_document *document)
 {
     return ffd_gltf_shape_end(document) + document->splat_groups;
+}
+
+/* Whether an accessor of the model is not one of the file: saving adds it, with zeros and no bytes. */
+static inline bool ffd_gltf_is_added(const gltf_document *document, size_t accessor)
+{
+    return accessor >= document->accessor_values.count;
+}
+
+/* Whether a value is among others (NULL: none). */
+static inline bool ffd_gltf_is_among(const gltf_values *list, uint32_t value)
+{
+    for (size_t i = 0; list && i < list->count; i++)
+        if (list->values[i] == value)
+            return true;
+    return false;
+}
+
+/* Whether an animation is replaced in the output: what it names does not count. */
+static inline bool ffd_gltf_is_replaced(const gltf_document *document, uint32_t animation)
+{
+    return ffd_gltf_is_among(document->replaced, animation);
 }
 
 /* Returns the primitive of a mesh after `primitive`, or the first one if that is NULL; NULL: there is none.

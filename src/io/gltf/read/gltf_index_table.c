@@ -109,7 +109,8 @@ static void visit_list(walk *w, const char *list, const char *rest)
     w->place.owner = 0;
     for (uint32_t v = ffd_json_tree_first(tree, ffd_json_tree_member(tree, 0, list)); v != JSON_NONE;
          v = ffd_json_tree_after(tree, v)) {
-        follow(w, rest, v);
+        if (!ffd_gltf_is_replaced(w->document, v))
+            follow(w, rest, v);
         w->place.owner++;
     }
 }

@@ -57,20 +57,12 @@ static void mark_primitive(const gltf_primitive *primitive, bool *used)
         used[primitive->indices] = true;
 }
 
-static bool is_among(const gltf_values *list, uint32_t value)
-{
-    for (size_t i = 0; list && i < list->count; i++)
-        if (list->values[i] == value)
-            return true;
-    return false;
-}
-
 void ffd_gltf_mark_rig_users(const gltf_document *d, const gltf_values *but, bool *used)
 {
     const uint32_t animations = ffd_json_tree_member(&d->tree, 0, "animations");
     for (uint32_t a = ffd_json_tree_first(&d->tree, animations); a != JSON_NONE;
          a = ffd_json_tree_after(&d->tree, a))
-        if (!is_among(but, a))
+        if (!ffd_gltf_is_among(but, a))
             ffd_gltf_mark_animation(d, a, used);
     mark_skins(d, used);
 }

@@ -79,6 +79,27 @@ static bool says(double number, double wanted, int component)
     return !(read < wanted) && !(read > wanted);
 }
 
+/* Writes a bound of an accessor of zeros that saving adds: 0 where the results do not change it. */
+static void write_bound(const char *key, const double bound[3], byte_buffer *text)
+{
+    ffd_buffer_format(text, ",\"%s\":[", key);
+    for (size_t c = 0; c < 3; c++) {
+        char number[FFD_NUMBER_CAPACITY];
+        const size_t size = ffd_number_format(says(0, bound[c], GLTF_FLOAT) ? 0 : bound[c], number);
+        ffd_buffer_text(text, c > 0 ? "," : "");
+        ffd_buffer_append(text, number, size);
+    }
+    ffd_buffer_text(text, "]");
+}
+
+void ffd_gltf_write_bounds(const gltf_saver *saver, const gltf_version *version, byte_buffer *text)
+{
+    const stored_bounds bounds =
+        version ? find_bounds(saver->document, version->accessor, version, NULL) : (stored_bounds){{0}, {0}};
+    write_bound("min", bounds.least, text);
+    write_bound("max", bounds.largest, text);
+}
+
 /* Edits the numbers of a "min" or "max" that differ from the stored values. */
 static void edit_bound(const gltf_saver *saver, uint32_t array, const double bound[16], int component,
                        json_edits *edits)

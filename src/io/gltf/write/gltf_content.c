@@ -4,6 +4,7 @@
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
 #include "base/text/base64.h"
+#include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/read/gltf_elements.h"
 #include "io/gltf/write/gltf_plan.h"
 #include "io/gltf/write/gltf_saver.h"
@@ -53,6 +54,8 @@ static new_location location_of(const gltf_saver *saver, size_t a)
 static bool needs_buffer(const gltf_saver *saver)
 {
     const gltf_document *d = saver->document;
+    if (ffd_gltf_added_bytes(d) > 0 && ffd_gltf_added_buffer(d) == d->buffer_values.count)
+        return true;
     for (size_t i = 0; i < saver->plan.appended_count; i++)
         if (ffd_gltf_append_buffer(d, saver->plan.versions[saver->plan.appended[i]].accessor) ==
             d->buffer_values.count)
@@ -85,6 +88,8 @@ static ffd_status make_buffers(gltf_saver *saver, ffd_error *error)
             .append_count++;
     for (size_t i = 0; i < saver->unpacking_count; i++)
         saver->buffers[saver->unpackings[i].buffer].append_count++;
+    if (ffd_gltf_added_bytes(d) > 0)
+        saver->buffers[ffd_gltf_added_buffer(d)].append_count++;
     for (size_t b = 0; b < saver->buffer_count; b++) {
         gltf_new_buffer *buffer = &saver->buffers[b];
         buffer->length = buffer->old->length;
@@ -154,12 +159,22 @@ static ffd_status add_append(const gltf_saver *saver, size_t b, gltf_append appe
     return FFD_OK;
 }
 
+/* Before all others: accessors of the edit name its offset. */
+static ffd_status list_added(const gltf_saver *saver, ffd_error *error)
+{
+    const gltf_document *const d = saver->document;
+    const size_t size = ffd_gltf_added_bytes(d);
+    const gltf_append append = {
+        .size = size, .version = GLTF_NONE, .bytes = size ? (unsigned char *)d->edit->bytes.data : NULL};
+    return size ? add_append(saver, ffd_gltf_added_buffer(d), append, error) : FFD_OK;
+}
+
 static ffd_status list_unpacked(gltf_saver *saver, ffd_error *error)
 {
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < saver->unpacking_count && !status; i++) {
         gltf_unpacking *u = &saver->unpackings[i];
-        const gltf_append append = {.size = u->size, .version = GLTF_NONE, .unpacking = i};
+        const gltf_append append = {.size = u->size, .version = GLTF_NONE, .bytes = u->bytes};
         status = add_append(saver, u->buffer, append, error);
         if (!status)
             u->offset = saver->buffers[u->buffer].length - u->size;
@@ -179,7 +194,7 @@ static ffd_status list_appends(gltf_saver *saver, ffd_error *error)
         const gltf_append append = {.size = sparse->bytes ? sparse->size : size,
                                     .stride = stride,
                                     .version = index,
-                                    .sparse = sparse->bytes};
+                                    .bytes = sparse->bytes};
         TRY(add_append(saver, ffd_gltf_append_buffer(d, version->accessor), append, error));
     }
     return FFD_OK;
@@ -191,6 +206,7 @@ ffd_status ffd_gltf_make_content(gltf_saver *saver, ffd_error *error)
     TRY(ffd_gltf_mend_weights(saver, error));
     TRY(ffd_gltf_list_sparse(saver, error));
     TRY(make_buffers(saver, error));
+    TRY(list_added(saver, error));
     TRY(list_appends(saver, error));
     TRY(list_unpacked(saver, error));
     list_overwrites(saver);
@@ -283,13 +299,8 @@ static void apply_overwrites(const gltf_document *d, const gltf_new_buffer *buff
 static void apply_append(const gltf_saver *saver, const gltf_append *append, size_t offset, size_t size,
                          unsigned char *bytes)
 {
-    if (append->sparse) {
-        copy_common(append->sparse, append->offset, append->size, offset, size, bytes);
-        return;
-    }
-    if (append->version == GLTF_NONE) {
-        copy_common(saver->unpackings[append->unpacking].bytes, append->offset, append->size, offset, size,
-                    bytes);
+    if (append->bytes) {
+        copy_common(append->bytes, append->offset, append->size, offset, size, bytes);
         return;
     }
     const gltf_version *version = &saver->plan.versions[append->version];

@@ -288,7 +288,7 @@ static void search(const stale_search *s, byte_buffer *found)
         const bool is_bounds = holds && is_named_as_bounds(tree, value) && is_in_extension(tree, v);
         if (is_bounds && is_of_changed(s, v))
             ffd_buffer_append(found, &v, sizeof v);
-        v = is_bounds ? value->next : v + 1;
+        v = is_bounds || ffd_gltf_is_replaced(s->document, v) ? value->next : v + 1;
     }
 }
 

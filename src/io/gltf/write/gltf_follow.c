@@ -2,6 +2,7 @@
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
+#include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/read/gltf_index_table.h"
 #include "io/gltf/write/gltf_plan.h"
 #include "io/gltf/write/gltf_saver.h"
@@ -118,6 +119,12 @@ static void write_name(const gltf_index_place *place, size_t mesh, const char *r
     ffd_free(characters);
 }
 
+/* Appends a range of the file's JSON as the document's edit changes it: a channel may get another sampler. */
+static void copy_edited(const gltf_document *d, uint32_t begin, uint32_t end, byte_buffer *text)
+{
+    ffd_edits_apply(d->edit ? &d->edit->edits : &(json_edits){0}, d->tree.text, begin, end, text);
+}
+
 /* Repeats an element of a list, for a copy of the mesh that it refers to. */
 static void repeat(copies *c, const gltf_index_place *place, size_t copy, const char *rest)
 {
@@ -133,9 +140,9 @@ static void repeat(copies *c, const gltf_index_place *place, size_t copy, const 
         return;
     }
     ffd_buffer_text(&text, ",");
-    ffd_buffer_append(&text, d->tree.text + element->begin, value->begin - element->begin);
+    copy_edited(d, element->begin, value->begin, &text);
     write_name(place, d->mesh_values.count + copy, rest, &text);
-    ffd_buffer_append(&text, d->tree.text + value->end, element->end - value->end);
+    copy_edited(d, value->end, element->end, &text);
     if (!text.failed)
         ffd_edits_replace(edits, element->end, element->end, text.data, text.size);
     edits->failed = edits->failed || text.failed;

@@ -1,5 +1,6 @@
 /* gltf_make_plan.c - makes the plan of saving. */
 #include "base/memory/memory.h"
+#include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/edit/gltf_rig.h"
 #include "io/gltf/read/gltf_elements.h"
 #include "io/gltf/read/gltf_users.h"
@@ -303,14 +304,6 @@ static bool can_overwrite(const gltf_document *d, const gltf_version *version)
     return has_bytes && !accessor->sparse.present && version->component == accessor->component;
 }
 
-/* Whether the program itself added the accessor, with zeros and no bytes: the version's bytes can be bound to
-   it. */
-static bool can_rebind(const gltf_document *d, const gltf_version *version)
-{
-    const gltf_accessor *accessor = &d->model.accessors[version->accessor];
-    return version->accessor >= d->model.accessor_count - d->own_accessors && accessor->view < 0;
-}
-
 static ffd_status choose_in_place(const gltf_document *d, gltf_plan *plan, ffd_error *error)
 {
     bool *original = ffd_alloc_zero(d->model.accessor_count, sizeof *original);
@@ -327,7 +320,7 @@ static ffd_status choose_in_place(const gltf_document *d, gltf_plan *plan, ffd_e
     if (d->rig)
         ffd_gltf_mark_rig_originals(d, original);
     else
-        ffd_gltf_mark_rig_users(d, NULL, original);
+        ffd_gltf_mark_rig_users(d, d->replaced, original);
     for (size_t a = 0; a < d->model.accessor_count; a++)
         plan->in_place[a] = GLTF_NONE;
     for (size_t v = plan->version_count; v-- > 0;) {
@@ -336,7 +329,7 @@ static ffd_status choose_in_place(const gltf_document *d, gltf_plan *plan, ffd_e
             continue;
         if (can_overwrite(d, version))
             plan->in_place[version->accessor] = v;
-        version->rebinds = can_rebind(d, version);
+        version->rebinds = ffd_gltf_is_added(d, version->accessor);
         original[version->accessor] =
             original[version->accessor] || version->rebinds; /* only one version per accessor */
     }
@@ -355,7 +348,7 @@ static ffd_status append_rest(const gltf_document *d, gltf_plan *plan, ffd_error
         if (version->accessor != GLTF_NONE && plan->in_place[version->accessor] == v) {
             version->output = version->accessor;
         } else if (version->needed) {
-            version->output = version->rebinds ? version->accessor : d->model.accessor_count + added++;
+            version->output = version->rebinds ? version->accessor : ffd_gltf_accessor_end(d) + added++;
             plan->appended[plan->appended_count++] = v;
         }
     }

@@ -1,5 +1,6 @@
 /* gltf_patch.c - edits the JSON as the plan and the new buffers require. */
 #include "base/memory/memory.h"
+#include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/edit/gltf_json_insert.h"
 #include "io/gltf/edit/gltf_rig.h"
 #include "io/gltf/read/gltf_elements.h"
@@ -66,9 +67,11 @@ static void edit_attributes(const gltf_saver *saver, size_t mesh, size_t use, js
         for (uint32_t t = ffd_json_tree_first(&d->tree, targets); t != JSON_NONE;
              t = ffd_json_tree_after(&d->tree, t)) {
             first += GLTF_DEFORMED;
-            edit_slots(saver, p, t, first, use, edits);
+            if (!ffd_gltf_replaces_target(d, mesh, first / GLTF_DEFORMED - 1))
+                edit_slots(saver, p, t, first, use, edits);
         }
     }
+    ffd_gltf_edit_targets(saver, mesh, use, edits);
 }
 
 /* Adds a copy of an element, with edits of its own, to the element's list. */
@@ -109,9 +112,9 @@ static void write_view(const gltf_saver *saver, const gltf_append *append, size_
         ffd_gltf_version_numbers(saver->document, version) * ffd_gltf_component_size(version->component);
     ffd_buffer_format(text, "%s{\"buffer\":%zu,\"byteOffset\":%zu,\"byteLength\":%zu",
                       text->size > 0 ? "," : "", buffer, append->offset, append->size);
-    if (append->stride > element && !append->sparse)
+    if (append->stride > element && !append->bytes)
         ffd_buffer_format(text, ",\"byteStride\":%zu", append->stride);
-    if (!append->sparse)
+    if (!append->bytes)
         write_target(saver, version, text);
     ffd_buffer_text(text, "}");
 }
@@ -124,6 +127,12 @@ static void add_views(gltf_saver *saver)
     if (!next) {
         saver->edits.failed = true;
         return;
+    }
+    if (ffd_gltf_added_bytes(d) > 0) {
+        const size_t buffer = ffd_gltf_added_buffer(d);
+        ffd_buffer_format(&text, "{\"buffer\":%zu,\"byteOffset\":%zu,\"byteLength\":%zu}", buffer,
+                          saver->buffers[buffer].appends[0].offset, ffd_gltf_added_bytes(d));
+        next[buffer]++;
     }
     for (size_t i = 0; i < saver->plan.appended_count; i++) {
         const size_t accessor = saver->plan.versions[saver->plan.appended[i]].accessor;
@@ -161,20 +170,6 @@ static void edit_storage(const gltf_saver *saver, const gltf_version *version, s
     ffd_edits_remove(edits, tree, accessor, gone, gone_count);
 }
 
-/* Makes an accessor of zeros sparse: only its nonzero elements are stored. */
-static void edit_sparse(const gltf_saver *saver, const gltf_version *version, const gltf_stored_part *sparse,
-                        size_t view, json_edits *edits)
-{
-    const uint32_t inside =
-        value_of(saver, saver->document->accessor_values.values[version->accessor])->begin + 1;
-    byte_buffer text = {0};
-    ffd_gltf_write_sparse(sparse, view, &text);
-    edits->failed = edits->failed || text.failed;
-    if (!text.failed)
-        ffd_edits_replace(edits, inside, inside, text.data, text.size);
-    ffd_buffer_free(&text);
-}
-
 static void announce_floats(const gltf_saver *saver, const gltf_version *version)
 {
     const int component = saver->document->model.accessors[version->accessor].component;
@@ -185,36 +180,35 @@ static void announce_floats(const gltf_saver *saver, const gltf_version *version
             version->accessor, component, version->output);
 }
 
-/* Adds an accessor of matrices that the file did not have. */
-static void add_matrices(gltf_saver *saver, const gltf_version *version, size_t view)
+/* Writes an accessor of matrices that the file did not have. */
+static void write_matrices(const gltf_version *version, size_t view, byte_buffer *text)
 {
-    byte_buffer text = {0};
-    ffd_buffer_format(&text, "{\"bufferView\":%zu,\"componentType\":%d,\"count\":%zu,\"type\":\"MAT4\"}",
-                      view, GLTF_FLOAT, version->count);
-    ffd_gltf_add_elements(saver->document, &saver->document->accessor_values, "accessors", &text,
-                          &saver->edits);
-    ffd_buffer_free(&text);
+    ffd_buffer_format(text, "{\"bufferView\":%zu,\"componentType\":%d,\"count\":%zu,\"type\":\"MAT4\"}", view,
+                      GLTF_FLOAT, version->count);
 }
 
 static void add_accessors(gltf_saver *saver)
 {
     const gltf_document *d = saver->document;
+    ffd_gltf_add_new_accessors(saver);
     for (size_t i = 0; i < saver->plan.appended_count; i++) {
         const gltf_version *version = &saver->plan.versions[saver->plan.appended[i]];
-        json_edits edits = {0}, *own = version->rebinds ? &saver->edits : &edits;
-        if (version->accessor == GLTF_NONE) {
-            add_matrices(saver, version, d->view_values.count + i);
-            continue;
-        }
-        if (saver->sparse[i].bytes)
-            edit_sparse(saver, version, &saver->sparse[i], d->view_values.count + i, own);
-        else
-            edit_storage(saver, version, d->view_values.count + i, own);
-        ffd_gltf_edit_bounds(saver, version, own);
+        byte_buffer text = {0};
+        json_edits edits = {0};
         if (version->rebinds)
             continue;
-        add_copy(saver, &d->accessor_values, "accessors", version->accessor, &edits);
-        announce_floats(saver, version);
+        if (version->accessor == GLTF_NONE) {
+            write_matrices(version, ffd_gltf_view_end(d) + i, &text);
+        } else if (ffd_gltf_is_added(d, version->accessor)) {
+            ffd_gltf_write_new_accessor(saver, version->accessor, i, &text);
+        } else {
+            edit_storage(saver, version, ffd_gltf_view_end(d) + i, &edits);
+            ffd_gltf_edit_bounds(saver, version, &edits);
+            add_copy(saver, &d->accessor_values, "accessors", version->accessor, &edits);
+            announce_floats(saver, version);
+        }
+        ffd_gltf_add_elements(d, &d->accessor_values, "accessors", &text, &saver->edits);
+        ffd_buffer_free(&text);
     }
 }
 
@@ -306,6 +300,7 @@ ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error)
     add_meshes(saver);
     TRY(ffd_gltf_follow_meshes(saver, error));
     ffd_gltf_warn_of_stale(saver);
+    ffd_gltf_edit_node_weights(saver);
     edit_rig(saver);
     edit_buffers(saver);
     ffd_gltf_move_buffers(saver);

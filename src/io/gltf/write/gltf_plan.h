@@ -18,7 +18,7 @@ typedef struct gltf_version {
     bool needed;
     int component; /* the component type: the accessor's, or GLTF_FLOAT if that cannot represent the values */
     size_t output; /* its accessor in the output; GLTF_NONE: none yet */
-    bool rebinds;  /* its accessor is one that the program added without bytes; it gets a bufferView */
+    bool rebinds;  /* its accessor is one that saving adds: it gets the bufferView of these bytes */
 } gltf_version;
 
 /* A copy of a mesh, for nodes that cannot use the original. */

@@ -1,6 +1,7 @@
 /* gltf_save.c - writes a document with its results. */
 #include "base/little_endian.h"
 #include "base/text/base64.h"
+#include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/edit/gltf_rig.h"
 #include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/model/gltf_results.h"
@@ -65,20 +66,19 @@ static ffd_status put_json(const gltf_saver *saver, size_t end, ffd_error *error
     return status ? status : put(saver, text + at, end - at, error);
 }
 
-/* Returns where a GLB's old JSON text ends. If its size changes, its padding is left out, because the new
-   text needs its own. */
+/* Returns where a GLB's old JSON text ends. If its size changes, its padding is left out: the new text needs
+   its own, and the two would add up from run to run. */
 static size_t json_end(const gltf_saver *saver)
 {
     const json_tree *tree = &saver->document->tree;
-    const size_t value_end = tree->values[0].end;
+    size_t end = tree->size;
     if (saver->binary != saver->document->binary)
-        return value_end;
-    if (json_size(saver, tree->size) == tree->size || tree->size - value_end > 3)
-        return tree->size;
-    for (size_t i = value_end; i < tree->size; i++)
-        if (tree->text[i] != ' ')
-            return tree->size;
-    return value_end;
+        return tree->values[0].end;
+    if (json_size(saver, end) == end)
+        return end;
+    while (end > tree->values[0].end && tree->text[end - 1] == ' ')
+        end--;
+    return end;
 }
 
 static ffd_status put_chunk_header(const gltf_saver *saver, uint64_t size, uint32_t type, ffd_error *error)
@@ -145,7 +145,7 @@ static ffd_status put_glb(const gltf_saver *saver, ffd_error *error)
     if (!status && d->binary)
         status = put(saver, d->input.data + d->glb.rest_begin, sizes.rest, error);
     /* Bytes beyond the stated length are kept only if nothing else changes. */
-    const bool still = saver->plan.version_count == 0 && !(d->rig && d->rig->node_count > 0);
+    const bool still = saver->plan.version_count == 0 && !d->edit && !(d->rig && d->rig->node_count > 0);
     if (!status && d->binary && still)
         status = put(saver, d->input.data + d->glb.end, d->input.size - d->glb.end, error);
     return status;
@@ -202,6 +202,10 @@ ffd_status ffd_gltf_save_results(mesh_document *document, const mesh_save_option
     saver.binary = options->format == FFD_FORMAT_AUTO ? d->binary : options->format == FFD_FORMAT_GLB;
     saver.in_place = !ffd_output_is_stream(options->path) && !ffd_file_is_stream(d->path) &&
                      ffd_save_meets(options, d->path, options->path);
+    if (d->edit) {
+        ffd_edits_join(&saver.edits, &d->edit->edits);
+        ffd_edits_sort(&d->edit->edits);
+    }
     ffd_status status = ffd_gltf_make_plan(d, &saver.plan, error);
     if (!status)
         status = ffd_gltf_make_content(&saver, error);

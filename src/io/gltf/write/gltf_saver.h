@@ -1,7 +1,7 @@
 /* gltf_saver.h - the state of saving: the plan, the new buffers, the edits of the JSON; and the steps, in the
-   order of gltf_save.c: gltf_content.c (with gltf_unpack.c, gltf_mend_weights.c, gltf_sparse.c),
-   gltf_container.c, gltf_patch.c (with gltf_bounds.c, gltf_follow.c, gltf_extensions.c), gltf_resources.c,
-   gltf_announce.c. */
+   order of gltf_save.c: gltf_content.c (with gltf_unpack.c, gltf_mend_weights.c, gltf_targets.c),
+   gltf_container.c, gltf_patch.c (with gltf_targets.c, gltf_bounds.c, gltf_follow.c, gltf_extensions.c),
+   gltf_resources.c, gltf_announce.c. */
 #ifndef FFD_IO_GLTF_WRITE_GLTF_SAVER_H
 #define FFD_IO_GLTF_WRITE_GLTF_SAVER_H
 
@@ -26,12 +26,12 @@ typedef struct gltf_unpacking {
     size_t buffer, offset; /* where they go */
 } gltf_unpacking;
 
-/* The content of a new accessor, or decompressed data, after the old end of a buffer. */
+/* The content of a new accessor, or other data, after the old end of a buffer. */
 typedef struct gltf_append {
     size_t offset, size, stride; /* size: of all elements; stride: a multiple of 4, as attributes require */
-    size_t version;              /* GLTF_NONE: decompressed data */
-    size_t unpacking;
-    const unsigned char *sparse; /* the stored part of the version; NULL: all of it */
+    size_t version;              /* GLTF_NONE: none */
+    /* Decompressed data, that of an edit, the stored part of a version; NULL: all elements of the version. */
+    const unsigned char *bytes;
 } gltf_append;
 
 /* The nonzero elements of an appended version, if only these are stored: their indices, then their values. */
@@ -110,10 +110,6 @@ ffd_status ffd_gltf_mend_weights(gltf_saver *saver, ffd_error *error);
    FFD_E_MEMORY. */
 ffd_status ffd_gltf_list_sparse(gltf_saver *saver, ffd_error *error);
 
-/* Writes the member "sparse" of an accessor, followed by a comma. view: the bufferView of its indices and
-   values. */
-void ffd_gltf_write_sparse(const gltf_stored_part *sparse, size_t view, byte_buffer *text);
-
 /* Frees saver->sparse. */
 void ffd_gltf_free_sparse(gltf_saver *saver);
 
@@ -145,12 +141,34 @@ void ffd_gltf_move_buffers(gltf_saver *saver);
 /* Chooses the names and edits the buffers' URIs. Errors: FFD_E_EXISTS, FFD_E_ARGUMENT, FFD_E_MEMORY. */
 ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error);
 
+/* Writes the bounds of an accessor that saving adds, as members after others. version: its content; NULL:
+   zeros. */
+void ffd_gltf_write_bounds(const gltf_saver *saver, const gltf_version *version, byte_buffer *text);
+
 /* Edits the bounds of the accessor that a version overwrites, if it has bounds. */
 void ffd_gltf_edit_bounds(const gltf_saver *saver, const gltf_version *version, json_edits *edits);
 
 /* Edits the bounds of an accessor that is written decompressed, and does not change else. */
 void ffd_gltf_edit_unpacked_bounds(const gltf_saver *saver, const gltf_unpacking *unpacking,
                                    json_edits *edits);
+
+/* Edits the morph targets of a mesh for a use: they name the accessors with its content, and the further ones
+   are added, with weights and names. */
+void ffd_gltf_edit_targets(const gltf_saver *saver, size_t mesh, size_t use, json_edits *edits);
+
+/* Adds weights of 0 for further morph targets to the nodes that have weights of their own. */
+void ffd_gltf_edit_node_weights(gltf_saver *saver);
+
+/* Whether a morph target of a mesh is written anew: it replaces the file's, or is a further one. */
+bool ffd_gltf_replaces_target(const gltf_document *document, size_t mesh, size_t target);
+
+/* Adds the accessors that the document's edit adds: those of further morph targets, then those of animations.
+ */
+void ffd_gltf_add_new_accessors(gltf_saver *saver);
+/* Appends one of them to the text of a list, with the content of version plan.appended[appended]; GLTF_NONE:
+   zeros. */
+void ffd_gltf_write_new_accessor(const gltf_saver *saver, size_t accessor, size_t appended,
+                                 byte_buffer *text);
 
 /* Makes and logs these edits. Errors: FFD_E_MEMORY. */
 ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error);

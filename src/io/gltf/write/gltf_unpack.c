@@ -1,5 +1,6 @@
 /* gltf_unpack.c - writes compressed data decompressed if any of it changed. */
 #include "base/memory/memory.h"
+#include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/read/gltf_draco.h"
 #include "io/gltf/read/gltf_views.h"
 #include "io/gltf/write/gltf_plan.h"
@@ -209,7 +210,7 @@ static void edit_accessor(gltf_saver *saver, const gltf_unpacking *unpacking, si
 
 void ffd_gltf_edit_unpackings(gltf_saver *saver)
 {
-    const size_t first = saver->document->view_values.count + saver->plan.appended_count;
+    const size_t first = ffd_gltf_view_end(saver->document) + saver->plan.appended_count;
     for (size_t i = 0; i < saver->unpacking_count; i++)
         if (saver->unpackings[i].view != GLTF_NONE)
             edit_view(saver, &saver->unpackings[i]);

@@ -1,0 +1,59 @@
+/* job_ended.c - tells the caller of a batch that a job has ended. */
+#include "base/memory/memory.h"
+#include "batch/batch_run.h"
+#include "job/figures/figure_values.h"
+#include "job/report/report_figures.h"
+#include "json/json_parse.h"
+
+/* Reads the figures of a skipped job, as far as the journal has them. */
+static void read_figures(const pool_task *task, ffd_job_result *result)
+{
+    const json_input input = {
+        .text = task->figures.data, .size = task->figures.size - 1, .name = "the journal"};
+    json_tree tree;
+    if (task->figures.size == 0 || ffd_json_parse(&input, &tree, NULL))
+        return;
+    ffd_figures_read(&tree, 0, result);
+    ffd_json_tree_free(&tree);
+}
+
+/* Takes what the worker has answered. Its pointers are those of its own memory. morphs: results of morph
+   targets, freed by the caller. */
+static void take_result(const pool_task *task, ffd_job_result *result, ffd_job_result **morphs)
+{
+    const ffd_deform_desc *const desc = &task->job.desc;
+    memcpy(result, task->result.data, sizeof *result);
+    const size_t size = task->result.size - sizeof *result;
+    *morphs = size ? ffd_alloc(size, 1) : NULL;
+    if (*morphs)
+        memcpy(*morphs, task->result.data + sizeof *result, size);
+    result->morphs =
+        (ffd_morph_results){*morphs ? size / sizeof *result : 0, desc->morphs, desc->lattices, *morphs};
+}
+
+void ffd_run_call_ended(const batch_run *run, const pool_task *task, const char *log)
+{
+    const ffd_batch_desc *const given = run->desc->given;
+    ffd_job_result result, *morphs = NULL;
+    if (!given->ended)
+        return;
+    ffd_result_clear(&result);
+    if (task->result.size >= sizeof result)
+        take_result(task, &result, &morphs);
+    else if (task->end.outcome == OUTCOME_SKIPPED)
+        read_figures(task, &result);
+    if (task->failure.status) {
+        result.error = task->failure;
+        result.status = result.error.status;
+    }
+    result.picture = task->end.has_picture ? task->picture : NULL;
+    const ffd_batch_job job = {.line = task->job.line,
+                               .row = task->job.row,
+                               .input = task->job.input,
+                               .output = ffd_job_output_name(&task->job),
+                               .skipped = task->end.outcome == OUTCOME_SKIPPED,
+                               .log = log,
+                               .result = &result};
+    given->ended(given->ended_user, &job);
+    ffd_free(morphs);
+}
