@@ -238,6 +238,11 @@ def other_targets_and_their_names_stay(run):
     equal((found["weights"], found["extras"]), ([0, 0, 0], {"targetNames": ["target_0", "target_1", "bent"]}))
     found = mesh(scene_with(2, extras={"targetNames": ["a"]}))
     equal(found["extras"], {"targetNames": ["a", "target_1", "bent"]})
+    # No two get one name, where the new one or another is called as those without a name are.
+    found = mesh(scene_with(2), name="target_1")
+    equal(found["extras"], {"targetNames": ["target_0", "target_1_1", "target_1"]})
+    found = mesh(scene_with(2, extras={"targetNames": ["target_1"]}))
+    equal(found["extras"], {"targetNames": ["target_1", "target_1_1", "bent"]})
     found = mesh(scene_with(1, extras={"targetNames": ["a", "left over", "c"]}))
     equal(found["extras"], {"targetNames": ["a", "bent", "c"]})
     found = mesh(scene_with(1, extras={}, weights=[]), err=re.compile("default weights of mesh 0"))

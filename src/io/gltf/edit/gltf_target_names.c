@@ -1,8 +1,11 @@
 /* gltf_target_names.c - the names of morph targets. */
+#include "base/memory/intern.h"
 #include "base/memory/memory.h"
 #include "io/gltf/edit/gltf_json_insert.h"
 #include "io/gltf/edit/gltf_morphs.h"
 #include "json/json_text.h"
+#include <stdio.h>
+#include <string.h>
 
 static bool is_array(const gltf_document *d, uint32_t value)
 {
@@ -67,8 +70,49 @@ static bool can_hold_names(const gltf_document *d, size_t mesh)
            (names == JSON_NONE || is_array(d, names));
 }
 
+#define INVENTED "target_"
+
+/* Adds a name that an invented one could be equal to. */
+static bool reserve(const char *name, intern_table *taken)
+{
+    uint32_t index;
+    return strncmp(name, INVENTED, strlen(INVENTED)) != 0 || ffd_intern(taken, name, strlen(name), &index);
+}
+
+/* Lists the names that targets of a mesh have, or get from the caller, and an invented one must not be.
+   Returns false if memory runs out. */
+static bool list_taken(const gltf_document *d, size_t mesh, const uint32_t *names, intern_table *taken)
+{
+    bool done = true;
+    for (size_t k = 0; k < d->morph_count && done; k++)
+        done = reserve(d->morphs[k].name, taken);
+    for (size_t t = 0; t < d->mesh_uses[mesh].filed_targets && done; t++) {
+        char *const name = names[t] == JSON_NONE ? NULL : ffd_json_tree_string(&d->tree, names[t], NULL);
+        done = names[t] == JSON_NONE || (name && reserve(name, taken));
+        ffd_free(name);
+    }
+    return done;
+}
+
+typedef struct invented_name {
+    char text[64];
+} invented_name;
+
+/* Returns the name that an unnamed target gets: "target_3" or, where another one has that name, "target_3_1",
+   and so on. */
+static invented_name invent_name(size_t target, const intern_table *taken)
+{
+    invented_name name;
+    uint32_t index;
+    snprintf(name.text, sizeof name.text, INVENTED "%zu", target);
+    for (size_t k = 1; ffd_intern_find(taken, name.text, strlen(name.text), &index); k++)
+        snprintf(name.text, sizeof name.text, INVENTED "%zu_%zu", target, k);
+    return name;
+}
+
 /* Logs which targets of a mesh get a name: those that have none, and have no place in its list. */
-static void log_named(const gltf_document *d, size_t mesh, const uint32_t *names, const mesh_log *log)
+static void log_named(const gltf_document *d, size_t mesh, const uint32_t *names, const intern_table *taken,
+                      const mesh_log *log)
 {
     size_t count = 0, least = 0, last = 0;
     for (size_t t = ffd_json_tree_count(&d->tree, list_of(d, d->mesh_values.values[mesh]));
@@ -79,27 +123,27 @@ static void log_named(const gltf_document *d, size_t mesh, const uint32_t *names
         last = t;
     }
     if (count == 1)
-        ffd_log_line(log, FFD_LOG_INFO, "the unnamed morph target of mesh %zu is now called target_%zu", mesh,
-                     least);
+        ffd_log_line(log, FFD_LOG_INFO, "the unnamed morph target of mesh %zu is now called %s", mesh,
+                     invent_name(least, taken).text);
     else if (count > 1)
-        ffd_log_line(log, FFD_LOG_INFO,
-                     "the unnamed morph targets of mesh %zu are now called target_%zu to target_%zu", mesh,
-                     least, last);
+        ffd_log_line(log, FFD_LOG_INFO, "the unnamed morph targets of mesh %zu are now called %s to %s", mesh,
+                     invent_name(least, taken).text, invent_name(last, taken).text);
 }
 
 bool ffd_gltf_log_target_name(const gltf_document *d, size_t mesh, const mesh_log *log)
 {
     const gltf_mesh_uses *const uses = &d->mesh_uses[mesh];
     uint32_t *const names = ffd_gltf_list_target_names(d, mesh);
-    if (!names)
-        return false;
-    if (!can_hold_names(d, mesh))
+    intern_table taken = {0};
+    const bool done = names && list_taken(d, mesh, names, &taken);
+    if (done && !can_hold_names(d, mesh))
         ffd_log_line(log, FFD_LOG_WARNING, "mesh %zu: its extras cannot hold the name of the morph target",
                      mesh);
-    else if (uses->target_count == uses->filed_targets)
-        log_named(d, mesh, names, log);
+    else if (done && uses->target_count == uses->filed_targets)
+        log_named(d, mesh, names, &taken, log);
+    ffd_intern_free(&taken);
     ffd_free(names);
-    return true;
+    return done;
 }
 
 /* The names of the targets of a mesh. */
@@ -107,6 +151,7 @@ typedef struct name_writer {
     const gltf_document *document;
     size_t mesh, filed; /* filed: targets before the further ones */
     const uint32_t *names;
+    intern_table taken; /* list_taken */
     json_edits *edits;
 } name_writer;
 
@@ -131,7 +176,7 @@ static void write_names(const name_writer *w, size_t first, byte_buffer *text)
         if (t >= w->filed)
             write_added(w, t, text);
         else if (w->names[t] == JSON_NONE)
-            ffd_buffer_format(text, "\"target_%zu\"", t);
+            ffd_buffer_format(text, "\"%s\"", invent_name(t, &w->taken).text);
         else
             ffd_buffer_append(text, tree->text + tree->values[w->names[t]].begin,
                               tree->values[w->names[t]].end - tree->values[w->names[t]].begin);
@@ -182,15 +227,16 @@ static void edit_mesh(const name_writer *w)
 void ffd_gltf_edit_target_names(const gltf_document *d, size_t mesh, json_edits *edits)
 {
     uint32_t *const names = ffd_gltf_list_target_names(d, mesh);
-    const name_writer w = {d, mesh, d->mesh_uses[mesh].filed_targets, names, edits};
-    edits->failed = edits->failed || !names;
-    if (!names)
-        return;
-    edit_mesh(&w);
-    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh, p));) {
+    name_writer w = {d, mesh, d->mesh_uses[mesh].filed_targets, names, {0}, edits};
+    const bool done = names && list_taken(d, mesh, names, &w.taken);
+    edits->failed = edits->failed || !done;
+    if (done)
+        edit_mesh(&w);
+    for (const gltf_primitive *p = NULL; done && (p = ffd_gltf_next_primitive(d, mesh, p));) {
         const uint32_t list = list_of(d, p->value);
         if (list != JSON_NONE)
             edit_list(&w, list);
     }
+    ffd_intern_free(&w.taken);
     ffd_free(names);
 }
