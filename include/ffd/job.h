@@ -202,6 +202,13 @@ FFD_API void ffd_depfile_destroy(ffd_depfile **depfile);
    FFD_E_MEMORY. */
 FFD_API ffd_status ffd_depfile_write(ffd_depfile *depfile, ffd_error *error);
 
+/* An embedding of a job: a file, or its bytes. */
+typedef struct ffd_embedding_source {
+    const char
+        *path; /* the file; with bytes only a name for messages, or NULL, which stands for "embedding" */
+    ffd_bytes bytes; /* the content of such a file */
+} ffd_embedding_source;
+
 /* A job of `ffd deform` or `ffd check`. Fill with ffd_deform_desc_init, then set input, output and
    lattices. */
 typedef struct ffd_deform_desc {
@@ -230,9 +237,9 @@ typedef struct ffd_deform_desc {
        step) reaches the volume. */
     double snap;
     bool snap_relative;
-    /* A file that `ffd embed` made of this mesh and the only lattice with the same snap, to be reused; or
-       NULL. Not with blocks. */
-    const char *embedding;
+    /* What `ffd embed` made of this mesh and the only lattice with the same snap, to be reused; or nothing.
+       Not with blocks. */
+    ffd_embedding_source embedding;
     unsigned fail_on;      /* ffd_gate flags; the next three are the limits of some gates */
     double tear_most;      /* FFD_GATE_TEAR: world units; negative: no edge may be torn */
     uint64_t flipped_most; /* FFD_GATE_FLIPPED: number of faces */
@@ -282,10 +289,9 @@ typedef struct ffd_deform_desc {
     ffd_job_cache *cache;       /* the cache of this run; may be NULL */
     /* The box for lattices whose box is "mesh", instead of the bounds of this mesh; may be NULL. */
     const ffd_shared_box *shared_box;
-    ffd_depfile *depfile;      /* receives the rule of the output; not with "-" and in_place; may be NULL */
-    ffd_log_function log;      /* receives warnings and, by level, more; may be NULL */
-    void *log_user;            /* passed to log, as the other _user members to their functions */
-    ffd_bytes embedding_bytes; /* the content of the embedding file; embedding is then only a name, or NULL */
+    ffd_depfile *depfile; /* receives the rule of the output; not with "-" and in_place; may be NULL */
+    ffd_log_function log; /* receives warnings and, by level, more; may be NULL */
+    void *log_user;       /* passed to log, as the other _user members to their functions */
     /* Receives what would be written; no file is written then. output is only a name, written is ignored, and
        existing files do not matter. FFD_E_ARGUMENT with in_place, depfile and FFD_RESOURCES_REFERENCE. */
     ffd_sink_function sink;

@@ -30,7 +30,7 @@ static bool has_memory(const ffd_deform_desc *jobs)
     while (files < jobs->lattice_count && jobs->lattices[files].path && !jobs->lattices[files].text.data &&
            !jobs->lattices[files].object)
         files++;
-    return files < jobs->lattice_count || jobs->embedding_bytes.data;
+    return files < jobs->lattice_count || jobs->embedding.bytes.data;
 }
 
 static bool is_stream(const char *path)

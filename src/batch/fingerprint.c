@@ -133,8 +133,8 @@ ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const hash128 *co
         status = add_images_of_input(&list, cache, desc, files, error);
     for (size_t i = 0; i < desc->lattice_count && !status; i++)
         status = ffd_paths_add(&others, desc->lattices[i].path, error);
-    if (!status && desc->embedding)
-        status = ffd_paths_add(&others, desc->embedding, error);
+    if (!status && desc->embedding.path)
+        status = ffd_paths_add(&others, desc->embedding.path, error);
     if (!status)
         status = add_files(&list, cache, &others, error);
     for (size_t i = 0; i < others.count && !status; i++)
@@ -150,22 +150,22 @@ static ffd_status find_copies(const char *path, const mesh_format *format, path_
 {
     file_input bytes;
     ffd_status status = FFD_OK;
-    if (!format->find_resources || ffd_file_load(path, &bytes, NULL))
+    if (!format->resources || ffd_file_load(path, &bytes, NULL))
         return FFD_OK;
-    status = format->find_resources(path, &bytes, images, error);
+    status = format->resources->find_named(path, &bytes, &(mesh_named){.copies = images}, error);
     ffd_file_unload(&bytes);
     return status;
 }
 
 /* Lists the files that the output refers to: its buffers, and images and material libraries
-   (format.find_resources finds those that were copied), which may be missing. */
+   (find_named finds those that were copied), which may be missing. */
 static ffd_status list_output(const ffd_source *output, bool has_copies, path_list *files, path_list *images,
                               ffd_error *error)
 {
     ffd_format format;
     mesh_document *document = NULL;
     ffd_status status = ffd_source_format(output, &format, error);
-    if (!status && !ffd_format_table(format)->list_files) {
+    if (!status && !ffd_format_table(format)->sidecars) {
         status = ffd_paths_add(files, output->path, error);
         return !status && has_copies ? find_copies(output->path, ffd_format_table(format), images, error)
                                      : status;
@@ -174,8 +174,8 @@ static ffd_status list_output(const ffd_source *output, bool has_copies, path_li
         status = ffd_source_open(output, 1, &document, error);
     if (!status)
         status = ffd_source_files(output, document, files, error);
-    if (!status && document->format->list_images)
-        status = document->format->list_images(document, images, error);
+    if (!status && document->format->sidecars)
+        status = document->format->sidecars->list_images(document, images, error);
     ffd_source_close(&document);
     return status;
 }

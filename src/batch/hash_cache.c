@@ -89,8 +89,8 @@ static ffd_status list_by_document(cached_mesh *mesh, const ffd_source *source, 
     ffd_status status = ffd_source_open(source, 1, &document, error);
     if (!status)
         status = ffd_source_files(source, document, &mesh->files, error);
-    if (!status && document->format->list_images)
-        status = document->format->list_images(document, &mesh->images, error);
+    if (!status && document->format->sidecars)
+        status = document->format->sidecars->list_images(document, &mesh->images, error);
     ffd_source_close(&document);
     return status;
 }
@@ -110,7 +110,8 @@ static ffd_status list_by_bytes(hash_cache *cache, cached_mesh *mesh, const ffd_
 {
     file_input bytes;
     TRY(load_and_hash(cache, source->path, &mesh->stamp, &bytes, error));
-    ffd_status status = table->find_resources(source->path, &bytes, &mesh->images, error);
+    ffd_status status =
+        table->resources->find_named(source->path, &bytes, &(mesh_named){.copies = &mesh->images}, error);
     ffd_kept_put(&cache->kept, source->path, &mesh->stamp, &bytes);
     return status;
 }
@@ -123,7 +124,7 @@ static ffd_status scan_source(hash_cache *cache, cached_mesh *mesh, const ffd_so
     ffd_status status = FFD_OK;
     if (stamp)
         mesh->stamp = *stamp;
-    if (table->list_files || !table->find_resources)
+    if (table->sidecars || !table->resources)
         status = list_by_document(mesh, source, error);
     else if (stamp)
         status = list_by_bytes(cache, mesh, source, table, error);
@@ -156,7 +157,7 @@ ffd_status ffd_hash_cache_list(hash_cache *cache, const ffd_source *source, path
     ffd_format format;
     const cached_mesh *mesh;
     TRY(ffd_source_format(source, &format, error));
-    if (!ffd_format_table(format)->list_files)
+    if (!ffd_format_table(format)->sidecars)
         return ffd_paths_add(files, source->path, error);
     TRY(know_mesh(cache, source, format, &mesh, error));
     return copy_list(&mesh->files, files, error);
@@ -168,7 +169,7 @@ ffd_status ffd_hash_cache_images(hash_cache *cache, const ffd_source *source, pa
     ffd_format format;
     const cached_mesh *mesh;
     TRY(ffd_source_format(source, &format, error));
-    if (!(ffd_format_table(format)->list_images || ffd_format_table(format)->find_resources))
+    if (!(ffd_format_table(format)->sidecars || ffd_format_table(format)->resources))
         return FFD_OK;
     TRY(know_mesh(cache, source, format, &mesh, error));
     return copy_list(&mesh->images, images, error);
@@ -200,13 +201,13 @@ static ffd_status scan_bytes(hash_cache *cache, const char *path, const file_sta
     ffd_status status = load_and_hash(cache, path, stamp, &bytes, error);
     if (status)
         return status;
-    if (table->count_sidecars)
-        scan->beside = table->count_sidecars(&bytes, from, to);
+    if (table->sidecars)
+        scan->beside = table->sidecars->count(&bytes, from, to);
     /* A GLB that is made of a .gltf holds its images. */
     const bool copies = from != FFD_FORMAT_GLTF || to != FFD_FORMAT_GLB;
     const mesh_named found = {.files = &scan->named, .copies = copies ? &scan->copied : NULL};
-    if (table->find_named)
-        status = table->find_named(path, &bytes, &found, error);
+    if (table->resources)
+        status = table->resources->find_named(path, &bytes, &found, error);
     ffd_kept_put(&cache->kept, path, stamp, &bytes);
     scan->path = status ? NULL : ffd_text_copy(path);
     scan->stamp = *stamp;
@@ -222,7 +223,7 @@ ffd_status ffd_hash_cache_scan(hash_cache *cache, const ffd_source *source, ffd_
     file_stamp stamp;
     *beside = 0;
     ffd_status status = ffd_source_format(source, &from, error);
-    if (!status && !ffd_format_table(from)->list_files) {
+    if (!status && !ffd_format_table(from)->sidecars) {
         TRY(ffd_hash_cache_images(cache, source, copied, error));
         return copy_list(copied, named, error);
     }
@@ -241,11 +242,11 @@ ffd_status ffd_hash_cache_list_named(const ffd_source *source, path_list *named,
 {
     ffd_format format;
     file_input bytes;
-    if (ffd_source_format(source, &format, NULL) || !ffd_format_table(format)->list_files ||
+    if (ffd_source_format(source, &format, NULL) || !ffd_format_table(format)->sidecars ||
         ffd_file_load(source->path, &bytes, NULL))
         return FFD_OK;
-    const ffd_status status =
-        ffd_format_table(format)->find_named(source->path, &bytes, &(mesh_named){.files = named}, error);
+    const ffd_status status = ffd_format_table(format)->resources->find_named(
+        source->path, &bytes, &(mesh_named){.files = named}, error);
     ffd_file_unload(&bytes);
     return status;
 }

@@ -410,7 +410,7 @@ static ffd_status take_passed(batch_worker *worker, const wire_task *task, const
                               const ffd_deform_desc *desc, ffd_error *error)
 {
     const mesh_format *const format = ffd_format_table(ffd_job_output_format(desc));
-    if (!format || !format->name_sidecar)
+    if (!format || !format->sidecars)
         return FFD_OK;
     ffd_status status = ffd_output_set_create(&worker->output_set, error);
     for (uint32_t i = 0; i < task->passed_count && !status; i++) {

@@ -95,7 +95,7 @@ bool cli_is_stream(const char *path)
 
 static const char *wrong_streams(const cli_job *job, const cli_words *words, size_t inputs)
 {
-    size_t meshes = 0, others = job->desc.embedding && cli_is_stream(job->desc.embedding);
+    size_t meshes = 0, others = job->desc.embedding.path && cli_is_stream(job->desc.embedding.path);
     for (size_t i = 0; i < inputs; i++)
         meshes += cli_is_stream(words->words[i]);
     for (size_t i = 0; i < job->desc.lattice_count; i++)
@@ -116,7 +116,7 @@ static const char *wrong_report(const cli_job *job, const cli_words *words)
     for (size_t i = 0; i < job->desc.lattice_count; i++)
         if (ffd_paths_meet(job->report, job->desc.lattices[i].path))
             return "the report would replace a lattice";
-    if (job->desc.embedding && ffd_paths_meet(job->report, job->desc.embedding))
+    if (job->desc.embedding.path && ffd_paths_meet(job->report, job->desc.embedding.path))
         return "the report would replace the embedding";
     return NULL;
 }
@@ -138,7 +138,7 @@ const char *cli_job_option_mistake(cli_job *job, const cli_words *words, size_t 
         return "-l cannot be used with --morph: each --morph names its own lattice";
     if (ffd_deform_desc_check(&desc, &job->refusal))
         return job->refusal.message;
-    if (desc.embedding && inputs > 1)
+    if (desc.embedding.path && inputs > 1)
         return "--embedding works with one mesh, but several IN are given";
     if (job->stable && !job->report)
         return "--report-stable needs --report";

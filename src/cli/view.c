@@ -160,7 +160,7 @@ static const char *mistake_of_files(settings *s, const cli_words *words)
         return "--fail-on judges a deformation: it needs -l, and no OUT-MESH";
     if (s->job.report)
         return "--report describes a deformation: it needs -l, and no OUT-MESH";
-    if (s->job.desc.embedding)
+    if (s->job.desc.embedding.path)
         return "--embedding is for a deformation: it needs -l, and no OUT-MESH";
     return cli_job_option_mistake(&s->job, words, words->count);
 }

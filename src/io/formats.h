@@ -2,6 +2,7 @@
 #ifndef FFD_IO_FORMATS_H
 #define FFD_IO_FORMATS_H
 
+#include "mesh/linked_files.h"
 #include "mesh/mesh.h"
 
 /* Returns the table of a format; NULL for FFD_FORMAT_AUTO. */

@@ -12,7 +12,7 @@ static ffd_status add_model(const mesh_format *format, const char *path, path_li
     path_list named = {0};
     if (ffd_file_load(path, &bytes, NULL))
         return FFD_OK;
-    ffd_status status = format->find_named(path, &bytes, &(mesh_named){.files = &named}, error);
+    ffd_status status = format->resources->find_named(path, &bytes, &(mesh_named){.files = &named}, error);
     ffd_file_unload(&bytes);
     for (size_t i = 0; i < named.count && !status; i++) {
         status = ffd_paths_add(pairs, path, error);
@@ -29,7 +29,7 @@ ffd_status ffd_users_list(const char *folder, path_list *pairs, ffd_error *error
     ffd_status status = ffd_folder_list(folder, &names, error);
     for (size_t i = 0; i < names.count && !status; i++) {
         const mesh_format *const format = ffd_format_table(ffd_format_from_name(names.paths[i]));
-        if (!format || !format->list_files)
+        if (!format || !format->sidecars)
             continue;
         char *const path =
             strcmp(folder, ".") == 0 ? ffd_text_copy(names.paths[i]) : ffd_path_join(folder, names.paths[i]);

@@ -30,7 +30,7 @@ static double find_diagonal(const mesh_document *document)
     double half[3];
     for (size_t i = 0; i < document->part_count; i++)
         if (!document->parts[i].repeats_positions)
-            ffd_source_widen(document, i, &box);
+            ffd_source_widen(document, MESH_STORED, i, &box);
     if (box.min[0] > box.max[0])
         return 0;
     for (int c = 0; c < 3; c++)
@@ -54,7 +54,7 @@ static ffd_status compare(const ffd_compare_desc *desc, const mesh_document *a, 
     return FFD_OK;
 }
 
-static ffd_status run(const ffd_compare_desc *desc, ffd_comparison *comparison, ffd_error *error)
+static ffd_status open_and_compare(const ffd_compare_desc *desc, ffd_comparison *comparison, ffd_error *error)
 {
     const mesh_log log = {desc->log, desc->log_user};
     mesh_document *first = NULL, *second = NULL;
@@ -90,7 +90,7 @@ ffd_status ffd_compare_run(const ffd_compare_desc *callers, ffd_comparison *comp
     if (!status)
         status = ffd_in_memory_source(&memory, &desc.b, error);
     if (!status)
-        status = run(&desc, &own, error);
+        status = open_and_compare(&desc, &own, error);
     status = ffd_in_memory_end(&memory, status, error);
     ffd_struct_give(&own, sizeof own, comparison, comparison->struct_size);
     return status;

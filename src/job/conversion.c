@@ -198,33 +198,33 @@ static void warn(const mesh_model *model, const model_target *target, const mesh
 }
 
 /* Makes the model to write. Models take their memory from the budget. */
-static ffd_status make_model(const mesh_document *document, const conversion_morph *morph,
+static ffd_status make_model(const mesh_document *document, mesh_state state, const conversion_morph *morph,
                              memory_budget *budget, mesh_model *model, ffd_error *error)
 {
     mesh_model after = {.budget = budget};
     if (!morph) {
         model->budget = budget;
-        return document->format->model(document, model, error);
+        return document->format->model(document, state, model, error);
     }
     *model = *morph->base;
     *morph->base = (mesh_model){0};
     if (!morph->name)
         return FFD_OK;
-    ffd_status status = document->format->model(document, &after, error);
+    ffd_status status = document->format->model(document, state, &after, error);
     if (!status)
         status = ffd_model_add_morph(model, &after, morph->name, error);
     ffd_model_free(&after);
     return status;
 }
 
-ffd_status ffd_conversion_save(const mesh_document *document, const conversion_morph *morph,
+ffd_status ffd_conversion_save(const mesh_document *document, mesh_state state, const conversion_morph *morph,
                                const mesh_save_options *options, file_output *output, const mesh_log *log,
                                ffd_error *error)
 {
     const model_target *target = ffd_model_target(options->format);
     mesh_model model = {0};
     memory_budget budget = document->budget;
-    ffd_status status = make_model(document, morph, &budget, &model, error);
+    ffd_status status = make_model(document, state, morph, &budget, &model, error);
     if (!status)
         status = check_range(&model, target, options->path, error);
     if (!status) {

@@ -20,7 +20,7 @@ typedef struct conversion_morph {
 /* Writes the document with its results into output, or, if morph is not NULL, with a morph target. Warns of
    what the format cannot hold. Errors: FFD_E_INVALID (a coordinate is too large for the format's number type;
    the message names the file), FFD_E_LIMIT. */
-ffd_status ffd_conversion_save(const mesh_document *document, const conversion_morph *morph,
+ffd_status ffd_conversion_save(const mesh_document *document, mesh_state state, const conversion_morph *morph,
                                const mesh_save_options *options, file_output *output, const mesh_log *log,
                                ffd_error *error);
 

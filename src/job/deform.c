@@ -14,12 +14,14 @@
 #include "job/input/in_memory.h"
 #include "job/input/shown_box.h"
 #include "job/input/source.h"
+#include "job/job_call.h"
 #include "job/morphs.h"
 #include "job/reads.h"
 #include "job/report/depfile.h"
 #include "job/report/output_set.h"
 #include "job/sharing.h"
 #include "lattice/file/lattice_source.h"
+#include "mesh/morphs.h"
 #include "mesh/resource/sidecar.h"
 #include <string.h>
 
@@ -52,6 +54,7 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
                                    .format = desc->output_format,
                                    .force = desc->force || desc->if_changed,
                                    .resources = desc->resources,
+                                   .sparse_targets = desc->morphs,
                                    .input = input};
     if (!ffd_deform_desc_writes(desc)) {
         TRY(check_no_output(desc, error));
@@ -93,7 +96,8 @@ static ffd_status write_mesh(deform_job *job, const mesh_save_options *options, 
     const bool morphs = job->desc->as_morph || job->desc->morphs;
     if (!ffd_conversion_needed(job->document, options->format))
         return job->document->format->save(job->document, options, output, &job->log, error);
-    return ffd_conversion_save(job->document, morphs ? &morph : NULL, options, output, &job->log, error);
+    return ffd_conversion_save(job->document, ffd_job_written(job), morphs ? &morph : NULL, options, output,
+                               &job->log, error);
 }
 
 static void warn_of_name(const deform_job *job, const char *name)
@@ -137,8 +141,9 @@ static ffd_status make_rule(const deform_job *job, path_list *inputs, byte_buffe
         const char *const path = ffd_lattice_file(&desc->lattices[i]);
         TRY(path ? ffd_paths_add(inputs, path, error) : FFD_OK);
     }
-    if (desc->embedding && !desc->embedding_bytes.data && !ffd_file_is_stream(desc->embedding))
-        TRY(ffd_paths_add(inputs, desc->embedding, error));
+    const char *const embedding = desc->embedding.bytes.data ? NULL : desc->embedding.path;
+    if (embedding && !ffd_file_is_stream(embedding))
+        TRY(ffd_paths_add(inputs, embedding, error));
     for (size_t i = 0; i < job->chain.count; i++)
         TRY(add_paths(inputs, &job->chain.links[i].box_files, error));
     if (desc->shared_box && goes_round_all(job))
@@ -172,7 +177,7 @@ static ffd_status write_all(deform_job *job, const mesh_save_options *options, f
    other names. */
 static bool is_hashed(const deform_job *job)
 {
-    return ffd_job_cache_hashes_output(job->desc->cache) && !job->document->converted &&
+    return ffd_job_cache_hashes_output(job->desc->cache) && !job->converts &&
            ffd_source_is_alone(job->document);
 }
 
@@ -210,10 +215,10 @@ static ffd_status dry_run_conversion(deform_job *job, const mesh_save_options *o
     const mesh_format *const to = ffd_format_table(options->format);
     sidecar_names names = {.options = options, .log = &job->log};
     ffd_format from;
-    if (!to->count_sidecars || ffd_output_is_stream(options->path) || options->to_sink)
+    if (!to->sidecars || ffd_output_is_stream(options->path) || options->to_sink)
         return FFD_OK;
     ffd_status status = ffd_source_format(&job->desc->input, &from, error);
-    const size_t count = status ? 0 : to->count_sidecars(NULL, from, options->format);
+    const size_t count = status ? 0 : to->sidecars->count(NULL, from, options->format);
     for (size_t i = 0; i < count && !status; i++) {
         char *path;
         status = ffd_sidecar_next(&names, NULL, NULL, &path, error);
@@ -227,10 +232,9 @@ static ffd_status dry_run_conversion(deform_job *job, const mesh_save_options *o
 /* Refuses an output whose other files cannot be written, as writing would. */
 static ffd_status dry_run_job(deform_job *job, const mesh_save_options *options, ffd_error *error)
 {
-    const mesh_format *const format = job->document->format;
     if (ffd_conversion_needed(job->document, options->format))
         return dry_run_conversion(job, options, error);
-    return format->check_save ? format->check_save(job->document, options, NULL, &job->log, error) : FFD_OK;
+    return job->document->format->save(job->document, options, NULL, &job->log, error);
 }
 
 static const char *name_of_format(ffd_format format)
@@ -272,11 +276,11 @@ static ffd_status begin_morph(deform_job *job, ffd_error *error)
     const mesh_format *format = job->document->format;
     if (!job->desc->as_morph)
         return FFD_OK;
-    if (!format->keep_base) { /* a conversion */
+    if (!format->morphs) { /* a conversion */
         job->base.budget = &job->document->budget;
-        return format->model(job->document, &job->base, error);
+        return format->model(job->document, MESH_STORED, &job->base, error);
     }
-    return format->keep_base(job->document, job->desc->as_morph, error);
+    return format->morphs->keep_base(job->document, job->desc->as_morph, error);
 }
 
 /* Whether no option needs normals. */
@@ -318,60 +322,52 @@ static ffd_status write_output(deform_job *job, mesh_save_options *options, ffd_
 static ffd_status deform_and_save(deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     mesh_save_options options;
-    ffd_status status = restore_output(job->desc, error);
-    if (!status)
-        status = resolve_output(job->desc, &options, error);
-    if (!status)
-        status = check_morph(job, &options, error);
-    if (!status)
-        status = ffd_morphs_begin(job, error);
-    job->only_positions = !status && needs_only_positions(job->desc, &options);
-    if (!status)
-        status = ffd_deform_job_open(job, result, error);
-    if (!status)
-        status = check_reads(job, options.path, error);
-    if (!status)
-        status = check_rig(job, &options, error);
-    if (!status)
-        status = ffd_conversion_check(job->document, options.format, error);
-    if (!status)
-        status = begin_morph(job, error);
-    if (!status)
-        job->document->converted = ffd_conversion_needed(job->document, options.format);
-    if (!status)
-        status =
-            job->desc->morphs ? ffd_morphs_run(job, result, error) : ffd_deform_job_run(job, result, error);
-    if (status || !ffd_deform_desc_writes(job->desc))
-        return status;
+    TRY(restore_output(job->desc, error));
+    TRY(resolve_output(job->desc, &options, error));
+    TRY(check_morph(job, &options, error));
+    TRY(ffd_morphs_begin(job, error));
+    const unsigned needs = needs_only_positions(job->desc, &options) ? 0 : JOB_NEEDS_NORMALS;
+    TRY(ffd_deform_job_open(job, needs, result, error));
+    TRY(check_reads(job, options.path, error));
+    TRY(check_rig(job, &options, error));
+    TRY(ffd_conversion_check(job->document, options.format, error));
+    TRY(begin_morph(job, error));
+    job->converts = ffd_conversion_needed(job->document, options.format);
+    TRY(job->desc->morphs ? ffd_morphs_run(job, result, error) : ffd_deform_job_run(job, result, error));
+    if (!ffd_deform_desc_writes(job->desc))
+        return FFD_OK;
     warn_of_ending(job, &options);
     return write_output(job, &options, result, error);
 }
 
 /* Several morph targets share the locations of the vertices through a cache of the job's own. */
-static ffd_status run_deform_job(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
+static ffd_status share_locations(ffd_deform_desc *desc, ffd_job_cache **cache, ffd_error *error)
 {
-    ffd_job_cache *cache = NULL;
-    ffd_deform_desc own = *desc;
-    deform_job job;
-    if (!ffd_deform_desc_writes(desc)) /* normals are not written */
-        own.normals = FFD_NORMALS_KEEP;
-    if (desc->morphs && !ffd_job_cache_holds_meshes(desc->cache)) {
-        if (ffd_job_cache_create_for_job(&cache, error)) {
-            ffd_result_clear(result);
-            return result->status = ffd_fail_memory(&result->error);
-        }
-        own.cache = cache;
-    }
-    ffd_status status = ffd_deform_job_begin(&job, &own, false, result);
-    if (!status)
-        status = deform_and_save(&job, result, &result->error);
-    ffd_morphs_end(&job);
-    status = ffd_deform_job_end(&job, status, result, error);
-    ffd_job_cache_destroy(&cache);
-    return status;
+    *cache = NULL;
+    if (!desc->morphs || ffd_job_cache_holds_meshes(desc->cache))
+        return FFD_OK;
+    TRY(ffd_job_cache_create_for_job(cache, error));
+    desc->cache = *cache;
+    return FFD_OK;
 }
 
 ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
 {
-    return ffd_job_for_caller(run_deform_job, desc, result, error);
+    job_call call;
+    deform_job job;
+    ffd_job_cache *cache = NULL;
+    ffd_status status = ffd_job_call_begin(&call, desc, result, error);
+    if (!status && !ffd_deform_desc_writes(&call.desc)) /* normals are not written */
+        call.desc.normals = FFD_NORMALS_KEEP;
+    if (!status)
+        status = share_locations(&call.desc, &cache, &call.result.error);
+    if (!status) {
+        status = ffd_deform_job_begin(&job, &call.desc, false, &call.result);
+        if (!status)
+            status = deform_and_save(&job, &call.result, &call.result.error);
+        ffd_morphs_end(&job);
+        status = ffd_deform_job_end(&job, status, &call.result, NULL);
+    }
+    ffd_job_cache_destroy(&cache);
+    return ffd_job_call_end(&call, status, error);
 }

@@ -2,7 +2,6 @@
 #include "base/file/mapping.h"
 #include "base/memory/memory.h"
 #include "base/spelling.h"
-#include "base/struct_size.h"
 #include "base/system/clock.h"
 #include "base/system/deadline.h"
 #include "base/system/thread.h"
@@ -14,7 +13,6 @@
 #include "job/deform_passes.h"
 #include "job/figures/figure_values.h"
 #include "job/input/deform_desc.h"
-#include "job/input/in_memory.h"
 #include "job/input/selection.h"
 #include "job/input/source.h"
 #include "job/judge/gates.h"
@@ -27,12 +25,13 @@
 #include "job/pass/pass.h"
 #include "job/report/output_set.h"
 #include "lattice/file/lattice_source.h"
+#include "mesh/places.h"
 #include <string.h>
 
 static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
 {
-    const char *embedding = desc->embedding;
-    if (!embedding || desc->embedding_bytes.data)
+    const char *embedding = desc->embedding.path;
+    if (!embedding || desc->embedding.bytes.data)
         return FFD_OK;
     if (strcmp(embedding, "-") == 0 &&
         (strcmp(desc->input.path, "-") == 0 || ffd_lattice_is_stream(&desc->lattices[0])))
@@ -65,55 +64,6 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
     return check_embedding(desc, error);
 }
 
-/* Runs a job with structs of this library's size, and with names for what is in memory. size: of each of the
-   caller's results of morph targets. */
-static ffd_status run_own(deform_job_function run, const ffd_deform_desc *callers, ffd_job_result *result,
-                          size_t size)
-{
-    ffd_deform_desc desc = *callers;
-    ffd_job_result *morphs = NULL;
-    job_memory memory = {0};
-    ffd_status status = ffd_chain_check_count(desc.lattice_count, &result->error);
-    if (!status)
-        status = ffd_in_memory_desc(&memory, &desc, &result->error);
-    if (!status && callers->morph_results) {
-        desc.morph_results = morphs = ffd_alloc_zero(desc.lattice_count, sizeof *morphs);
-        status = morphs ? FFD_OK : ffd_fail_memory(&result->error);
-    }
-    if (!status)
-        status = run(&desc, result, &result->error);
-    for (size_t k = 0; k < desc.lattice_count && morphs; k++)
-        ffd_struct_give(&morphs[k], sizeof morphs[k], (char *)callers->morph_results + k * size, size);
-    status = ffd_in_memory_end(&memory, status, &result->error);
-    if (result->morphs.results)
-        result->morphs.results = callers->morph_results;
-    if (result->morphs.lattices)
-        result->morphs.lattices = callers->lattices;
-    ffd_free(morphs);
-    return status;
-}
-
-ffd_status ffd_job_for_caller(deform_job_function run, const ffd_deform_desc *callers,
-                              ffd_job_result *callers_result, ffd_error *error)
-{
-    ffd_deform_desc desc;
-    ffd_job_result result;
-    ffd_result_clear(&result);
-    TRY(ffd_struct_check(sizeof result, callers_result, "ffd_job_result", error));
-    const size_t size = callers_result->struct_size;
-    deadline own;
-    ffd_status status = ffd_deform_desc_take(callers, &desc, &result.error);
-    const deadline *const before = ffd_deadline_begin(&own, status ? 0 : desc.timeout);
-    if (!status)
-        status = run_own(run, &desc, &result, size);
-    ffd_deadline_end(before);
-    if (status && error)
-        *error = result.error;
-    result.status = status;
-    ffd_struct_give(&result, sizeof result, callers_result, size);
-    return status;
-}
-
 ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bool check,
                                 ffd_job_result *result)
 {
@@ -129,11 +79,11 @@ ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bo
     return status;
 }
 
-static ffd_status open_mesh(deform_job *job, ffd_error *error)
+static ffd_status open_mesh(deform_job *job, bool only_positions, ffd_error *error)
 {
     const ffd_deform_desc *desc = job->desc;
     ffd_source source = desc->input;
-    source.only_positions = job->only_positions;
+    source.only_positions = only_positions;
     file_stamp stamp;
     file_input bytes;
     const bool is_file =
@@ -143,13 +93,12 @@ static ffd_status open_mesh(deform_job *job, ffd_error *error)
             : ffd_source_open(&source, job->threads, &job->document, error));
     TRY(ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(&desc->input), job->document,
                             error));
-    ffd_job_cache_describe_mesh(desc->cache, desc, job->only_positions, is_file ? &stamp : NULL,
-                                job->document);
+    ffd_job_cache_describe_mesh(desc->cache, desc, only_positions, is_file ? &stamp : NULL, job->document);
     return FFD_OK;
 }
 
-ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outside, ffd_job_cache *cache,
-                                     ffd_error *error)
+ffd_status ffd_deform_job_load_chain(deform_job *job, unsigned needs, const chain_outside *outside,
+                                     ffd_job_cache *cache, ffd_error *error)
 {
     const ffd_deform_desc *const desc = job->desc;
     const chain_files files = {.lattices = desc->lattices,
@@ -157,7 +106,7 @@ ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outsi
                                .set = desc->set,
                                .set_count = desc->set_count,
                                .mesh = &desc->input,
-                               .derives = job->derives,
+                               .derives = needs & JOB_NEEDS_DERIVATIVES,
                                .shared = desc->shared_box,
                                .log = &job->log};
     const ffd_status status = ffd_chain_load(&files, outside, desc->isa, cache, &job->chain, error);
@@ -165,27 +114,24 @@ ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outsi
     return status;
 }
 
-ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_error *error)
+ffd_status ffd_deform_job_open(deform_job *job, unsigned needs, ffd_job_result *result, ffd_error *error)
 {
     const ffd_deform_desc *desc = job->desc;
     const chain_outside outside = {desc->outside == FFD_OUTSIDE_EXTEND, desc->falloff, desc->snap,
                                    desc->snap_relative};
+    const bool only_positions = !(needs & JOB_NEEDS_NORMALS);
     const double start = ffd_clock_seconds();
     if (desc->output_set && !desc->input.bytes.data &&
         ffd_written_holds(&desc->output_set->files, desc->input.path))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->input.path,
                              "was written by this run already, under this name or another");
-    ffd_status status = ffd_deform_job_load_chain(job, &outside, desc->cache, error);
+    ffd_status status = ffd_deform_job_load_chain(job, needs, &outside, desc->cache, error);
     if (!status)
-        job->document = ffd_job_cache_take_mesh(desc->cache, desc, job->only_positions);
+        job->document = ffd_job_cache_take_mesh(desc->cache, desc, only_positions);
     job->document_is_shared = job->document;
     if (!status && !job->document)
-        status = open_mesh(job, error);
-    /* Nothing is saved, but a deformation would add a morph target, and keep the others, which are not
-       judged. */
-    if (!status && job->check && desc->as_morph && job->document->format->keep_base)
-        job->document->keeps_base = true;
-    if (!status && desc->rig == FFD_RIG_FOLLOW && !job->document->format->follow)
+        status = open_mesh(job, only_positions, error);
+    if (!status && desc->rig == FFD_RIG_FOLLOW && !job->document->format->places)
         status = ffd_fail_file(error, FFD_E_ARGUMENT, ffd_source_name(&desc->input),
                                "has no nodes that could follow: only glTF has ({rig=follow})");
     if (!status)
@@ -234,16 +180,13 @@ static ffd_status prepare_positions(deform_job *job, memory_budget *budget, ffd_
 static ffd_status prepare_arrays(deform_job *job, figure_arrays *arrays, figure_arrays *stored,
                                  ffd_error *error)
 {
-    const bool both = ffd_passes_judge_shown(job) && !ffd_passes_write_shown(job);
-    ffd_status status = FFD_OK;
-    job->document->shown = ffd_passes_judge_shown(job);
+    const bool both = ffd_job_judged(job) != ffd_job_written(job);
     if (ffd_figures_wanted(job) || (job->recomputes && !both))
-        status = ffd_figures_prepare(job, arrays, error);
-    job->document->shown = false;
-    if (status || !job->recomputes || !both)
-        return status;
+        TRY(ffd_figures_prepare(job, ffd_job_judged(job), arrays, error));
+    if (!job->recomputes || !both)
+        return FFD_OK;
     stored->budget = arrays->budget;
-    status = ffd_figures_prepare(job, stored, error);
+    const ffd_status status = ffd_figures_prepare(job, MESH_STORED, stored, error);
     arrays->budget = stored->budget;
     return status;
 }
@@ -251,18 +194,20 @@ static ffd_status prepare_arrays(deform_job *job, figure_arrays *arrays, figure_
 /* Refuses what can be refused before vertices are processed, and allocates the results. */
 static ffd_status prepare(deform_job *job, figure_arrays *arrays, figure_arrays *stored, ffd_error *error)
 {
-    const bool attributes = job->desc->normals != FFD_NORMALS_KEEP;
-    const mesh_format *format = job->document->format;
     ffd_status status = ffd_mesh_check(job->document, error);
     if (!status && !job->details)
         status = check_unknown(job, error);
     if (!status)
         status = ffd_mesh_warn(job->document, &job->file_log, error);
     job->recomputes = job->desc->normals == FFD_NORMALS_RECOMPUTE && has_normals(job->document);
-    job->document->results_replace = !ffd_job_cache_holds_meshes(job->desc->cache) &&
-                                     !ffd_figures_wanted(job) && !job->recomputes && !job->desc->morphs;
+    const mesh_results results = {.state = ffd_job_written(job),
+                                  .directions = job->desc->normals != FFD_NORMALS_KEEP,
+                                  .converted = job->converts,
+                                  .replace = !ffd_job_cache_holds_meshes(job->desc->cache) &&
+                                             !ffd_figures_wanted(job) && !job->recomputes &&
+                                             !job->desc->morphs};
     if (!status)
-        status = format->begin_results(job->document, attributes, attributes, error);
+        status = job->document->format->begin_results(job->document, &results, error);
     if (job->desc->normals == FFD_NORMALS_RECOMPUTE && !job->recomputes && !job->document->has_face_normals)
         ffd_log_line(&job->file_log, FFD_LOG_WARNING, "has no normals to recompute");
     arrays->budget = job->document->budget;
@@ -282,19 +227,18 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, figure_arrays 
 
 static ffd_status locate(deform_job *job, ffd_error *error)
 {
-    const char *embedding = job->desc->embedding;
     TRY(ffd_chain_fit(&job->chain, job->document, job->threads, error));
-    if (!embedding)
+    if (!job->desc->embedding.path)
         return FFD_OK;
     const chain_link *const link = &job->chain.links[0];
-    return ffd_embedding_reuse(embedding, job->desc->embedding_bytes, job->document, link->lattice,
-                               link->snap, job->threads, &job->embedding, error);
+    return ffd_embedding_reuse(&job->desc->embedding, job->document, link->lattice, link->snap, job->threads,
+                               &job->embedding, error);
 }
 
 /* Whether nodes and other places matter: conversions and arrays of positions do not contain them. */
 static bool has_rig(const deform_job *job)
 {
-    return (job->check || ffd_deform_desc_writes(job->desc)) && (!job->document->converted || job->details);
+    return (job->check || ffd_deform_desc_writes(job->desc)) && (!job->converts || job->details);
 }
 
 /* Finds how the lattices move the document's places (nodes, joints, sockets), and with --rig follow moves
@@ -308,8 +252,8 @@ static ffd_status move_rig(deform_job *job, ffd_error *error)
     const ffd_status status = ffd_rig_places_find(job->document, &job->chain, follows, &job->rig, error);
     return status || !follows || job->rig.places.count == 0
                ? status
-               : format->follow(job->document, &job->rig.places, job->rig.moves, &job->log, &job->following,
-                                error);
+               : format->places->follow(job->document, &job->rig.places, job->rig.moves, &job->log,
+                                        &job->following, error);
 }
 
 /* Finds what is left behind, and how far joints, pivots and sockets lag. */
@@ -402,7 +346,7 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
     if (!status)
         status = move_rig(job, error);
     if (!status)
-        status = ffd_passes_run(job, &arrays, &stored, error);
+        status = ffd_deform_passes(job, &arrays, &stored, error);
     ffd_figures_free(&stored);
     if (!status) {
         ffd_result_fill(result, &job->totals, ffd_clock_seconds() - prepared);
@@ -412,7 +356,6 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
         status = judge(job, &arrays, result, error);
     if (!status)
         status = ffd_deadline_check(error);
-    job->document->shown = job->document->shown && ffd_passes_write_shown(job);
     status = ffd_mapping_judge(job->losses, status, error);
     if (!status)
         ffd_flaws_warn(&job->document->flaws, NULL, &job->file_log);
@@ -456,8 +399,6 @@ ffd_status ffd_deform_job_end(deform_job *job, ffd_status status, ffd_job_result
         ffd_fail_name_file(&result->error, ffd_source_name(&job->desc->input));
     ffd_embedding_close(&job->embedding);
     ffd_model_free(&job->base);
-    if (job->document) /* reset for the next job */
-        job->document->shown = job->document->converted = false;
     if (!status)
         ffd_job_cache_put_mesh(job->desc->cache, job->desc, job->document);
     else

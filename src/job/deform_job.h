@@ -4,26 +4,22 @@
 
 #include "job/measure/job_state.h"
 
-/* Runs a job. The structs have this library's sizes. */
-typedef ffd_status (*deform_job_function)(const ffd_deform_desc *desc, ffd_job_result *result,
-                                          ffd_error *error);
-
-/* Runs a job for a caller whose structs may have the sizes of an older header. */
-ffd_status ffd_job_for_caller(deform_job_function run, const ffd_deform_desc *desc, ffd_job_result *result,
-                              ffd_error *error);
-
 /* Clears result, checks the options that do not concern the output, and takes desc. Errors, stored in result:
    FFD_E_ARGUMENT, FFD_E_EXISTS. */
 ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bool check,
                                 ffd_job_result *result);
 
-/* Loads the job's lattices into its chain; they are fitted later. share may be NULL. Errors: those of
-   ffd_chain_load. */
-ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outside, ffd_job_cache *cache,
-                                     ffd_error *error);
+/* What a job needs beside positions and displacements: the normals of the mesh; the derivatives of the
+   control points by placeholders. */
+enum { JOB_NEEDS_NORMALS = 1, JOB_NEEDS_DERIVATIVES = 2 };
 
-/* Opens the lattices and the mesh. */
-ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_error *error);
+/* Loads the job's lattices into its chain; they are fitted later. needs: a set of JOB_NEEDS. cache may be
+   NULL. Errors: those of ffd_chain_load. */
+ffd_status ffd_deform_job_load_chain(deform_job *job, unsigned needs, const chain_outside *outside,
+                                     ffd_job_cache *cache, ffd_error *error);
+
+/* Opens the lattices and the mesh. needs: a set of JOB_NEEDS. */
+ffd_status ffd_deform_job_open(deform_job *job, unsigned needs, ffd_job_result *result, ffd_error *error);
 
 /* Deforms the vertices, fills result with the figures and judges them. The document can be saved
    afterwards. */

@@ -6,16 +6,6 @@
 #include "job/pass/recompute.h"
 #include <string.h>
 
-bool ffd_passes_judge_shown(const deform_job *job)
-{
-    return !job->stored && !job->document->keeps_base && ffd_mesh_shows_shapes(job->document);
-}
-
-bool ffd_passes_write_shown(const deform_job *job)
-{
-    return ffd_passes_judge_shown(job) && (job->check || job->document->converted);
-}
-
 /* The gate of folds also checks det F at extended vertices. */
 static bool wants_determinants(const deform_job *job)
 {
@@ -31,9 +21,12 @@ static hash128 located_in(const chain_link *link)
 }
 
 /* Describes a pass that deforms everything, without output arrays. */
-static mesh_pass describe(const deform_job *job, chain_pace *pace)
+static mesh_pass describe(const deform_job *job, mesh_state state, chain_pace *pace)
 {
     return (mesh_pass){.document = job->document,
+                       .state = state,
+                       .only_base = ffd_job_adds_target(job),
+                       .is_converted = job->converts,
                        .chain = &job->chain,
                        .links = job->chain.count,
                        .threads = job->threads,
@@ -56,29 +49,29 @@ static void fill_figures(const deform_job *job, const figure_arrays *figures, me
     pass->kept_stride = (size_t)ffd_mesh_vertex_count(job->document);
 }
 
-static ffd_status recompute(deform_job *job, const figure_arrays *arrays, recompute_counts *counts,
-                            ffd_error *error)
+static ffd_status recompute(deform_job *job, mesh_state state, const figure_arrays *arrays,
+                            recompute_counts *counts, ffd_error *error)
 {
     if (!job->recomputes)
         return FFD_OK;
-    return ffd_recompute_normals(job->document, &arrays->faces, arrays->deformed, arrays->gradients, counts,
-                                 error);
+    return ffd_recompute_normals(job->document, state, &arrays->faces, arrays->deformed, arrays->gradients,
+                                 counts, error);
 }
 
 /* Runs a pass over the shapes that the file stores, whose locations an embedding or an earlier pass may know.
    It also gives the positions to the caller. */
 static ffd_status pass_over_stored(deform_job *job, mesh_pass *pass, pass_totals *totals, ffd_error *error)
 {
-    const bool keeps = job->chain.count == 1 && !job->desc->embedding && !job->forgets_locations;
+    const bool keeps = job->chain.count == 1 && !job->desc->embedding.path && !job->forgets_locations;
     ffd_job_cache *const cache = keeps ? job->desc->cache : NULL;
     const hash128 rest = located_in(&job->chain.links[0]);
     pass->locations =
         ffd_job_cache_locations(cache, job->document, job->document_is_shared, &rest, &pass->is_located);
-    pass->embedding = job->desc->embedding ? &job->embedding : NULL;
+    pass->embedding = job->desc->embedding.path ? &job->embedding : NULL;
     pass->deformed = pass->deformed ? pass->deformed : job->positions;
-    if (!pass->is_located && !job->desc->embedding)
+    if (!pass->is_located && !job->desc->embedding.path)
         ffd_job_cache_count_search(job->desc->cache);
-    TRY(ffd_pass_run(pass, totals, error));
+    TRY(ffd_pass_over_mesh(pass, totals, error));
     ffd_job_cache_locations_filled(cache);
     if (job->positions && pass->deformed != job->positions)
         memcpy(job->positions, pass->deformed,
@@ -91,9 +84,9 @@ static ffd_status pass_over_stored(deform_job *job, mesh_pass *pass, pass_totals
 static ffd_status pass_over_both(deform_job *job, const figure_arrays *figures, const figure_arrays *stored,
                                  chain_pace *pace, recompute_counts *counts, ffd_error *error)
 {
-    const bool writes_shown = ffd_passes_write_shown(job);
+    const bool writes_shown = ffd_job_written(job) == MESH_SHOWN;
     pass_totals of_stored;
-    mesh_pass pass = describe(job, pace), shown = describe(job, pace);
+    mesh_pass pass = describe(job, MESH_STORED, pace), shown = describe(job, MESH_SHOWN, pace);
     pass.deformed = stored->deformed;
     pass.gradients = stored->gradients;
     pass.write = !writes_shown;
@@ -101,19 +94,18 @@ static ffd_status pass_over_both(deform_job *job, const figure_arrays *figures, 
     pass.counts_shapes = true;
     TRY(pass_over_stored(job, &pass, &of_stored, error));
     if (!writes_shown && of_stored.moved)
-        TRY(recompute(job, stored, counts, error));
+        TRY(recompute(job, MESH_STORED, stored, counts, error));
     fill_figures(job, figures, &shown);
     shown.discards = !writes_shown;
-    job->document->shown = true;
-    ffd_status status = ffd_pass_run(&shown, &job->totals, error);
+    ffd_status status = ffd_pass_over_mesh(&shown, &job->totals, error);
     if (!status && writes_shown && job->totals.moved)
-        status = recompute(job, figures, counts, error);
+        status = recompute(job, MESH_SHOWN, figures, counts, error);
     ffd_totals_add_stored(&of_stored, pass.write, &job->totals);
     return status;
 }
 
-ffd_status ffd_passes_run(deform_job *job, const figure_arrays *figures, const figure_arrays *stored,
-                          ffd_error *error)
+ffd_status ffd_deform_passes(deform_job *job, const figure_arrays *figures, const figure_arrays *stored,
+                             ffd_error *error)
 {
     recompute_counts counts = {0};
     chain_pace pace = {.points = (double)ffd_mesh_vertex_count(job->document),
@@ -123,14 +115,14 @@ ffd_status ffd_passes_run(deform_job *job, const figure_arrays *figures, const f
                        .more = figures->has_faces ? ", and edges longer (see {timeout})" : " (see {timeout})",
                        .log = job->log};
     ffd_status status;
-    if (ffd_passes_judge_shown(job)) {
+    if (ffd_job_judged(job) == MESH_SHOWN) {
         status = pass_over_both(job, figures, stored, &pace, &counts, error);
     } else {
-        mesh_pass pass = describe(job, &pace);
+        mesh_pass pass = describe(job, MESH_STORED, &pace);
         fill_figures(job, figures, &pass);
         status = pass_over_stored(job, &pass, &job->totals, error);
         if (!status && job->totals.moved)
-            status = recompute(job, figures, &counts, error);
+            status = recompute(job, MESH_STORED, figures, &counts, error);
     }
     job->totals.normals_collapsed += counts.collapsed;
     job->totals.normals_carried = counts.carried;

@@ -7,18 +7,11 @@
 #include "job/measure/figures.h"
 #include "job/measure/job_state.h"
 
-/* Whether the figures are of the shape that default weights show, because it is another one than the base. */
-bool ffd_passes_judge_shown(const deform_job *job);
-
-/* Whether the results are of that shape, too: in conversions, and if nothing is saved. Else they are of base
-   and targets, as the file stores them. */
-bool ffd_passes_write_shown(const deform_job *job);
-
 /* Sends the mesh through the chain: fills the results, job->totals, job->positions and the arrays, and
    recomputes normals. figures: of the shape that is judged. stored: of the base, if normals are recomputed
-   and the results are of another shape than the figures; else empty. Leaves document->shown as the figures
-   need it. Errors: those of ffd_pass_run and ffd_recompute_normals. */
-ffd_status ffd_passes_run(deform_job *job, const figure_arrays *figures, const figure_arrays *stored,
-                          ffd_error *error);
+   and the results are of another shape than the figures; else empty. Errors: those of ffd_pass_over_mesh and
+   ffd_recompute_normals. */
+ffd_status ffd_deform_passes(deform_job *job, const figure_arrays *figures, const figure_arrays *stored,
+                             ffd_error *error);
 
 #endif

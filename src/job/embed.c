@@ -173,7 +173,7 @@ static ffd_status make(const ffd_embed_desc *desc, embedding *made, int threads,
                             .uvw = made->uvw,
                             .statuses = made->statuses,
                             .pace = &pace};
-    return ffd_pass_run(&pass, totals, error);
+    return ffd_pass_over_mesh(&pass, totals, error);
 }
 
 /* Writes the arrays with the hashes of mesh and rest lattice. */
@@ -212,7 +212,7 @@ static ffd_status embed(const ffd_embed_desc *desc, embedding *made, double star
     return status;
 }
 
-static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_error *error)
+static ffd_status load_and_embed(const ffd_embed_desc *desc, ffd_job_result *result, ffd_error *error)
 {
     const double start = ffd_clock_seconds();
     const mesh_log log = {desc->log, desc->log_user};
@@ -263,7 +263,7 @@ ffd_status ffd_embed_run(const ffd_embed_desc *callers, ffd_job_result *callers_
     job_memory memory = {0};
     ffd_status status = take_memory(&memory, &desc, &result.error);
     if (!status)
-        status = run(&desc, &result, &result.error);
+        status = load_and_embed(&desc, &result, &result.error);
     result.status = ffd_in_memory_end(&memory, status, &result.error);
     if (result.status && error)
         *error = result.error;

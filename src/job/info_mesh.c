@@ -19,7 +19,8 @@ static void write_vertices(const mesh_document *document, json_text *json)
     for (size_t part = 0; part < document->part_count; part++) {
         const mesh_part *p = &document->parts[part];
         if (!p->repeats_positions) {
-            facts.not_finite += ffd_source_widen(document, part, p->hidden ? &hidden : &facts.bounds);
+            facts.not_finite +=
+                ffd_source_widen(document, MESH_SHOWN, part, p->hidden ? &hidden : &facts.bounds);
             facts.vertices += p->vertex_count;
         }
         facts.normals += p->normal_count;
@@ -83,7 +84,7 @@ static ffd_status survey_faces(const mesh_document *document, json_text *json, f
     mesh_faces faces = {0};
     mesh_topology topology;
     ffd_error reason = {0};
-    ffd_status status = document->format->faces(document, &faces, &reason);
+    ffd_status status = document->format->faces(document, MESH_SHOWN, &faces, &reason);
     if (!status)
         status = check_memory(document, &faces, &reason);
     if (!status)
@@ -116,8 +117,6 @@ ffd_status ffd_info_mesh(const ffd_info_desc *desc, json_text *json, ffd_error *
     const mesh_log log = {desc->log, desc->log_user};
     mesh_document *document;
     ffd_status status = ffd_source_open(&desc->file, 0, &document, error);
-    if (!status)
-        document->shown = true;
     if (!status)
         status = ffd_info_document(document, json, error);
     if (!status && desc->parts)

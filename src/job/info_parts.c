@@ -61,13 +61,14 @@ static ffd_status write_things(const mesh_listing *listing, json_text *json, ffd
 
 ffd_status ffd_info_parts(const mesh_document *document, json_text *json, ffd_error *error)
 {
+    const mesh_selector_calls *const calls = document->format->selectors;
     mesh_listing listing = {0};
     ffd_error reason = {0};
     ffd_status status = FFD_OK;
-    if (document->format->list_parts) {
+    if (calls) {
         status = ffd_listing_begin(document, &listing, &reason);
         if (!status)
-            status = document->format->list_parts(document, &listing, &reason);
+            status = calls->list(document, &listing, &reason);
     }
     if (!status) {
         status = write_things(&listing, json, &reason);

@@ -4,6 +4,7 @@
 #include "job/chain/chain_load.h"
 #include "job/deform_job.h"
 #include "job/figures/figure_values.h"
+#include "mesh/morphs.h"
 #include "json/json_chars.h"
 #include <stdio.h>
 #include <string.h>
@@ -71,9 +72,9 @@ static ffd_status keep_clips(const deform_job *job, ffd_error *error)
     intern_table names = {0};
     uint32_t index;
     bool listed = true;
-    if (!job->document->converted && job->document->format->keep_clips)
-        return job->document->format->keep_clips(job->document, job->clips, job->clip_count, desc->morphs,
-                                                 desc->lattice_count, error);
+    if (!job->converts && job->document->format->morphs)
+        return job->document->format->morphs->keep_clips(job->document, job->clips, job->clip_count,
+                                                         desc->morphs, desc->lattice_count, error);
     for (size_t i = 0; i < desc->lattice_count && listed; i++)
         listed = ffd_intern(&names, desc->morphs[i], strlen(desc->morphs[i]), &index);
     const ffd_status status =
@@ -85,10 +86,10 @@ static ffd_status keep_clips(const deform_job *job, ffd_error *error)
 /* Starts a conversion with the base shape. */
 static ffd_status begin(deform_job *job, ffd_error *error)
 {
-    if (!job->document->converted)
+    if (!job->converts)
         return FFD_OK;
     job->base.budget = &job->document->budget;
-    const ffd_status status = job->document->format->model(job->document, &job->base, error);
+    const ffd_status status = job->document->format->model(job->document, MESH_STORED, &job->base, error);
     job->base.clips = job->clips;
     job->base.clip_count = job->clip_count;
     return status;
@@ -98,7 +99,7 @@ static ffd_status begin(deform_job *job, ffd_error *error)
 static ffd_status keep_shape(deform_job *job, const char *name, ffd_error *error)
 {
     mesh_model after = {.budget = &job->document->budget};
-    ffd_status status = job->document->format->model(job->document, &after, error);
+    ffd_status status = job->document->format->model(job->document, ffd_job_written(job), &after, error);
     if (!status)
         status = ffd_model_add_morph(&job->base, &after, name, error);
     ffd_model_free(&after);
@@ -135,10 +136,10 @@ static ffd_status add_target(deform_job *job, size_t k, const mesh_log *log, ffd
     lattice_chain whole = job->chain;
     job->chain = ffd_chain_link_alone(&whole, k);
     ffd_status status =
-        job->document->converted ? FFD_OK : job->document->format->keep_base(job->document, name, error);
+        job->converts ? FFD_OK : job->document->format->morphs->keep_base(job->document, name, error);
     if (!status)
         status = ffd_deform_job_run(job, result, error);
-    if (!status && job->document->converted)
+    if (!status && job->converts)
         status = keep_shape(job, name, error);
     if (status)
         name_target(name, all->lattice_count, error);
@@ -163,7 +164,6 @@ static ffd_status add_targets(deform_job *job, ffd_job_result *results, size_t *
 {
     const mesh_log log = job->log;
     const size_t count = job->desc->lattice_count;
-    job->document->sparse_targets = true;
     job->forgets_locations = !fits_budget(job, count);
     ffd_status status = keep_clips(job, error);
     if (!status)

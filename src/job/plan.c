@@ -121,11 +121,11 @@ static ffd_status list_mesh(const ffd_source *source, path_list *files, size_t *
     path_list linked = {0};
     ffd_status status = ffd_paths_add(files, source->path, error);
     *read = files->count;
-    if (status || ffd_source_format(source, &format, NULL) || !ffd_format_table(format)->list_files ||
+    if (status || ffd_source_format(source, &format, NULL) || !ffd_format_table(format)->sidecars ||
         ffd_file_load(source->path, &bytes, NULL))
         return status;
     const mesh_named named = {.files = files, .linked = &linked};
-    status = ffd_format_table(format)->find_named(source->path, &bytes, &named, error);
+    status = ffd_format_table(format)->resources->find_named(source->path, &bytes, &named, error);
     *read = files->count - linked.count;
     ffd_paths_free(&linked);
     ffd_file_unload(&bytes);

@@ -25,7 +25,7 @@ static bool holds(const path_list *files, const char *output)
    material libraries) has not the ending of one; a buffer may have any. */
 static bool may_name(const mesh_format *format, const char *output)
 {
-    return format->find_named && (format->list_files || ffd_format_from_name(output) == FFD_FORMAT_AUTO);
+    return format->resources && (format->sidecars || ffd_format_from_name(output) == FFD_FORMAT_AUTO);
 }
 
 /* The files that a mesh names; resources: images and material libraries; linked: those that no job reads or
@@ -36,11 +36,9 @@ typedef struct mesh_names {
 
 static ffd_status list_by_document(const mesh_document *document, mesh_names *names, ffd_error *error)
 {
-    const mesh_format *const format = document->format;
-    TRY(format->list_files(document, &names->named, error));
-    if (format->list_images)
-        TRY(format->list_images(document, &names->resources, error));
-    return FFD_OK;
+    const mesh_sidecar_calls *const sidecars = document->format->sidecars;
+    TRY(sidecars->list(document, &names->named, error));
+    return sidecars->list_images(document, &names->resources, error);
 }
 
 static ffd_status list_by_bytes(const mesh_format *format, const ffd_source *source, mesh_names *names,
@@ -50,7 +48,7 @@ static ffd_status list_by_bytes(const mesh_format *format, const ffd_source *sou
     if (ffd_file_load(source->path, &bytes, NULL)) /* opening the mesh fails too */
         return FFD_OK;
     const mesh_named found = {&names->named, &names->resources, &names->linked};
-    const ffd_status status = format->find_named(source->path, &bytes, &found, error);
+    const ffd_status status = format->resources->find_named(source->path, &bytes, &found, error);
     ffd_file_unload(&bytes);
     return status;
 }
@@ -73,7 +71,8 @@ bool ffd_job_reads_mesh(const ffd_source *source, const char *path)
 
 bool ffd_job_reads_embedding(const ffd_deform_desc *desc, const char *path)
 {
-    return desc->embedding && !desc->embedding_bytes.data && ffd_file_same(path, desc->embedding);
+    const ffd_embedding_source *const embedding = &desc->embedding;
+    return embedding->path && !embedding->bytes.data && ffd_file_same(path, embedding->path);
 }
 
 bool ffd_job_reads_lattice(const ffd_lattice_source *lattices, size_t count, const char *path)
@@ -96,11 +95,11 @@ ffd_status ffd_job_check_mesh_files(const char *output, const ffd_source *source
         return FFD_OK;
     const mesh_format *const table = ffd_format_table(format);
     ffd_status status = FFD_OK;
-    if (document && table->list_linked)
-        status = table->list_linked(document, &names.linked, error);
+    if (document)
+        status = ffd_mesh_list_linked(document, &names.linked, error);
     if (!status && may_name(table, output))
-        status = document && table->list_files ? list_by_document(document, &names, error)
-                                               : list_by_bytes(table, source, &names, error);
+        status = document && table->sidecars ? list_by_document(document, &names, error)
+                                             : list_by_bytes(table, source, &names, error);
     const char *const role = status ? NULL : role_of(&names, output);
     if (role)
         status =

@@ -4,6 +4,7 @@
 #include "base/memory/memory.h"
 #include "io/formats.h"
 #include "io/users.h"
+#include "mesh/linked_files.h"
 
 static ffd_status add_models(job_sharing *s, const char *folder, ffd_error *error)
 {
@@ -37,12 +38,11 @@ static ffd_status add_input(job_sharing *s, ffd_error *error)
 {
     path_list files = {0};
     s->has_input = true;
-    if (!s->document->format->list_files || ffd_file_is_stream(s->input) || s->document->folder.resolve)
+    if (!s->document->format->sidecars || ffd_file_is_stream(s->input) || s->document->folder.resolve)
         return FFD_OK;
-    const mesh_format *const format = s->document->format;
-    ffd_status status = format->list_files(s->document, &files, error);
-    if (!status && format->list_linked)
-        status = format->list_linked(s->document, &files, error);
+    ffd_status status = s->document->format->sidecars->list(s->document, &files, error);
+    if (!status)
+        status = ffd_mesh_list_linked(s->document, &files, error);
     for (size_t i = 0; i < files.count && !status; i++)
         status = ffd_users_add(&s->known->users, files.paths[i], s->input, error);
     ffd_paths_free(&files);
@@ -66,7 +66,7 @@ void ffd_sharing_begin(job_sharing *sharing, const ffd_deform_desc *desc, const 
 {
     *sharing = (job_sharing){.document = document, .input = desc->input.path};
     *used = NULL;
-    if (!ffd_format_table(to)->name_sidecar || ffd_output_is_stream(output) || desc->sink)
+    if (!ffd_format_table(to)->sidecars || ffd_output_is_stream(output) || desc->sink)
         return;
     sharing->known = desc->output_set ? &desc->output_set->users : &sharing->own;
     sharing->sharing = (mesh_sharing){find, sharing, sharing->known->is_complete};

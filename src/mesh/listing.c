@@ -10,7 +10,7 @@ static void read_positions(const mesh_document *document, mesh_listing *listing)
         double *const xyz = listing->xyz + 3 * listing->first[i];
         if (document->parts[i].repeats_positions)
             continue;
-        document->format->read_positions(document, i, 0, count, xyz);
+        document->format->read(document, i, MESH_POSITIONS, MESH_SHOWN, 0, count, xyz);
         ffd_part_transform(document, i, 0, count, xyz);
     }
 }

@@ -3,6 +3,7 @@
 #define FFD_MESH_LISTING_H
 
 #include "mesh/mesh.h"
+#include "mesh/selector.h"
 
 /* An entry: all nodes of a name with their descendants, all meshes or materials of a name, ... */
 typedef struct mesh_thing {

@@ -17,9 +17,7 @@
 #include "mesh/memory_budget.h"
 #include "mesh/mesh_log.h"
 #include "mesh/model.h"
-#include "mesh/rig.h"
 #include "mesh/rounding.h"
-#include "mesh/selector.h"
 #include "splat/splat.h"
 #include "json/json_text.h"
 #include <ffd/job.h>
@@ -29,6 +27,11 @@
 
 /* The attributes of vertices. */
 typedef enum mesh_stream { MESH_POSITIONS, MESH_NORMALS, MESH_TANGENTS, MESH_STREAMS } mesh_stream;
+
+/* Which positions, normals and tangents of a document are meant: those of the base, as the file stores them,
+   or those that it shows, with the default weights of its morph targets. Without targets they are the same.
+ */
+typedef enum mesh_state { MESH_STORED, MESH_SHOWN } mesh_state;
 
 /* A morph target of a part: offsets for some of its streams. The target moves a vertex to its position plus
    the offset. */
@@ -76,7 +79,8 @@ typedef struct mesh_part {
     bool has_ellipsoids; /* their rotations and scales are available from read_splats; false: these stay as
                             they are */
     splat_form form;     /* of ellipsoids */
-    size_t place;        /* for splats: number for place_name of the node that shows them; or MESH_NO_PLACE */
+    size_t place;        /* for splats: the number of the place (places.h) of the node that shows them; or
+                            MESH_NO_PLACE */
 
     /* The node of the part moves itself (follow): deformed points are mapped by y + (carry y + carry[9..]) in
        the space of the lattice (a row-major matrix and an offset) before they are transformed back to the
@@ -125,49 +129,6 @@ static inline uint32_t ffd_faces_number(const mesh_faces *faces, uint32_t vertex
     return faces->numbers ? faces->numbers[vertex] : vertex;
 }
 
-/* A thing at a point of the file that is not a vertex: a joint, a camera and so on. */
-typedef struct mesh_place {
-    double at[3];    /* position in the space of the lattice */
-    unsigned kinds;  /* a set of PLACE_BIT; 0: no kind, but follow moves it */
-    bool stays;      /* follow does not move it, even if it moves its parent */
-    bool partial;    /* because its mesh is selected only in part */
-    bool unselected; /* it, or what it places, is not selected: this stays */
-    unsigned holds;  /* a set of PLACE_HOLDS: sizes that do not follow */
-    size_t number;   /* number for place_name */
-} mesh_place;
-#define PLACE_BIT(kind) (1u << (kind)) /* the bit of an ffd_behind_kind */
-
-/* Radii of a spring bone; the offset of the eyes; a direction to another place. */
-enum { PLACE_HOLDS_SPRING = 1, PLACE_HOLDS_EYES = 2, PLACE_HOLDS_AIM = 4 };
-
-/* The deformation at a place. */
-typedef struct mesh_place_move {
-    bool moves;         /* a vertex there would move */
-    bool singular;      /* the gradient there is unreliable */
-    double to[3];       /* where a vertex there would move to */
-    double gradient[9]; /* F - I there; 0 where nothing moves */
-    double became[3];   /* position of the place in the output */
-} mesh_place_move;
-
-/* The result of follow. */
-typedef struct mesh_following {
-    uint64_t written;  /* nodes whose transforms change */
-    uint64_t sheared;  /* nodes that rotate with their parents, because another rotation would shear them */
-    uint64_t singular; /* nodes that stay, with their descendants, because their matrices are not
-                          invertible */
-    uint64_t partial;  /* nodes that stay because their meshes are selected only in part */
-    uint64_t unscaled; /* nodes with sizes that do not follow: physics shapes, spring bones, offsets of eyes,
-                          splats */
-    /* Nodes that stay because they are not selected, below a node that moves or on joints that move. */
-    uint64_t unselected;
-    double unselected_by; /* the largest distance from where that node would carry one of them */
-} mesh_following;
-
-typedef struct mesh_places {
-    mesh_place *list;
-    size_t count;
-} mesh_places;
-
 typedef struct mesh_document mesh_document;
 
 /* Statistics of the weights of skinned vertices. */
@@ -208,7 +169,8 @@ typedef struct mesh_save_options {
     ffd_format format;
     bool force;
     ffd_resources resources;
-    const char *input; /* file of the document, which a conversion must not replace; NULL or "-": none */
+    bool sparse_targets; /* new morph targets may be stored without their offsets of 0 */
+    const char *input;   /* file of the document, which a conversion must not replace; NULL or "-": none */
     const mesh_sharing *sharing; /* models that may share buffers with the output; NULL: none */
     /* Receives further files of the output with unchanged content: images and material libraries that are
        copied next to it, or exist already. May be NULL. */
@@ -242,240 +204,137 @@ void ffd_part_transform(const mesh_document *document, size_t part, size_t first
 /* The same with the transforms of individual vertices from read_transforms. */
 void ffd_points_transform(const double *transforms, size_t count, double *points);
 
-/* The types of a format's functions; the members of mesh_format describe them. */
+/* The calls that every format has. */
+
+/* Reads a document from input, which it owns after success only. The source's path is for messages, and
+   relative references are relative to it ("-": there are none). */
 typedef ffd_status mesh_open_function(file_input *input, const ffd_source *source, mesh_document **document,
                                       ffd_error *error);
 typedef void mesh_close_function(mesh_document *document);
-typedef ffd_status mesh_list_files_function(const mesh_document *document, path_list *files,
-                                            ffd_error *error);
-typedef ffd_status mesh_find_resources_function(const char *path, const file_input *bytes, path_list *files,
-                                                ffd_error *error);
-typedef size_t mesh_count_sidecars_function(const file_input *bytes, ffd_format from, ffd_format to);
-typedef char *mesh_name_sidecar_function(const char *output, size_t index);
-typedef struct mesh_named {
-    path_list *files;  /* every file that the mesh names */
-    path_list *copies; /* those that are copied with an output; NULL: not asked for */
-    path_list *linked; /* those that no job reads or copies; NULL: not asked for */
-} mesh_named;
-typedef ffd_status mesh_find_named_function(const char *path, const file_input *bytes,
-                                            const mesh_named *named, ffd_error *error);
-typedef ffd_status mesh_check_function(const mesh_document *document, ffd_error *error);
-typedef ffd_status mesh_warn_function(const mesh_document *document, const mesh_log *log, ffd_error *error);
-/* Results of vertices are written in ranges that begin at multiples of this. */
-#define MESH_RANGE_STEP ((size_t)1024)
-
-typedef ffd_status mesh_check_reach_function(const mesh_document *document, const ffd_bounds *reach,
-                                             ffd_error *error);
-typedef ffd_status mesh_list_places_function(const mesh_document *document, bool all, mesh_places *places,
-                                             ffd_error *error);
-typedef char *mesh_place_name_function(const mesh_document *document, size_t index);
-typedef ffd_status mesh_count_skins_function(const mesh_document *document, const mesh_places *places,
-                                             const uint8_t *marks, uint64_t *count, uint64_t *loose,
-                                             ffd_error *error);
-typedef ffd_status mesh_follow_function(mesh_document *document, const mesh_places *places,
-                                        mesh_place_move *moves, const mesh_log *log,
-                                        mesh_following *following, ffd_error *error);
-typedef ffd_status mesh_select_function(mesh_document *document, const mesh_selector *selectors, size_t count,
-                                        ffd_error *error);
-typedef struct mesh_listing mesh_listing; /* listing.h */
-typedef ffd_status mesh_list_parts_function(const mesh_document *document, mesh_listing *listing,
-                                            ffd_error *error);
-typedef ffd_status mesh_mark_used_function(mesh_document *document, ffd_error *error);
-typedef void mesh_read_function(const mesh_document *document, size_t part, size_t first, size_t count,
-                                double *values);
-typedef void mesh_read_transforms_function(const mesh_document *document, size_t part, size_t first,
-                                           size_t count, double *transforms, skin_weights *found);
-typedef void mesh_read_offsets_function(const mesh_document *document, size_t part, size_t shape,
-                                        mesh_stream stream, size_t first, size_t count, double *xyz);
-typedef ffd_status mesh_keep_base_function(mesh_document *document, const char *name, ffd_error *error);
-typedef struct morph_clip morph_clip; /* morph/morph_clip.h */
-typedef ffd_status mesh_keep_clips_function(mesh_document *document, const morph_clip *clips, size_t count,
-                                            const char *const *names, size_t name_count, ffd_error *error);
-typedef ffd_status mesh_begin_results_function(mesh_document *document, bool normals, bool tangents,
-                                               ffd_error *error);
-typedef void mesh_write_function(mesh_document *document, size_t part, size_t first, size_t count,
-                                 const double *values, const uint8_t *changed);
-typedef void mesh_write_offsets_function(mesh_document *document, size_t part, size_t shape,
-                                         mesh_stream stream, size_t first, size_t count, const double *xyz,
-                                         const uint8_t *changed);
-typedef void mesh_read_splats_function(const mesh_document *document, size_t part, size_t first, size_t count,
-                                       splat_ellipsoid *splats);
-typedef void mesh_write_splats_function(mesh_document *document, size_t part, size_t first, size_t count,
-                                        const splat_ellipsoid *splats, const splat_turn *turns,
-                                        const uint8_t *changed);
-typedef ffd_status mesh_save_function(mesh_document *document, const mesh_save_options *options,
-                                      file_output *output, const mesh_log *log, ffd_error *error);
-typedef ffd_status mesh_faces_function(const mesh_document *document, mesh_faces *faces, ffd_error *error);
-typedef struct vertex_marks vertex_marks; /* mixed_faces.h */
-typedef ffd_status mesh_mixed_faces_function(const mesh_document *document, const vertex_marks *marks,
-                                             mesh_faces *faces, ffd_error *error);
-typedef uint64_t mesh_name_part_function(const mesh_document *document, uint64_t vertex, uint8_t *marks,
-                                         char *name, size_t capacity);
-typedef ffd_status mesh_corner_normals_function(const mesh_document *document, const mesh_faces *faces,
-                                                uint32_t *normals, ffd_error *error);
-typedef ffd_status mesh_model_function(const mesh_document *document, mesh_model *model, ffd_error *error);
-typedef ffd_status mesh_list_materials_function(mesh_document *document, const mesh_log *log,
-                                                mesh_materials *materials, ffd_error *error);
-typedef ffd_status mesh_read_skeleton_function(mesh_document *document, bool after, mesh_skeleton **skeleton,
-                                               ffd_error *error);
-typedef ffd_status mesh_read_anchors_function(const mesh_skeleton *skeleton, bool after,
-                                              mesh_anchors *anchors, ffd_error *error);
+/* Appends members that describe the document to an open JSON object. */
 typedef ffd_status mesh_describe_function(const mesh_document *document, json_text *json, ffd_error *error);
+/* Compares two documents of this format (see ffd_compare_run). The comparison was begun with
+   ffd_difference_begin: it has the tolerances, and no differences. */
 typedef ffd_status mesh_compare_function(const mesh_document *a, const mesh_document *b,
                                          ffd_comparison *comparison, ffd_error *error);
+/* Reads values of the file, as doubles, without transforms: 3 for a position or normal, 4 for a tangent
+   (x,y,z and the handedness). Thread-safe. */
+typedef void mesh_read_function(const mesh_document *document, size_t part, mesh_stream stream,
+                                mesh_state state, size_t first, size_t count, double *values);
+/* Gets all faces, and counts lines and points. Errors: FFD_E_MEMORY, FFD_E_LIMIT, and those of the file's
+ * content. */
+typedef ffd_status mesh_faces_function(const mesh_document *document, mesh_state state, mesh_faces *faces,
+                                       ffd_error *error);
+typedef struct vertex_marks vertex_marks; /* mixed_faces.h */
+/* Gets the faces whose vertices do not all have equal marks, and possibly others, with the positions of
+   their vertices: only of these vertices if faces->numbers is set, otherwise the positions of other
+   vertices are undefined. Vertices at the same position have equal marks. Errors: FFD_E_MEMORY,
+   FFD_E_LIMIT, and those of the file's content. */
+typedef ffd_status mesh_mixed_faces_function(const mesh_document *document, mesh_state state,
+                                             const vertex_marks *marks, mesh_faces *faces, ffd_error *error);
+/* Fills an empty model, which the caller frees in every case, with the transformed mesh, and with the
+   results if there are any; state must then be theirs. */
+typedef ffd_status mesh_model_function(const mesh_document *document, mesh_state state, mesh_model *model,
+                                       ffd_error *error);
+/* What the results of a document will be. */
+typedef struct mesh_results {
+    mesh_state state; /* the vectors that they replace */
+    bool directions;  /* normals and tangents are written, too */
+    bool converted; /* they are for another format (model), so they are not rounded to the quantization steps
+                       of the file, and morph targets and splats have none */
+    bool replace;   /* nobody reads the original values after results are written, so results may replace
+                       them; the same for all results of a document */
+} mesh_results;
+/* Begins results, before any is written: allocates memory, and frees the results of an earlier deformation of
+   the document. */
+typedef ffd_status mesh_begin_results_function(mesh_document *document, const mesh_results *results,
+                                               ffd_error *error);
+/* Results of vertices are written in ranges that begin at multiples of this. */
+#define MESH_RANGE_STEP ((size_t)1024)
+/* Writes results. It may run in several threads on disjoint ranges, which begin at multiples of
+   MESH_RANGE_STEP if there is a vector for each vertex. changed: one byte for each vector; 0: unchanged (its
+   values are then not read). Each vector is written at most once. */
+typedef void mesh_write_function(mesh_document *document, size_t part, mesh_stream stream, size_t first,
+                                 size_t count, const double *values, const uint8_t *changed);
+/* Writes the file, and further files that belong to it, to output; byte-identical to the input if nothing
+   changed. output NULL: only makes the checks that concern files other than the output itself. */
+typedef ffd_status mesh_save_function(mesh_document *document, const mesh_save_options *options,
+                                      file_output *output, const mesh_log *log, ffd_error *error);
+
+/* Calls that a format needs only where its files have such content. */
+
+/* Refuses (FFD_E_UNSUPPORTED) content that the streams of the parts do not represent, before anything is
+   embedded or deformed: skins, morph targets, compressed data. Not needed for a document that is only
+   described. Called by ffd_mesh_check. */
+typedef ffd_status mesh_check_function(const mesh_document *document, ffd_error *error);
+/* Fails with FFD_E_UNSUPPORTED if the document shows, in a box in the space of the lattice (sides may be
+   infinite), something selected that its parts cannot change. */
+typedef ffd_status mesh_check_reach_function(const mesh_document *document, const ffd_bounds *reach,
+                                             ffd_error *error);
+/* Logs which values of the file violate the format, and how they are treated. Without it, such values
+   are refused. Errors: FFD_E_MEMORY. Called by ffd_mesh_warn. */
+typedef ffd_status mesh_warn_function(const mesh_document *document, const mesh_log *log, ffd_error *error);
+/* Reads the transforms of a skinned part: 12 numbers for each vertex, linear (row-major) and offset.
+   found: statistics of weights are added; may be NULL. Thread-safe. */
+typedef void mesh_read_transforms_function(const mesh_document *document, size_t part, size_t first,
+                                           size_t count, double *transforms, skin_weights *found);
+/* Sets used of the parts with vertices that are in no face, line or point; it stays NULL for parts whose
+   faces cannot be read. Called once (ffd_mesh_mark_used). Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
+typedef ffd_status mesh_mark_used_function(mesh_document *document, ffd_error *error);
+/* Gets the index of the normal of each corner that `faces` has given, or MESH_NO_NORMAL; normals are
+   numbered through all parts. Only for documents with normals. Without it, it is that of the corner's vertex,
+   in the only part. */
+typedef ffd_status mesh_corner_normals_function(const mesh_document *document, const mesh_faces *faces,
+                                                uint32_t *normals, ffd_error *error);
+/* Fills an empty list, which the caller frees in every case, with the materials of the file and the
+   images of their base colours. glTF: element i is material i of the file. OBJ: the materials of its
+   libraries, one for each name. A missing image is not a failure; it is logged. Memory is taken from the
+   budget of the document, for as long as it is open. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
+typedef ffd_status mesh_list_materials_function(mesh_document *document, const mesh_log *log,
+                                                mesh_materials *materials, ffd_error *error);
+
+/* The calls for what meshes of some formats have, each described in its header. */
+typedef struct mesh_selector_calls mesh_selector_calls; /* selector.h */
+typedef struct mesh_resource_calls mesh_resource_calls; /* linked_files.h */
+typedef struct mesh_sidecar_calls mesh_sidecar_calls;   /* linked_files.h */
+typedef struct mesh_place_calls mesh_place_calls;       /* places.h */
+typedef struct mesh_morph_calls mesh_morph_calls;       /* morphs.h */
+typedef struct mesh_rig_calls mesh_rig_calls;           /* rig.h */
+typedef struct mesh_splat_calls mesh_splat_calls;       /* splats.h */
 
 typedef struct mesh_format {
     ffd_format format;
-    const char *name; /* "OBJ" */
-    /* Reads a document from input, which it owns after success only. The source's path is for messages, and
-       relative references are relative to it ("-": there are none). */
+    const char *name;          /* "OBJ" */
+    double largest_coordinate; /* of the format's number type */
     mesh_open_function *open;
     mesh_close_function *close;
-    /* Adds the further files that open has read: the buffers of a .gltf. A file that is referenced twice is
-       added twice. NULL: there are none. */
-    mesh_list_files_function *list_files;
-    /* Adds the referenced images in the folder of the file or below, whether they exist or not. NULL:
-       none. */
-    mesh_list_files_function *list_images;
-    /* Adds files that no job reads or copies, wherever they are: those of extensions of a glTF, of call and
-       others in an OBJ. NULL: none. */
-    mesh_list_files_function *list_linked;
-    /* The same as list_images for images and other files that are copied with an output, by scanning the
-       bytes of the file at a path without opening a document. An invalid file has none. NULL: nothing is
-       copied. */
-    mesh_find_resources_function *find_resources;
-    /* Adds every file beside it that a mesh names, existing or not, in the same way: buffers, images,
-       material libraries and their maps, files of extensions. NULL: none. */
-    mesh_find_named_function *find_named;
-    /* Counts the further files, without images, that saving a mesh as `to` writes, by scanning the bytes of
-       the input (NULL if its format is another one). An invalid file has none. NULL: there are none. */
-    mesh_count_sidecars_function *count_sidecars;
-    /* Returns the path of number `index` of these files, if no other model names it (sidecar.h). */
-    mesh_name_sidecar_function *name_sidecar;
-    /* Refuses (FFD_E_UNSUPPORTED) content that the streams of the parts do not represent, before anything is
-       embedded or deformed: skins, morph targets, compressed data. Not needed for a document that is only
-       described. NULL: the streams represent everything. Called by ffd_mesh_check. */
-    mesh_check_function *check;
-    /* Logs which values of the file violate the format, and how they are treated. NULL: such values are
-       refused. Errors: FFD_E_MEMORY. Called by ffd_mesh_warn. */
-    mesh_warn_function *warn;
-    double largest_coordinate; /* of the format's number type */
-    /* Fails with FFD_E_UNSUPPORTED if the document shows, in a box in the space of the lattice (sides may be
-       infinite), something selected that its parts cannot change. NULL: the parts include everything. */
-    mesh_check_reach_function *check_reach;
-    /* Lists the places of the file that belong to the selection, in the order of the file. all: also those
-       without a kind and those that are not selected, for follow. The caller frees places->list, also after a
-       failure. NULL: there are none. */
-    mesh_list_places_function *list_places;
-    /* Returns the name of a place, which the caller frees; NULL if memory runs out. */
-    mesh_place_name_function *place_name;
-    /* Counts the skins with a marked place (one byte each) among their joints, and the marked places that are
-       joints of none of these (loose). */
-    mesh_count_skins_function *count_skins;
-    /* Moves all places with the deformation, and their animations and the skins. To be called after
-       begin_results, which resets it, and before vertices are written, because it may set `carried` of parts.
-       Fills became. NULL: the format has no places. Errors: FFD_E_MEMORY, FFD_E_LIMIT, and those of the
-       file's content. */
-    mesh_follow_function *follow;
-    /* Restricts moving, counting and writing to what at least one of the selectors names: sets selected and
-       skipped of the parts, whose indices and vertices stay. To be called at most once, before results.
-       selector_kinds: the set of kinds of the format (0: select is NULL). Errors: FFD_E_ARGUMENT (a name that
-       is not in the file). */
-    unsigned selector_kinds;
-    mesh_select_function *select;
-    /* Adds to a listing every name that select accepts, with everything that its bearers draw, by kind and in
-       the order of the file; and every unnamed thing of a kind that can have names. NULL: nothing has a name.
-       Errors: FFD_E_MEMORY, FFD_E_UNSUPPORTED, and those of the file's content. */
-    mesh_list_parts_function *list_parts;
-
-    /* Sets used of the parts with vertices that are in no face, line or point; it stays NULL for parts whose
-       faces cannot be read. Called once (ffd_mesh_mark_used). NULL: every vertex is in one. Errors:
-       FFD_E_MEMORY, FFD_E_LIMIT. */
-    mesh_mark_used_function *mark_used;
-
-    /* Read the values of the file, as doubles, without transforms: 3 for a position or normal, 4 for a
-       tangent (x,y,z and the handedness). Thread-safe. */
-    mesh_read_function *read_positions;
-    mesh_read_function *read_normals;
-    mesh_read_function *read_tangents;
-
-    /* Reads the transforms of a skinned part: 12 numbers for each vertex, linear (row-major) and offset.
-       found: statistics of weights are added; may be NULL. NULL: no part is skinned. */
-    mesh_read_transforms_function *read_transforms;
-
-    /* Reads the offsets of a morph target for one of its streams: 3 numbers for each vertex, also for
-       tangents. NULL: no part has shapes. */
-    mesh_read_offsets_function *read_offsets;
-
-    /* Keeps the base shape: results become the offsets of a further morph target of this name. To be called
-       before begin_results; and again for each further target, when the results of the one before are
-       complete. NULL: the format has no morph targets. */
-    mesh_keep_base_function *keep_base;
-    /* Adds animations of morph target weights, to be saved. They belong to the caller, and refer to new
-       targets or to those of the file. To be called before keep_base. names: those of all new targets.
-       Errors: FFD_E_ARGUMENT (a clip refers to an unknown target). */
-    mesh_keep_clips_function *keep_clips;
-
-    /* Results. begin_results must come first: it allocates memory, and frees the results of an earlier
-       deformation of the document. The write functions may run in several threads on disjoint ranges, which
-       begin at multiples of MESH_RANGE_STEP if there is a vector for each vertex. changed: one byte for each
-       vector; 0: unchanged (its values are then not read). Each vector is written at most once. */
-    mesh_begin_results_function *begin_results;
-    mesh_write_function *write_positions;
-    mesh_write_function *write_normals;
-    mesh_write_function *write_tangents;
-
-    mesh_write_offsets_function *write_offsets;
-
-    /* Read and write the ellipsoids of Gaussian splats, for parts that have them. The harmonics of splat i
-       are rotated by turns[i]. NULL: no part has them. */
-    mesh_read_splats_function *read_splats;
-    mesh_write_splats_function *write_splats;
-
-    /* Writes the file, and further files that belong to it, to output; byte-identical to the input if nothing
-       changed. */
-    mesh_save_function *save;
-    /* Makes the checks of save that concern files other than the output itself; output is NULL, and nothing
-       is written. NULL: there are none. */
-    mesh_save_function *check_save;
-
-    /* Topology, and the description, which appends members to an open JSON object. */
-    mesh_faces_function *faces;
-    /* Gets the faces whose vertices do not all have equal marks, and possibly others, with the positions of
-       their vertices: only of these vertices if faces->numbers is set, otherwise the positions of other
-       vertices are undefined. Vertices at the same position have equal marks. Errors: FFD_E_MEMORY,
-       FFD_E_LIMIT, and those of the file's content. */
-    mesh_mixed_faces_function *mixed_faces;
-    /* Writes the selector, such as "node:NAME", of the thing that shows a vertex (by its number in the
-       document); "" if it has no name. Returns how many vertices of the thing are marked (one byte for each
-       vertex of the document), and clears their marks. NULL: nothing has names. */
-    mesh_name_part_function *name_part;
-    /* Gets the index of the normal of each corner that `faces` has given, or MESH_NO_NORMAL; normals are
-       numbered through all parts. Only for documents with normals. NULL: the normal of the corner's vertex,
-       in the only part. */
-    mesh_corner_normals_function *corner_normals;
-    /* Fills an empty model, which the caller frees in every case, with the transformed mesh, and with the
-       results if there are any. */
-    mesh_model_function *model;
-    /* Fills an empty list, which the caller frees in every case, with the materials of the file and the
-       images of their base colours. glTF: element i is material i of the file. OBJ: the materials of its
-       libraries, one for each name. A missing image is not a failure; it is logged. Memory is taken from the
-       budget of the document, for as long as it is open. NULL: there are none. Errors: FFD_E_MEMORY,
-       FFD_E_LIMIT. */
-    mesh_list_materials_function *list_materials;
-    /* Makes the skeleton of a document with animations or skins, without loading keys. It must be destroyed
-       before the document is closed. after: the skeleton of the deformed mesh, as follow has moved it.
-       *skeleton is NULL if there is none. NULL: the format has none. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
-    mesh_read_skeleton_function *read_skeleton;
-    /* Fills anchors, which the caller frees in every case, with the vertices of the file, or with the results
-       of a deformation. The targets are those that loaded animations drive. shown: as for read_positions.
-       Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
-    mesh_read_anchors_function *read_anchors;
     mesh_describe_function *describe;
-
-    /* Compares two documents of this format (see ffd_compare_run). The comparison was begun with
-       ffd_difference_begin: it has the tolerances, and no differences. */
     mesh_compare_function *compare;
+    mesh_read_function *read;
+    mesh_faces_function *faces;
+    mesh_mixed_faces_function *mixed_faces;
+    mesh_model_function *model;
+    mesh_begin_results_function *begin_results;
+    mesh_write_function *write;
+    mesh_save_function *save;
+
+    /* NULL: there is nothing of that kind. */
+    mesh_check_function *check;
+    mesh_check_reach_function *check_reach;
+    mesh_warn_function *warn;
+    mesh_read_transforms_function *read_transforms; /* without it, no part is skinned */
+    mesh_mark_used_function *mark_used;
+    mesh_corner_normals_function *corner_normals;
+    mesh_list_materials_function *list_materials;
+
+    /* NULL: meshes of the format have none. */
+    const mesh_selector_calls *selectors; /* names that `--only` selects by */
+    const mesh_resource_calls *resources; /* images and other files that they name */
+    const mesh_sidecar_calls *sidecars;   /* further files that they consist of */
+    const mesh_place_calls *places;       /* places that are no vertices */
+    const mesh_morph_calls *morphs;
+    const mesh_rig_calls *rig; /* skeletons and animations */
+    const mesh_splat_calls *splats;
 } mesh_format;
 
 /* The first member of every format's own document struct. */
@@ -491,19 +350,6 @@ struct mesh_document {
     /* Number of things whose faces, lines or points are unknown (the flaws say why); they are in no faces. */
     size_t unknown_drawings;
     bool used_is_marked; /* ffd_mesh_mark_used was called */
-    /* Set before results: they are for another format (model), so they are not rounded to the quantization
-       steps of the file. */
-    bool converted;
-    /* Set before the first results, and not changed: nobody reads the original values after results are
-       written, so results may replace them. */
-    bool results_replace;
-    /* Set by a job: positions, normals and tangents are read with the default weights of morph targets
-       applied, and results refer to these. */
-    bool shown;
-    /* Results are the offsets of a new morph target (keep_base); other targets stay. */
-    bool keeps_base;
-    /* Set by a job before it saves: new targets may be stored sparsely, without offsets of 0. */
-    bool sparse_targets;
 };
 
 /* Returns whether a part has shapes with weights other than 0. */

@@ -8,10 +8,7 @@
 #ifndef FFD_MESH_RIG_H
 #define FFD_MESH_RIG_H
 
-#include "base/fail.h"
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "mesh/mesh.h"
 
 #define RIG_NONE SIZE_MAX
 
@@ -94,5 +91,20 @@ typedef struct mesh_anchors {
     size_t target_count;
     bool keeps_offsets; /* the offsets of targets could not be deformed, and are those at rest */
 } mesh_anchors;
+
+/* Makes the skeleton of a document with animations or skins, without loading keys. It must be destroyed
+   before the document is closed. after: the skeleton of the deformed mesh, as follow (places.h) has moved
+   it. *skeleton is NULL if there is none. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+typedef ffd_status mesh_read_skeleton_function(mesh_document *document, bool after, mesh_skeleton **skeleton,
+                                               ffd_error *error);
+/* Fills anchors, which the caller frees in every case, with the vertices of the file, or with the results
+   of a deformation. The targets are those that loaded animations drive. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+typedef ffd_status mesh_read_anchors_function(const mesh_skeleton *skeleton, mesh_state state, bool after,
+                                              mesh_anchors *anchors, ffd_error *error);
+
+struct mesh_rig_calls {
+    mesh_read_skeleton_function *read_skeleton;
+    mesh_read_anchors_function *read_anchors;
+};
 
 #endif

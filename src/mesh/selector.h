@@ -5,6 +5,7 @@
 #include "base/fail.h"
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 typedef enum selector_kind {
     SELECT_NODE,
@@ -23,6 +24,33 @@ typedef struct mesh_selector {
     const char *name; /* points into the text, after the colon */
     size_t size;
 } mesh_selector;
+
+typedef struct mesh_document mesh_document; /* mesh.h */
+typedef struct mesh_listing mesh_listing;   /* listing.h */
+
+/* Restricts moving, counting and writing to what at least one of the selectors names: sets selected and
+   skipped of the parts, whose indices and vertices stay. To be called at most once, before results.
+   Errors: FFD_E_ARGUMENT (a name that is not in the file). */
+typedef ffd_status mesh_select_function(mesh_document *document, const mesh_selector *selectors, size_t count,
+                                        ffd_error *error);
+/* Adds to a listing every name that select accepts, with everything that its bearers draw, by kind and in
+   the order of the file; and every unnamed thing of a kind that can have names. Errors: FFD_E_MEMORY,
+   FFD_E_UNSUPPORTED, and those of the file's content. */
+typedef ffd_status mesh_list_things_function(const mesh_document *document, mesh_listing *listing,
+                                             ffd_error *error);
+/* Writes the selector, such as "node:NAME", of the thing that shows a vertex (by its number in the
+   document); "" if it has no name. Returns how many vertices of the thing are marked (one byte for each
+   vertex of the document), and clears their marks. */
+typedef uint64_t mesh_name_owner_function(const mesh_document *document, uint64_t vertex, uint8_t *marks,
+                                          char *name, size_t capacity);
+
+/* The calls of a format whose meshes have things with names. */
+typedef struct mesh_selector_calls {
+    unsigned kinds; /* the set of kinds that the format has */
+    mesh_select_function *select;
+    mesh_list_things_function *list;
+    mesh_name_owner_function *name_owner;
+} mesh_selector_calls;
 
 /* Returns the name of a kind: "node", "mesh", ... */
 const char *ffd_selector_kind_name(selector_kind kind);

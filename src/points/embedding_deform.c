@@ -200,7 +200,8 @@ static void free_scratch(const point_run *run, deform_scratch *scratch)
     ffd_free(scratch);
 }
 
-static ffd_status deform(deform_work *work, size_t count, const ffd_run_options *callers, ffd_error *error)
+static ffd_status deform_elements(deform_work *work, size_t count, const ffd_run_options *callers,
+                                  ffd_error *error)
 {
     point_run run = {.total = 0};
     ffd_status status = check(work, count, error);
@@ -220,7 +221,7 @@ ffd_status ffd_embedding_deform(const ffd_embedding *embedding, const ffd_lattic
 {
     deform_work work = {
         .embedding = embedding, .lattice = moved, .in = in, .out = out, .gradients = gradients};
-    return deform(&work, embedding->count, run, error);
+    return deform_elements(&work, embedding->count, run, error);
 }
 
 ffd_status ffd_embedding_deform_some(const ffd_embedding *embedding, const ffd_lattice *moved,
@@ -234,5 +235,5 @@ ffd_status ffd_embedding_deform_some(const ffd_embedding *embedding, const ffd_l
                         .in = in,
                         .out = out,
                         .gradients = gradients};
-    return deform(&work, count, run, error);
+    return deform_elements(&work, count, run, error);
 }

@@ -412,6 +412,10 @@ typedef struct ffd_depfile ffd_depfile;
 ffd_status ffd_depfile_create(const char *path, ffd_depfile **depfile, ffd_error *error);
 void ffd_depfile_destroy(ffd_depfile **depfile);
 ffd_status ffd_depfile_write(ffd_depfile *depfile, ffd_error *error);
+typedef struct ffd_embedding_source {
+    const char *path;
+    ffd_bytes bytes;
+} ffd_embedding_source;
 typedef struct ffd_deform_desc {
     size_t struct_size;
     ffd_source input;
@@ -426,7 +430,7 @@ typedef struct ffd_deform_desc {
     double falloff;
     double snap;
     bool snap_relative;
-    const char *embedding;
+    ffd_embedding_source embedding;
     unsigned fail_on;
     double tear_most;
     uint64_t flipped_most;
@@ -454,7 +458,6 @@ typedef struct ffd_deform_desc {
     ffd_depfile *depfile;
     ffd_log_function log;
     void *log_user;
-    ffd_bytes embedding_bytes;
     ffd_sink_function sink;
     void *sink_user;
     ffd_positions_function positions;

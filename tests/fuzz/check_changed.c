@@ -7,6 +7,7 @@
 #include "job/input/source.h"
 #include "mesh/difference.h"
 #include "mesh/mixed_faces.h"
+#include "mesh/selector.h"
 #include "promise.h"
 #include <string.h>
 
@@ -94,13 +95,13 @@ static void take_faces(const mesh_document *document)
     PROMISE(bytes, "no memory");
     for (size_t i = 0; i < count; i++)
         bytes[i] = i & 1;
-    ffd_status status = document->format->faces(document, &faces, &error);
+    ffd_status status = document->format->faces(document, MESH_STORED, &faces, &error);
     allow_refusal(status, &error);
     if (!status)
         take_normals(document, &faces);
     ffd_mesh_faces_free(&faces);
     const vertex_marks marks = {bytes, 1, count};
-    status = document->format->mixed_faces(document, &marks, &faces, &error);
+    status = document->format->mixed_faces(document, MESH_STORED, &marks, &faces, &error);
     allow_refusal(status, &error);
     ffd_mesh_faces_free(&faces);
     free(bytes);
@@ -118,7 +119,7 @@ static void convert(const mesh_document *document)
 {
     ffd_error error = {0};
     mesh_model model = {.wants_details = true};
-    allow_refusal(document->format->model(document, &model, &error), &error);
+    allow_refusal(document->format->model(document, MESH_STORED, &model, &error), &error);
     ffd_model_free(&model);
 }
 
@@ -127,8 +128,8 @@ static void select_group(mesh_document *document)
 {
     static const mesh_selector selector = {SELECT_GROUP, "default", sizeof "default" - 1};
     ffd_error error = {0};
-    if (document->format->selector_kinds & SELECTOR_BIT(SELECT_GROUP))
-        (void)document->format->select(document, &selector, 1, &error);
+    if (document->format->selectors->kinds & SELECTOR_BIT(SELECT_GROUP))
+        (void)document->format->selectors->select(document, &selector, 1, &error);
 }
 
 static void use(const trial *of, mesh_document *document, uint64_t seed)

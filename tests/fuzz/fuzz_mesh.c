@@ -97,7 +97,7 @@ static bool take_faces(const mesh_document *document, mesh_faces *faces)
 {
     ffd_error error = {0};
     memset(faces, 0, sizeof *faces);
-    const ffd_status status = document->format->faces(document, faces, &error);
+    const ffd_status status = document->format->faces(document, MESH_STORED, faces, &error);
     if (status) {
         trial_refusal(status, &error);
         return false;
@@ -193,7 +193,7 @@ static void check_part(const trial *of, const mesh_document *document, size_t pa
     const double offset = part->identity ? 0 : vec_length(part->offset);
     for (size_t v = 0; v < part->vertex_count && condition < WORST_CONDITION; v++) {
         double p[3], placed[3];
-        document->format->read_positions(document, part_number, v, 1, p);
+        document->format->read(document, part_number, MESH_POSITIONS, MESH_STORED, v, 1, p);
         memcpy(placed, p, sizeof p);
         ffd_part_transform(document, part_number, v, 1, placed);
         const double error =
@@ -230,7 +230,7 @@ static double *deformed_positions(const trial *of, const uint8_t *data, size_t s
     double *const deformed = malloc((size_t)ffd_mesh_vertex_count(document) * 3 * sizeof *deformed + 1);
     const mesh_pass pass = {
         .document = document, .chain = &chain, .links = 1, .threads = 1, .deformed = deformed};
-    PROMISE(deformed && ffd_pass_run(&pass, &totals, &error) == FFD_OK, "no pass");
+    PROMISE(deformed && ffd_pass_over_mesh(&pass, &totals, &error) == FFD_OK, "no pass");
     ffd_chain_free(&chain);
     ffd_source_close(&document);
     return deformed;

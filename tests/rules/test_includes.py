@@ -35,7 +35,7 @@ LAYERS = {
         "base", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/read", "mesh", "splat",
     },
     "io/gltf/edit": {
-        "base", "base/memory", "base/text", "base/vector", "io/gltf/model", "io/gltf/read", "json", "mesh/morph",
+        "base", "base/memory", "base/text", "base/vector", "io/gltf/model", "io/gltf/read", "json", "mesh", "mesh/morph",
     },
     "io/gltf/write": {
         "base", "base/file", "base/memory", "base/system", "base/text", "io/gltf/edit", "io/gltf/file",

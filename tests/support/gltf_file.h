@@ -64,18 +64,18 @@ static inline void move_positions(mesh_document *document, size_t part, mover mo
     for (size_t i = 0; i < document->parts[part].vertex_count; i++) {
         double xyz[3], place[3];
         const uint8_t changed = 1;
-        gltf->read_positions(document, part, i, 1, xyz);
+        gltf->read(document, part, MESH_POSITIONS, MESH_STORED, i, 1, xyz);
         memcpy(place, xyz, sizeof place);
         ffd_part_transform(document, part, i, 1, place);
         move(place, xyz);
-        gltf->write_positions(document, part, i, 1, xyz, &changed);
+        gltf->write(document, part, MESH_POSITIONS, i, 1, xyz, &changed);
     }
 }
 
 /* Moves all positions. attributes: also rotates the components of normals and tangents. */
 static inline ffd_status deform(mesh_document *document, mover move, bool attributes, ffd_error *error)
 {
-    const ffd_status status = gltf->begin_results(document, attributes, attributes, error);
+    const ffd_status status = gltf->begin_results(document, &(mesh_results){.directions = attributes}, error);
     for (size_t part = 0; part < document->part_count && status == FFD_OK; part++) {
         const mesh_part *p = &document->parts[part];
         if (!p->repeats_positions)
@@ -84,14 +84,14 @@ static inline ffd_status deform(mesh_document *document, mover move, bool attrib
             double v[4];
             const uint8_t changed = 1;
             if (p->normal_count) {
-                gltf->read_normals(document, part, i, 1, v);
+                gltf->read(document, part, MESH_NORMALS, MESH_STORED, i, 1, v);
                 const double turned[3] = {v[1], v[2], v[0]};
-                gltf->write_normals(document, part, i, 1, turned, &changed);
+                gltf->write(document, part, MESH_NORMALS, i, 1, turned, &changed);
             }
             if (p->has_tangents) {
-                gltf->read_tangents(document, part, i, 1, v);
+                gltf->read(document, part, MESH_TANGENTS, MESH_STORED, i, 1, v);
                 const double turned[4] = {v[1], v[2], v[0], v[3]};
-                gltf->write_tangents(document, part, i, 1, turned, &changed);
+                gltf->write(document, part, MESH_TANGENTS, i, 1, turned, &changed);
             }
         }
     }
@@ -147,7 +147,7 @@ static inline ffd_status run_all(const void *bytes, size_t size, const char *pat
     if (status == FFD_OK && text.failed)
         status = FFD_E_MEMORY;
     if (status == FFD_OK)
-        status = gltf->faces(document, &faces, error);
+        status = gltf->faces(document, MESH_STORED, &faces, error);
     ffd_mesh_faces_free(&faces);
     if (status == FFD_OK || status == FFD_E_UNSUPPORTED || status == FFD_E_INVALID)
         status = gltf->check(document, error);

@@ -28,7 +28,7 @@ static inline void assert_holds(const mesh_document *before, const file_input *s
     assert_int_equal(document->parts->vertex_count, before->parts->vertex_count);
     for (size_t i = 0; i < document->parts->vertex_count; i++) {
         double p[3];
-        document->format->read_positions(document, 0, i, 1, p);
+        document->format->read(document, 0, MESH_POSITIONS, MESH_STORED, i, 1, p);
         for (size_t a = 0; a < 3; a++)
             assert_true(same_number(p[a], as_held(before, positions[3 * i + a])));
     }
@@ -46,15 +46,15 @@ static inline void change_and_save(mesh_document *document, draw *d)
     assert_non_null(positions);
     for (size_t i = 0; i < part->vertex_count; i++) {
         const uint8_t changed = draw_int(d, 0, 1) == 1;
-        format->read_positions(document, 0, i, 1, positions + 3 * i);
+        format->read(document, 0, MESH_POSITIONS, MESH_STORED, i, 1, positions + 3 * i);
         for (size_t a = 0; a < 3 && changed; a++)
             positions[3 * i + a] += draw_int(d, 0, 2) / 3.0;
-        format->write_positions(document, 0, i, 1, positions + 3 * i, &changed);
+        format->write(document, 0, MESH_POSITIONS, i, 1, positions + 3 * i, &changed);
     }
     for (size_t n = 0; n < part->normal_count; n++) {
         const double value[3] = {draw_int(d, 0, 1), draw_int(d, 0, 1), 0.5};
         const uint8_t changed = draw_int(d, 0, 1) == 1;
-        format->write_normals(document, 0, n, 1, value, &changed);
+        format->write(document, 0, MESH_NORMALS, n, 1, value, &changed);
     }
     if (save_bytes(document, &saved, &error))
         fail_msg("%s", error.message);
@@ -77,7 +77,7 @@ static inline bool use_document(mesh_document *document)
     ffd_json_object(&json, NULL, true);
     assert_int_equal(format->describe(document, &json, NULL), FFD_OK);
     ffd_buffer_free(&buffer);
-    const ffd_status shown = format->faces(document, &faces, NULL);
+    const ffd_status shown = format->faces(document, MESH_STORED, &faces, NULL);
     if (shown == FFD_OK) {
         for (size_t i = 0; i < faces.start[faces.face_count]; i++)
             assert_true(faces.corners[i] < faces.vertex_count);
@@ -87,7 +87,7 @@ static inline bool use_document(mesh_document *document)
     ffd_difference_begin(&comparison, 0, 0);
     assert_int_equal(format->compare(document, document, &comparison, NULL), FFD_OK);
     assert_true(comparison.equal);
-    const ffd_status begun = format->begin_results(document, true, true, NULL);
+    const ffd_status begun = format->begin_results(document, &(mesh_results){.directions = true}, NULL);
     assert_true(begun == FFD_OK || (may_refuse && begun == FFD_E_UNSUPPORTED));
     return begun == FFD_OK;
 }
@@ -202,12 +202,12 @@ static inline ffd_status use_all(const mesh_format *format, const byte_seed *see
         return status;
     ffd_json_begin(&json, &buffer);
     ffd_json_object(&json, NULL, true);
-    status = format->begin_results(document, true, true, &error);
+    status = format->begin_results(document, &(mesh_results){.directions = true}, &error);
     if (status == FFD_OK) {
-        format->write_positions(document, 0, 0, 1, moved, &changed);
+        format->write(document, 0, MESH_POSITIONS, 0, 1, moved, &changed);
         for (size_t n = 0; n < 2 && n < document->parts->normal_count; n++)
-            format->write_normals(document, 0, n, 1, turned[n], &changed);
-        status = format->faces(document, &faces, &error);
+            format->write(document, 0, MESH_NORMALS, n, 1, turned[n], &changed);
+        status = format->faces(document, MESH_STORED, &faces, &error);
     }
     if (status == FFD_OK)
         status = format->describe(document, &json, &error);

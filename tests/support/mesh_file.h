@@ -90,7 +90,7 @@ static inline void append_positions(const mesh_document *document, size_t row, b
 {
     for (size_t i = 0; i < document->parts->vertex_count; i++) {
         double p[3];
-        document->format->read_positions(document, 0, i, 1, p);
+        document->format->read(document, 0, MESH_POSITIONS, MESH_STORED, i, 1, p);
         ffd_buffer_format(text, "%s%g,%g,%g", i == 0 ? "" : i % row == 0 ? " | " : " ", p[0], p[1], p[2]);
     }
 }
@@ -113,7 +113,7 @@ static inline void assert_read(const mesh_format *format, const read_text *cases
             fail_msg("case %zu: %s", i, contents);
         ffd_free(contents);
         assert_int_equal(ffd_mesh_check(document, NULL), FFD_OK);
-        assert_int_equal(format->begin_results(document, true, true, NULL), FFD_OK);
+        assert_int_equal(format->begin_results(document, &(mesh_results){.directions = true}, NULL), FFD_OK);
         assert_saved(document, cases[i].text, strlen(cases[i].text));
         format->close(document);
     }

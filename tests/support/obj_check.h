@@ -19,7 +19,7 @@ static inline double *draw_normals(mesh_document *document, draw *d)
     const size_t count = document->parts->normal_count;
     double *values = malloc((count + 1) * 3 * sizeof *values);
     assert_non_null(values);
-    obj->read_normals(document, 0, 0, count, values);
+    obj->read(document, 0, MESH_NORMALS, MESH_STORED, 0, count, values);
     const int kinds = draw_int(d, 0, 3);
     for (size_t i = 0; i < count; i++) {
         const int kind = draw_int(d, 0, kinds);
@@ -137,9 +137,9 @@ static inline void check_new_normals(mesh_document *document, draw *d, bool coun
     ffd_error error = {0};
     assert_non_null(changed);
     memset(changed, 1, document->parts->normal_count + 1);
-    document->results_replace = draw_int(d, 0, 1) == 1;
-    assert_int_equal(obj->begin_results(document, true, false, NULL), FFD_OK);
-    obj->write_normals(document, 0, 0, document->parts->normal_count, values, changed);
+    const mesh_results results = {.directions = true, .replace = draw_int(d, 0, 1) == 1};
+    assert_int_equal(obj->begin_results(document, &results, NULL), FFD_OK);
+    obj->write(document, 0, MESH_NORMALS, 0, document->parts->normal_count, values, changed);
     if (save_bytes(document, &saved, &error) != FFD_OK)
         fail_msg("%s", error.message);
     plain_obj a = plain_read(o->file.input.data, o->file.input.size), b = plain_read(saved.data, saved.size);

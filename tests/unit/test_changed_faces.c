@@ -66,7 +66,7 @@ static void other_faces_are_refused(void **state)
         mesh_faces faces;
         ffd_error error;
         overwrite(bytes, texts[i].after);
-        assert_int_equal(document->format->faces(document, &faces, &error), FFD_E_IO);
+        assert_int_equal(document->format->faces(document, MESH_STORED, &faces, &error), FFD_E_IO);
         assert_non_null(strstr(error.message, "has changed while it was read"));
         assert_null(faces.start);
         document->format->close(document);
@@ -85,7 +85,7 @@ static void other_corners_have_no_normals(void **state)
         mesh_document *const document = opened_copy(FFD_FORMAT_OBJ, before, bytes);
         mesh_faces faces;
         uint32_t normals[6];
-        assert_int_equal(document->format->faces(document, &faces, NULL), FFD_OK);
+        assert_int_equal(document->format->faces(document, MESH_STORED, &faces, NULL), FFD_OK);
         assert_int_equal(document->format->corner_normals(document, &faces, normals, NULL), FFD_OK);
         overwrite(bytes, after[i]);
         assert_int_equal(document->format->corner_normals(document, &faces, normals, NULL), FFD_E_IO);
@@ -109,7 +109,7 @@ static void a_count_is_no_larger_than_the_file(void **state)
         ffd_comparison comparison = {.struct_size = sizeof comparison};
         mesh_model model = {.wants_details = true};
         overwrite(bytes, large_counts[i].after);
-        assert_int_equal(document->format->model(document, &model, NULL), FFD_E_IO);
+        assert_int_equal(document->format->model(document, MESH_STORED, &model, NULL), FFD_E_IO);
         ffd_difference_begin(&comparison, 0, 0);
         assert_int_equal(document->format->compare(document, document, &comparison, NULL), FFD_OK);
         ffd_model_free(&model);
@@ -137,8 +137,9 @@ static void another_text_is_not_saved(void **state)
         mesh_document *const document = opened_copy(saved_texts[i].format, saved_texts[i].before, bytes);
         file_input saved;
         ffd_error error;
-        assert_int_equal(document->format->begin_results(document, true, true, NULL), FFD_OK);
-        document->format->write_positions(document, 0, 1, 1, moved, &changed);
+        assert_int_equal(document->format->begin_results(document, &(mesh_results){.directions = true}, NULL),
+                         FFD_OK);
+        document->format->write(document, 0, MESH_POSITIONS, 1, 1, moved, &changed);
         overwrite(bytes, saved_texts[i].after);
         if (save_bytes(document, &saved, &error) != FFD_E_IO)
             fail_msg("case %zu was saved", i);

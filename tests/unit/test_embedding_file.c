@@ -89,13 +89,15 @@ typedef struct cloud {
     double xyz[PARTS][3 * MOST];
 } cloud;
 
-static void read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
-                           double *xyz)
+static void read_positions(const mesh_document *document, size_t part, mesh_stream stream, mesh_state state,
+                           size_t first, size_t count, double *xyz)
 {
+    (void)stream;
+    (void)state;
     memcpy(xyz, ((const cloud *)document)->xyz[part] + 3 * first, 3 * count * sizeof *xyz);
 }
 
-static const mesh_format cloud_format = {.name = "cloud", .read_positions = read_positions};
+static const mesh_format cloud_format = {.name = "cloud", .read = read_positions};
 
 /* Parts of 2600 (three tiles) and 1024 (one) vertices. */
 static cloud *make_cloud(void)
@@ -362,7 +364,8 @@ static ffd_status try_open(const unsigned char *bytes, size_t size, size_t count
 {
     put("r.npy", bytes, size);
     *error = (ffd_error){0};
-    return ffd_embedding_open(in_folder("r.npy"), (ffd_bytes){0}, count, &positions, &rest, file, error);
+    return ffd_embedding_open(&(ffd_embedding_source){.path = in_folder("r.npy")}, count, &positions, &rest,
+                              file, error);
 }
 
 /* Checks that bytes are refused as invalid, with the file's name and these words, and that nothing stays
@@ -422,9 +425,9 @@ static void what_is_written_is_read_back(void **state)
         }
         assert_int_equal(try_write("e.npy", uvw, statuses, count), FFD_OK);
         embedding_file file;
-        assert_int_equal(
-            ffd_embedding_open(in_folder("e.npy"), (ffd_bytes){0}, count, &positions, &rest, &file, NULL),
-            FFD_OK);
+        assert_int_equal(ffd_embedding_open(&(ffd_embedding_source){.path = in_folder("e.npy")}, count,
+                                            &positions, &rest, &file, NULL),
+                         FFD_OK);
         assert_int_equal(file.count, count);
         assert_memory_equal(file.uvw, uvw, 3 * count * sizeof *uvw);
         assert_memory_equal(file.statuses, statuses, count);
@@ -477,15 +480,18 @@ static void stale_files_are_refused(void **state)
     ffd_error error;
     assert_int_equal(try_write("e.npy", three, three_statuses, 3), FFD_OK);
     const char *path = in_folder("e.npy");
-    assert_int_equal(ffd_embedding_open(path, (ffd_bytes){0}, 4, &positions, &rest, &file, &error),
-                     FFD_E_INVALID);
+    assert_int_equal(
+        ffd_embedding_open(&(ffd_embedding_source){.path = path}, 4, &positions, &rest, &file, &error),
+        FFD_E_INVALID);
     assert_string_equal(error.message, "was made for another mesh: it is of 3 vertices, not 4");
-    assert_int_equal(ffd_embedding_open(path, (ffd_bytes){0}, 3, &other, &rest, &file, &error),
-                     FFD_E_INVALID);
+    assert_int_equal(
+        ffd_embedding_open(&(ffd_embedding_source){.path = path}, 3, &other, &rest, &file, &error),
+        FFD_E_INVALID);
     assert_string_equal(error.message,
                         "was made for another mesh: its positions, or their number type, differ");
-    assert_int_equal(ffd_embedding_open(path, (ffd_bytes){0}, 3, &positions, &other, &file, &error),
-                     FFD_E_INVALID);
+    assert_int_equal(
+        ffd_embedding_open(&(ffd_embedding_source){.path = path}, 3, &positions, &other, &file, &error),
+        FFD_E_INVALID);
     assert_string_equal(error.message, "was made for another rest lattice, or with another snap");
     assert_string_equal(error.file, path);
 }
@@ -628,11 +634,12 @@ static void files_that_are_no_embedding_are_refused(void **state)
     memcpy(zeros, &positions, 16);
     memcpy(zeros + 16, &rest, 16);
     assert_refused(zeros, sizeof zeros, 0, "does not hold float64 of the shape (0, 3)");
-    assert_int_equal(
-        ffd_embedding_open(in_folder("none.npy"), (ffd_bytes){0}, 3, &positions, &rest, &file, &error),
-        FFD_E_IO);
-    assert_int_equal(ffd_embedding_open(folder, (ffd_bytes){0}, 3, &positions, &rest, &file, &error),
+    assert_int_equal(ffd_embedding_open(&(ffd_embedding_source){.path = in_folder("none.npy")}, 3, &positions,
+                                        &rest, &file, &error),
                      FFD_E_IO);
+    assert_int_equal(
+        ffd_embedding_open(&(ffd_embedding_source){.path = folder}, 3, &positions, &rest, &file, &error),
+        FFD_E_IO);
     assert_null(file.uvw);
 }
 
@@ -673,9 +680,9 @@ static void embed_writes_what_belongs_to_mesh_and_lattice(void **state)
     const hash128 lattice_hash = ffd_rest_hash(lattice);
     assert_int_equal(ffd_source_open(&desc.input, 0, &document, NULL), FFD_OK);
     assert_int_equal(ffd_embedding_hash_positions(document, 1, &mesh_hash, NULL), FFD_OK);
-    assert_int_equal(
-        ffd_embedding_open(output_path, (ffd_bytes){0}, 1500, &mesh_hash, &lattice_hash, &file, NULL),
-        FFD_OK);
+    assert_int_equal(ffd_embedding_open(&(ffd_embedding_source){.path = output_path}, 1500, &mesh_hash,
+                                        &lattice_hash, &file, NULL),
+                     FFD_OK);
     for (size_t i = 0; i < 1500; i++) {
         assert_int_equal(file.statuses[i], FFD_VERTEX_INSIDE);
         assert_true(fabs(file.uvw[3 * i] - (double)(i % 13) / 12) <= 1e-14);

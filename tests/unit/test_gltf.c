@@ -54,7 +54,7 @@ static void check_refusals(const refusal *cases, size_t count)
         if (status == FFD_OK)
             status = gltf->check(document, &error);
         if (status == FFD_OK)
-            status = gltf->begin_results(document, true, true, &error);
+            status = gltf->begin_results(document, &(mesh_results){.directions = true}, &error);
         ffd_error_format(&error, line, sizeof line);
         assert_string_equal(line, cases[i].message);
         assert_int_equal(status, cases[i].status);
@@ -292,12 +292,12 @@ static void what_is_not_deformed_is_not_refused(void **state)
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         mesh_document *document = NULL;
         assert_int_equal(open_text(texts[i], FFD_SPACE_SCENE, &document, NULL), FFD_OK);
-        assert_int_equal(gltf->begin_results(document, true, true, NULL), FFD_OK);
+        assert_int_equal(gltf->begin_results(document, &(mesh_results){.directions = true}, NULL), FFD_OK);
         assert_int_equal(document->part_count, parts[i]);
         if (parts[i]) {
             double xyz[6];
             assert_int_equal(document->parts[0].vertex_count, 2);
-            gltf->read_positions(document, 0, 0, 2, xyz);
+            gltf->read(document, 0, MESH_POSITIONS, MESH_STORED, 0, 2, xyz);
             assert_true(xyz[0] >= 1 && xyz[0] <= 1 && xyz[4] >= 1 && xyz[4] <= 1);
         }
         gltf->close(document);
@@ -335,7 +335,7 @@ static void parts_are_pairs_of_accessor_and_node(void **state)
         assert_int_equal(document->parts[i].normal_count, normals[i]);
     }
     double xyz[9];
-    gltf->read_positions(document, 0, 0, 3, xyz);
+    gltf->read(document, 0, MESH_POSITIONS, MESH_STORED, 0, 3, xyz);
     ffd_part_transform(document, 0, 0, 3, xyz);
     static const double expected[9] = {11, 2, 3, 11, 4, 3, 9, 2, 3};
     for (int i = 0; i < 9; i++)
@@ -382,7 +382,7 @@ static void primitives_become_triangles(void **state)
         mesh_faces faces;
         ffd_error error = {0};
         assert_int_equal(open_text(text, FFD_SPACE_SCENE, &document, &error), FFD_OK);
-        assert_int_equal(gltf->faces(document, &faces, NULL), FFD_OK);
+        assert_int_equal(gltf->faces(document, MESH_STORED, &faces, NULL), FFD_OK);
         assert_int_equal(faces.vertex_count, 4);
         assert_int_equal(faces.face_count, cases[i].faces);
         assert_int_equal(faces.lines, cases[i].lines);
@@ -407,13 +407,13 @@ static void a_primitive_with_wrong_indices_has_vertices_but_no_faces(void **stat
     ffd_error error = {0};
     assert_int_equal(open_text(text, FFD_SPACE_SCENE, &document, &error), FFD_OK);
     assert_int_equal(ffd_mesh_vertex_count(document), 3);
-    assert_int_equal(gltf->faces(document, &faces, NULL), FFD_OK);
+    assert_int_equal(gltf->faces(document, MESH_STORED, &faces, NULL), FFD_OK);
     assert_int_equal(faces.face_count, 1);
     assert_int_equal(faces.points + faces.lines, 0);
     ffd_mesh_faces_free(&faces);
     assert_int_equal(ffd_mesh_mark_used(document, NULL), FFD_OK);
     assert_null(document->parts[0].used);
-    assert_int_equal(gltf->model(document, &model, &error), FFD_E_INVALID);
+    assert_int_equal(gltf->model(document, MESH_STORED, &model, &error), FFD_E_INVALID);
     assert_string_equal(error.pointer, "/meshes/0/primitives/0");
     ffd_model_free(&model);
     gltf->close(document);

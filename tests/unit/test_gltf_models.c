@@ -79,7 +79,7 @@ static void describe(mesh_document *document, const char *path)
     ffd_buffer_free(&text);
     mesh_faces faces;
     ffd_error error = {0};
-    const ffd_status status = gltf->faces(document, &faces, &error);
+    const ffd_status status = gltf->faces(document, MESH_STORED, &faces, &error);
     if (status != FFD_OK && status != FFD_E_UNSUPPORTED)
         fail_msg("%s: faces: %s", path, error.message);
     ffd_mesh_faces_free(&faces);
@@ -183,11 +183,11 @@ static void moved_models_show_what_was_asked_for(void **state)
         for (size_t part = 0; part < a->part_count; part++)
             for (size_t i = 0; i < a->parts[part].vertex_count && !a->parts[part].skipped; i++) {
                 double xyz[3], place[3], moved[3];
-                gltf->read_positions(a, part, i, 1, xyz);
+                gltf->read(a, part, MESH_POSITIONS, MESH_STORED, i, 1, xyz);
                 memcpy(place, xyz, sizeof place);
                 ffd_part_transform(a, part, i, 1, place);
                 twist(place, xyz);
-                gltf->read_positions(b, part, i, 1, moved);
+                gltf->read(b, part, MESH_POSITIONS, MESH_STORED, i, 1, moved);
                 for (int c = 0; c < 3; c++)
                     if (fabs((double)(float)xyz[c] - moved[c]) > allowed_error(a, part, xyz[c]))
                         fail_msg("%s: part %zu, vertex %zu", models[m], part, i);

@@ -227,7 +227,7 @@ static void draco_is_read_as_plain_data_is(void **state)
     check_values(document, 1, 3, 3, positions, 0, 0);
     check_values(document, 2, 3, 3, normals, 0, 0);
     check_unchanged(document);
-    assert_int_equal(gltf->faces(document, &faces, NULL), FFD_OK);
+    assert_int_equal(gltf->faces(document, MESH_STORED, &faces, NULL), FFD_OK);
     assert_int_equal(faces.face_count, TRIANGLES);
     assert_memory_equal(faces.corners, triangles, sizeof triangles);
     ffd_mesh_faces_free(&faces);
@@ -462,7 +462,7 @@ static void meshopt_is_read_as_plain_data_is(void **state)
         assert_int_equal(gltf->check(document, NULL), FFD_OK);
         check_values(document, 1, 3, 3, positions, 0, 0);
         check_values(document, 2, 3, 3, normals, 0, 0);
-        assert_int_equal(gltf->faces(document, &faces, NULL), FFD_OK);
+        assert_int_equal(gltf->faces(document, MESH_STORED, &faces, NULL), FFD_OK);
         assert_memory_equal(faces.corners, triangles, sizeof triangles);
         ffd_mesh_faces_free(&faces);
         gltf->close(document);
@@ -494,7 +494,7 @@ static void a_changed_meshopt_view_is_written_uncompressed(void **state)
     const float turned[3] = {0.6f, 0.8f, 0};
     check_values(document, 2, 3, 0, turned, 0, 0);
     mesh_faces faces = {0};
-    assert_int_equal(gltf->faces(document, &faces, NULL), FFD_OK);
+    assert_int_equal(gltf->faces(document, MESH_STORED, &faces, NULL), FFD_OK);
     assert_memory_equal(faces.corners, triangles, sizeof triangles);
     ffd_mesh_faces_free(&faces);
     gltf->close(document);
@@ -573,7 +573,7 @@ static void meshopt_that_cannot_be_is_refused(void **state)
             status = gltf->check(document, &error);
         if (status == FFD_OK) { /* indices are not read before faces are needed */
             mesh_faces faces = {0};
-            status = gltf->faces(document, &faces, &error);
+            status = gltf->faces(document, MESH_STORED, &faces, &error);
             ffd_mesh_faces_free(&faces);
         }
         assert_string_equal(error.message, cases[i].message);

@@ -151,10 +151,10 @@ static void a_sparse_element_behind_the_part(void **state)
     double xyz[6] = {7, 7, 7, 7, 7, 7};
     if (open_bytes(text, sizeof text - 1, "t.gltf", FFD_FORMAT_GLTF, FFD_SPACE_SCENE, &document, &error))
         fail_msg("%s", error.message);
-    gltf->read_positions(document, 0, 0, 1, xyz);
+    gltf->read(document, 0, MESH_POSITIONS, MESH_STORED, 0, 1, xyz);
     for (int i = 0; i < 6; i++)
         assert_true(xyz[i] == (i < 3 ? 0 : 7));
-    gltf->read_positions(document, 0, 1, 1, xyz);
+    gltf->read(document, 0, MESH_POSITIONS, MESH_STORED, 1, 1, xyz);
     for (int i = 0; i < 6; i++)
         assert_true(xyz[i] == (i < 3 ? i + 1 : 7));
     gltf->close(document);

@@ -545,11 +545,11 @@ static void embeddings_pass_through_memory(void **state)
     assert_int_equal(b.sink.files.count, 2);
     const named *const made = find(&b.sink.files, uvw);
     sink deformed = {0};
-    b.desc.embedding_bytes = (ffd_bytes){made->bytes, made->size};
+    b.desc.embedding.bytes = (ffd_bytes){made->bytes, made->size};
     b.desc.sink_user = &deformed;
     assert_int_equal(ffd_deform_run(&b.desc, &result, NULL), FFD_OK);
     assert_int_equal(deformed.files.count, 3);
-    b.desc.embedding_bytes.size--;
+    b.desc.embedding.bytes.size--;
     ffd_error error;
     assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_INVALID);
     assert_string_equal(error.file, "embedding");
@@ -960,7 +960,7 @@ static void descriptions_that_contradict_themselves_are_refused(void **state)
         if (wrong == 6)
             b.source.object = NULL;
         if (wrong == 7)
-            b.desc.embedding_bytes.size = 3;
+            b.desc.embedding.bytes.size = 3;
         if (wrong == 8)
             b.desc.output = NULL;
         assert_int_equal(ffd_deform_run(&b.desc, &result, &error), FFD_E_ARGUMENT);

@@ -107,9 +107,11 @@ typedef struct fake_document {
     ffd_status faces_status;
 } fake_document;
 
-static void fake_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
-                                double *xyz)
+static void fake_read(const mesh_document *document, size_t part, mesh_stream stream, mesh_state state,
+                      size_t first, size_t count, double *xyz)
 {
+    (void)stream;
+    (void)state;
     memcpy(xyz, ((const fake_document *)document)->xyz[part] + 3 * first, 3 * count * sizeof *xyz);
 }
 
@@ -121,9 +123,11 @@ static ffd_status fake_describe(const mesh_document *document, json_text *json, 
     return FFD_OK;
 }
 
-static ffd_status fake_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error)
+static ffd_status fake_faces(const mesh_document *document, mesh_state state, mesh_faces *faces,
+                             ffd_error *error)
 {
     const fake_document *fake = (const fake_document *)document;
+    (void)state;
     if (fake->faces_status != FFD_OK)
         return ffd_fail(error, fake->faces_status, "these faces are too odd");
     *faces = (mesh_faces){.vertex_count = 3, .face_count = 1, .lines = 4};
@@ -139,7 +143,7 @@ static ffd_status fake_faces(const mesh_document *document, mesh_faces *faces, f
 }
 
 static const mesh_format fake_format = {
-    .name = "fake", .read_positions = fake_read_positions, .describe = fake_describe, .faces = fake_faces};
+    .name = "fake", .read = fake_read, .describe = fake_describe, .faces = fake_faces};
 
 static fake_document make_fake(void)
 {

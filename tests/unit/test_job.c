@@ -78,7 +78,7 @@ static void wrong_descriptions_are_refused(void **state)
     desc.falloff = 1;
     refuse(&desc);
     desc = describe();
-    desc.embedding = "e.npy";
+    desc.embedding.path = "e.npy";
     desc.lattice_count = 2;
     refuse(&desc);
     (void)state;

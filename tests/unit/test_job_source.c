@@ -55,7 +55,7 @@ static void a_job_becomes_a_description(void **state)
     assert_int_equal(desc->only_count, 2);
     assert_string_equal(desc->only[1], "group:b");
     assert_true(desc->input.strict && !desc->force && desc->threads == 2);
-    assert_string_equal(desc->embedding, "f/e.npy");
+    assert_string_equal(desc->embedding.path, "f/e.npy");
     assert_int_equal(desc->set_count, 2);
     assert_string_equal(desc->set[0].value, "[1,0.5]");
     assert_string_equal(desc->set[1].value, "\"t\"");

@@ -58,7 +58,7 @@ static void assert_failures(const mesh_document *document, const vertex_marks *m
     for (long successes = 0; status; successes++) {
         mesh_faces faces;
         ffd_alloc_fail_after(successes);
-        status = document->format->mixed_faces(document, marks, &faces, NULL);
+        status = document->format->mixed_faces(document, MESH_STORED, marks, &faces, NULL);
         ffd_alloc_fail_after(-1);
         if (status)
             assert_int_equal(status, FFD_E_MEMORY);
@@ -72,7 +72,7 @@ static size_t assert_mixed(const mesh_document *document, const mesh_faces *all,
 {
     mesh_faces mixed;
     size_t found = 0;
-    assert_int_equal(document->format->mixed_faces(document, marks, &mixed, NULL), FFD_OK);
+    assert_int_equal(document->format->mixed_faces(document, MESH_STORED, marks, &mixed, NULL), FFD_OK);
     if (!mixed.numbers)
         assert_int_equal(mixed.vertex_count, marks->vertices);
     assert_narrow(&mixed);
@@ -96,7 +96,7 @@ static void assert_all_marks(mesh_document *document, const size_t *places)
     size_t found = 0;
     mesh_faces all;
     assert_int_equal(ffd_mesh_check(document, NULL), FFD_OK);
-    assert_int_equal(document->format->faces(document, &all, NULL), FFD_OK);
+    assert_int_equal(document->format->faces(document, MESH_STORED, &all, NULL), FFD_OK);
     const size_t vertices = all.vertex_count;
     assert_in_range(vertices, 1, MOST_VERTICES);
     for (uint32_t set = 0; set < 1u << vertices; set++)
@@ -165,7 +165,7 @@ static void assert_known(mesh_document *document, const uint32_t *corners, size_
     mesh_faces faces;
     bool named[MOST_VERTICES] = {false};
     size_t at = 0, face = 0;
-    assert_int_equal(document->format->faces(document, &faces, NULL), FFD_OK);
+    assert_int_equal(document->format->faces(document, MESH_STORED, &faces, NULL), FFD_OK);
     for (; at < words; face++) {
         const size_t count = corners[at++];
         assert_int_equal(faces.start[face + 1] - faces.start[face], count);
@@ -303,7 +303,7 @@ static void of_many(void **state)
         }
         const vertex_marks marks = {bytes, 1, MANY};
         mesh_document *const document = opened_bytes(ffd_format_table(FFD_FORMAT_OBJ), text, size);
-        assert_int_equal(document->format->faces(document, &all, NULL), FFD_OK);
+        assert_int_equal(document->format->faces(document, MESH_STORED, &all, NULL), FFD_OK);
         assert_mixed(document, &all, &marks);
         ffd_mesh_faces_free(&all);
         document->format->close(document);
@@ -322,11 +322,11 @@ static void of_a_file_that_changes(void **state)
     for (int f = 0; f < MANY; f++)
         size += (size_t)snprintf(text + size, sizeof text - size, "f 1 2 3\n");
     mesh_document *const document = opened_bytes(ffd_format_table(FFD_FORMAT_OBJ), text, size);
-    document->results_replace = true; /* so that positions are read again */
-    assert_int_equal(document->format->begin_results(document, false, false, NULL), FFD_OK);
+    const mesh_results results = {.replace = true}; /* so that positions are read again */
+    assert_int_equal(document->format->begin_results(document, &results, NULL), FFD_OK);
     for (char *c = text; *c; c++)
         *c = *c == 'f' ? 'v' : *c;
-    assert_int_equal(document->format->faces(document, &faces, NULL), FFD_E_IO);
+    assert_int_equal(document->format->faces(document, MESH_STORED, &faces, NULL), FFD_E_IO);
     document->format->close(document);
 }
 

@@ -233,7 +233,7 @@ static ffd_status convert(const mesh_document *document, ffd_format format, cons
     ffd_error error = {0};
     ffd_status status = ffd_output_create(&output, &error);
     if (status == FFD_OK)
-        status = ffd_conversion_save(document, NULL, &options, output, &log, &error);
+        status = ffd_conversion_save(document, MESH_STORED, NULL, &options, output, &log, &error);
     if (status == FFD_OK)
         status = ffd_output_commit(output, &error);
     ffd_output_destroy(&output);

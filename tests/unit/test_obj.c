@@ -201,7 +201,7 @@ static void append_contents(const mesh_document *document, byte_buffer *text)
         ffd_buffer_text(text, i ? "|" : " N ");
         for (uint32_t n = part->normal_start[i]; n < part->normal_start[i + 1]; n++) {
             double v[3];
-            obj->read_normals(document, 0, n, 1, v);
+            obj->read(document, 0, MESH_NORMALS, MESH_STORED, n, 1, v);
             ffd_buffer_format(text, "%s%g", n > part->normal_start[i] ? "," : "", v[0]);
         }
     }
@@ -242,7 +242,7 @@ static void a_vertex_can_have_a_hundred_normals(void **state)
     assert_int_equal(document->parts->normal_count, 100);
     for (int i = 0; i < 100; i++) {
         double v[3];
-        obj->read_normals(document, 0, (size_t)i, 1, v);
+        obj->read(document, 0, MESH_NORMALS, MESH_STORED, (size_t)i, 1, v);
         assert_true(v[0] == i);
     }
     obj->close(document);
@@ -298,14 +298,14 @@ typedef struct edit {
 static void apply(mesh_document *document, const edit *edits)
 {
     const uint8_t changed = 1;
-    assert_int_equal(obj->begin_results(document, true, true, NULL), FFD_OK);
+    assert_int_equal(obj->begin_results(document, &(mesh_results){.directions = true}, NULL), FFD_OK);
     for (; edits->stream; edits++)
         if (edits->stream == 'v') {
             assert_true(edits->item < document->parts->vertex_count);
-            obj->write_positions(document, 0, edits->item, 1, edits->xyz, &changed);
+            obj->write(document, 0, MESH_POSITIONS, edits->item, 1, edits->xyz, &changed);
         } else {
             assert_true(edits->item < document->parts->normal_count);
-            obj->write_normals(document, 0, edits->item, 1, edits->xyz, &changed);
+            obj->write(document, 0, MESH_NORMALS, edits->item, 1, edits->xyz, &changed);
         }
 }
 
@@ -343,9 +343,9 @@ static void kept_values_are_not_looked_at(void **state)
     const double xyz[6] = {9, 9, 9, 8, 8, 8};
     const uint8_t changed[2] = {0, 1};
     mesh_document *document = opened("v 1 1 1\nv 1 1 1\nvn 1 1 1\nvn 1 1 1\nf 1//1 2//2");
-    assert_int_equal(obj->begin_results(document, true, false, NULL), FFD_OK);
-    obj->write_positions(document, 0, 0, 2, xyz, changed);
-    obj->write_normals(document, 0, 0, 2, xyz, changed);
+    assert_int_equal(obj->begin_results(document, &(mesh_results){.directions = true}, NULL), FFD_OK);
+    obj->write(document, 0, MESH_POSITIONS, 0, 2, xyz, changed);
+    obj->write(document, 0, MESH_NORMALS, 0, 2, xyz, changed);
     static const char expected[] = "v 1 1 1\nv 8 8 8\nvn 1 1 1\nvn 8 8 8\nf 1//1 2//2";
     assert_saved(document, expected, sizeof expected - 1);
     obj->close(document);
@@ -419,8 +419,8 @@ static void normals_stay_when_they_are_not_renewed(void **state)
     const double xyz[3] = {5, 5, 5};
     const uint8_t changed = 1;
     mesh_document *document = opened(text);
-    assert_int_equal(obj->begin_results(document, false, false, NULL), FFD_OK);
-    obj->write_normals(document, 0, 0, 1, xyz, &changed);
+    assert_int_equal(obj->begin_results(document, &(mesh_results){.directions = false}, NULL), FFD_OK);
+    obj->write(document, 0, MESH_NORMALS, 0, 1, xyz, &changed);
     assert_saved(document, text, sizeof text - 1);
     obj->close(document);
 }
@@ -450,11 +450,11 @@ static void files_larger_than_a_block_are_saved_whole(void **state)
     memset(expected + expected_used, '#', 900000);
     text[used + 900000] = expected[expected_used + 900000] = 0;
     mesh_document *document = opened(text);
-    assert_int_equal(obj->begin_results(document, true, true, NULL), FFD_OK);
+    assert_int_equal(obj->begin_results(document, &(mesh_results){.directions = true}, NULL), FFD_OK);
     for (size_t i = 0; i < count; i++) {
         const double xyz[3] = {(double)i, (double)i, (double)i + 0.5};
         const uint8_t changed = 1;
-        obj->write_positions(document, 0, i, 1, xyz, &changed);
+        obj->write(document, 0, MESH_POSITIONS, i, 1, xyz, &changed);
     }
     assert_saved(document, expected, strlen(expected));
     obj->close(document);
@@ -470,7 +470,7 @@ static void faces_are_read_and_lines_and_points_counted(void **state)
     mesh_document *document =
         opened("v 1 2 3\nv 4 5 6\nf 1 2 3 -1\nv 7 8 9\nf\nf 3/1/1 -3 \\\n2\nl 1 2\nl 1 2 3\np 1\nvn 0 0 1");
     mesh_faces faces;
-    assert_int_equal(obj->faces(document, &faces, NULL), FFD_OK);
+    assert_int_equal(obj->faces(document, MESH_STORED, &faces, NULL), FFD_OK);
     static const size_t start[] = {0, 4, 4, 7};
     static const uint32_t corners[] = {0, 1, 2, 1, 2, 0, 1};
     static const double positions[] = {1, 2, 3, 4, 5, 6, 7, 8, 9};

@@ -69,7 +69,7 @@ static void for_each_model(model_check check)
 static void check_unchanged(const char *path, mesh_document *document, const file_input *input)
 {
     file_input saved;
-    assert_int_equal(obj->begin_results(document, true, true, NULL), FFD_OK);
+    assert_int_equal(obj->begin_results(document, &(mesh_results){.directions = true}, NULL), FFD_OK);
     assert_int_equal(save_bytes(document, &saved, NULL), FFD_OK);
     if (!same_bytes(&saved, input->data, input->size))
         fail_msg("%s: saved with other bytes", path);
@@ -153,16 +153,16 @@ static void check_moved(const char *path, mesh_document *document, const file_in
     const size_t count = document->parts->vertex_count;
     size_t expected = 0;
     file_input saved;
-    assert_int_equal(obj->begin_results(document, true, true, NULL), FFD_OK);
+    assert_int_equal(obj->begin_results(document, &(mesh_results){.directions = true}, NULL), FFD_OK);
     for (size_t i = 0; i < count; i++) {
         double old[3], new[3];
         const uint8_t changed = 1;
-        obj->read_positions(document, 0, i, 1, old);
+        obj->read(document, 0, MESH_POSITIONS, MESH_STORED, i, 1, old);
         for (int a = 0; a < 3; a++) {
             new[a] = old[a] + 1;
             expected += new[a] != old[a];
         }
-        obj->write_positions(document, 0, i, 1, new, &changed);
+        obj->write(document, 0, MESH_POSITIONS, i, 1, new, &changed);
     }
     assert_int_equal(save_bytes(document, &saved, NULL), FFD_OK);
     assert_int_equal(check_words(path, input, &saved), expected);

@@ -155,12 +155,12 @@ static void move_some(mesh_document *document, draw *d)
     const size_t count = document->parts->vertex_count;
     double xyz[3 * 20];
     uint8_t changed[20];
-    obj->read_positions(document, 0, 0, count, xyz);
+    obj->read(document, 0, MESH_POSITIONS, MESH_STORED, 0, count, xyz);
     for (size_t i = 0; i < count; i++) {
         changed[i] = draw_int(d, 0, 1) == 1;
         xyz[3 * i + (size_t)draw_int(d, 0, 2)] += 0.125;
     }
-    obj->write_positions(document, 0, 0, count, xyz, changed);
+    obj->write(document, 0, MESH_POSITIONS, 0, count, xyz, changed);
 }
 
 /* Applies the same changes, with or without results in place of the input. */
@@ -175,10 +175,10 @@ static void saved_text(const writer *file, uint64_t seed, bool in_place, byte_bu
     assert_true(count <= sizeof changed);
     double *values = draw_normals(document, &d);
     memset(changed, 1, sizeof changed);
-    document->results_replace = in_place;
-    assert_int_equal(obj->begin_results(document, true, false, NULL), FFD_OK);
+    const mesh_results results = {.directions = true, .replace = in_place};
+    assert_int_equal(obj->begin_results(document, &results, NULL), FFD_OK);
     move_some(document, &d);
-    obj->write_normals(document, 0, 0, count, values, changed);
+    obj->write(document, 0, MESH_NORMALS, 0, count, values, changed);
     assert_int_equal(save_bytes(document, &saved, &error), FFD_OK);
     ffd_buffer_append(text, saved.data, saved.size);
     ffd_file_unload(&saved);

@@ -168,7 +168,8 @@ static void memory_may_run_out_anywhere(void **state)
     path_list files = {0};
     file_input bytes;
     assert_int_equal(ffd_file_load(in_folder("m.obj"), &bytes, NULL), FFD_OK);
-    assert_int_equal(ffd_obj_find_resources(in_folder("m.obj"), &bytes, &files, NULL), FFD_OK);
+    assert_int_equal(ffd_obj_find_named(in_folder("m.obj"), &bytes, &(mesh_named){.copies = &files}, NULL),
+                     FFD_OK);
     ffd_file_unload(&bytes);
     assert_int_equal(files.count, 3);
     assert_string_equal(files.paths[0], in_folder("m.mtl"));

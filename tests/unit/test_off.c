@@ -27,10 +27,10 @@ static void append_contents(const mesh_document *document, byte_buffer *text)
     append_positions(document, SIZE_MAX, text);
     for (size_t i = 0; i < part->normal_count; i++) {
         double n[3];
-        off->read_normals(document, 0, i, 1, n);
+        off->read(document, 0, MESH_NORMALS, MESH_STORED, i, 1, n);
         ffd_buffer_format(text, "%s%g,%g,%g", i ? " " : " N ", n[0], n[1], n[2]);
     }
-    assert_int_equal(off->faces(document, &faces, NULL), FFD_OK);
+    assert_int_equal(off->faces(document, MESH_STORED, &faces, NULL), FFD_OK);
     for (size_t f = 0; f < faces.face_count; f++) {
         ffd_buffer_text(text, f ? " " : " F ");
         for (size_t c = faces.start[f]; c < faces.start[f + 1]; c++)
@@ -172,9 +172,9 @@ static void only_changed_values_get_new_text(void **state)
     const uint8_t changed[2] = {1, 0}; /* an unchanged vertex is not read */
     for (size_t i = 0; i < COUNT(cases); i++) {
         mesh_document *document = opened(cases[i].before);
-        assert_int_equal(off->begin_results(document, true, false, NULL), FFD_OK);
-        off->write_positions(document, 0, 0, 2, place, changed);
-        off->write_normals(document, 0, 0, 2, direction, changed);
+        assert_int_equal(off->begin_results(document, &(mesh_results){.directions = true}, NULL), FFD_OK);
+        off->write(document, 0, MESH_POSITIONS, 0, 2, place, changed);
+        off->write(document, 0, MESH_NORMALS, 0, 2, direction, changed);
         assert_saved(document, cases[i].after, strlen(cases[i].after));
         off->close(document);
     }
@@ -187,9 +187,9 @@ static void normals_stay_when_they_are_not_renewed(void **state)
     const double place[3] = {-1, 2, 3.5}, direction[3] = {1, 0, 0};
     const uint8_t changed = 1;
     mesh_document *document = opened(text);
-    assert_int_equal(off->begin_results(document, false, false, NULL), FFD_OK);
-    off->write_positions(document, 0, 0, 1, place, &changed);
-    off->write_normals(document, 0, 0, 1, direction, &changed);
+    assert_int_equal(off->begin_results(document, &(mesh_results){.directions = false}, NULL), FFD_OK);
+    off->write(document, 0, MESH_POSITIONS, 0, 1, place, &changed);
+    off->write(document, 0, MESH_NORMALS, 0, 1, direction, &changed);
     assert_saved(document, expected, sizeof expected - 1);
     off->close(document);
 }
@@ -201,8 +201,8 @@ static void the_sign_of_zero_is_written(void **state)
     const double place[3] = {-0.0, 0.0, -0.0};
     const uint8_t changed = 1;
     mesh_document *document = opened(text);
-    assert_int_equal(off->begin_results(document, true, true, NULL), FFD_OK);
-    off->write_positions(document, 0, 0, 1, place, &changed);
+    assert_int_equal(off->begin_results(document, &(mesh_results){.directions = true}, NULL), FFD_OK);
+    off->write(document, 0, MESH_POSITIONS, 0, 1, place, &changed);
     assert_saved(document, "OFF 1 0 0\n-0 0 -0.0\n", 20);
     off->close(document);
 }

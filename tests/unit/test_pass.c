@@ -33,24 +33,25 @@ typedef struct cloud {
     double xyz[PARTS][3 * MOST];
 } cloud;
 
-static void read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
-                           double *xyz)
+static void read_positions(const mesh_document *document, size_t part, mesh_stream stream, mesh_state state,
+                           size_t first, size_t count, double *xyz)
 {
+    (void)stream;
+    (void)state;
     memcpy(xyz, ((const cloud *)document)->xyz[part] + 3 * first, 3 * count * sizeof *xyz);
 }
 
-static void write_positions(mesh_document *document, size_t part, size_t first, size_t count,
-                            const double *xyz, const uint8_t *changed)
+static void write_positions(mesh_document *document, size_t part, mesh_stream stream, size_t first,
+                            size_t count, const double *xyz, const uint8_t *changed)
 {
+    (void)stream;
     for (size_t i = 0; i < count; i++)
         if (changed[i])
             memcpy(((cloud *)document)->xyz[part] + 3 * (first + i), xyz + 3 * i, 3 * sizeof *xyz);
 }
 
-static const mesh_format cloud_format = {.name = "cloud",
-                                         .read_positions = read_positions,
-                                         .write_positions = write_positions,
-                                         .largest_coordinate = 1e300};
+static const mesh_format cloud_format = {
+    .name = "cloud", .read = read_positions, .write = write_positions, .largest_coordinate = 1e300};
 
 /* Points in [-3, 3]^3, and a last part whose matrix is singular. */
 static cloud *make_cloud(void)
@@ -126,7 +127,7 @@ static outcome *run_on(cloud *mesh, const lattice_chain *chain, const embedding_
                             .deformed = made->deformed,
                             .gradients = made->gradients,
                             .determinants = true};
-    assert_int_equal(ffd_pass_run(&pass, &made->totals, NULL), FFD_OK);
+    assert_int_equal(ffd_pass_over_mesh(&pass, &made->totals, NULL), FFD_OK);
     made->totals.embed_seconds = made->totals.deform_seconds = 0;
     return made;
 }
@@ -347,7 +348,7 @@ static void without_gradients_there_are_no_determinants(void **state)
     cloud *mesh = make_cloud();
     pass_totals totals;
     const mesh_pass pass = {.document = &mesh->head, .chain = &chain, .links = 1, .threads = 1};
-    assert_int_equal(ffd_pass_run(&pass, &totals, NULL), FFD_OK);
+    assert_int_equal(ffd_pass_over_mesh(&pass, &totals, NULL), FFD_OK);
     assert_true(totals.det_min > totals.det_max);
     free(mesh);
     ffd_chain_free(&chain);
@@ -436,7 +437,7 @@ static void write_embedding(const lattice_chain *chain, const double *uvw, const
     assert_int_equal(ffd_embedding_write(output, uvw, statuses, NUMBERED, &positions, &rest, NULL), FFD_OK);
     assert_int_equal(ffd_output_commit(output, NULL), FFD_OK);
     ffd_output_destroy(&output);
-    assert_int_equal(ffd_embedding_reuse(in_folder("e.npy"), (ffd_bytes){0}, &mesh->head,
+    assert_int_equal(ffd_embedding_reuse(&(ffd_embedding_source){.path = in_folder("e.npy")}, &mesh->head,
                                          chain->links[0].lattice, 0, 1, file, NULL),
                      FFD_OK);
     free(mesh);

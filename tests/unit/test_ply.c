@@ -369,15 +369,15 @@ static void every_encoding_reads_and_saves_the_same_mesh(void **state)
         assert_int_equal(d->part_count, 1);
         assert_int_equal(d->parts[0].vertex_count, 5);
         assert_int_equal(d->parts[0].normal_count, 5);
-        ply->read_positions(d, 0, 0, 5, xyz);
-        ply->read_normals(d, 0, 0, 5, normals);
+        ply->read(d, 0, MESH_POSITIONS, MESH_STORED, 0, 5, xyz);
+        ply->read(d, 0, MESH_NORMALS, MESH_STORED, 0, 5, normals);
         for (size_t i = 0; i < 15; i++) {
             const double expected = corners[i / 3][i % 3];
             assert_true(xyz[i] == (s.kind.wide ? expected : (double)(float)expected));
             assert_true(normals[i] == (i % 3 == 2 ? 1 : 0));
         }
         assert_int_equal(ply->check(d, NULL), FFD_OK);
-        assert_int_equal(ply->faces(d, &faces, NULL), FFD_OK);
+        assert_int_equal(ply->faces(d, MESH_STORED, &faces, NULL), FFD_OK);
         assert_int_equal(faces.face_count, 5);
         assert_int_equal(faces.lines, 2);
         for (size_t f = 0; f < 5; f++) {
@@ -405,28 +405,28 @@ static void only_changed_values_are_written(void **state)
         ffd_error error;
         file_input saved;
         double found[15], expected[15];
-        assert_int_equal(ply->begin_results(d, true, true, NULL), FFD_OK);
-        ply->write_positions(d, 0, 0, 2, moved, second);
-        ply->write_normals(d, 0, 3, 1, turned, first);
+        assert_int_equal(ply->begin_results(d, &(mesh_results){.directions = true}, NULL), FFD_OK);
+        ply->write(d, 0, MESH_POSITIONS, 0, 2, moved, second);
+        ply->write(d, 0, MESH_NORMALS, 3, 1, turned, first);
         assert_int_equal(save_bytes(d, &saved, &error), FFD_OK);
 
         mesh_document *after = opened(saved.data, saved.size);
-        ply->read_positions(d, 0, 0, 5, expected);
+        ply->read(d, 0, MESH_POSITIONS, MESH_STORED, 0, 5, expected);
         memcpy(expected + 3, s.kind.wide ? moved + 3 : narrow, sizeof narrow);
-        ply->read_positions(after, 0, 0, 5, found);
+        ply->read(after, 0, MESH_POSITIONS, MESH_STORED, 0, 5, found);
         assert_memory_equal(found, expected, sizeof found);
-        ply->read_normals(d, 0, 0, 5, expected);
+        ply->read(d, 0, MESH_NORMALS, MESH_STORED, 0, 5, expected);
         expected[10] = (double)0.6F;
         expected[11] = 0.8;
-        ply->read_normals(after, 0, 0, 5, found);
+        ply->read(after, 0, MESH_NORMALS, MESH_STORED, 0, 5, found);
         assert_memory_equal(found, expected, sizeof found);
 
         /* With the old values restored, the numbers have their old texts or bytes: 1, 0 and 0, 1. */
-        assert_int_equal(ply->begin_results(after, true, true, NULL), FFD_OK);
-        ply->read_positions(d, 0, 0, 5, expected);
-        ply->write_positions(after, 0, 1, 1, expected + 3, first);
-        ply->read_normals(d, 0, 0, 5, expected);
-        ply->write_normals(after, 0, 3, 1, expected + 9, first);
+        assert_int_equal(ply->begin_results(after, &(mesh_results){.directions = true}, NULL), FFD_OK);
+        ply->read(d, 0, MESH_POSITIONS, MESH_STORED, 0, 5, expected);
+        ply->write(after, 0, MESH_POSITIONS, 1, 1, expected + 3, first);
+        ply->read(d, 0, MESH_NORMALS, MESH_STORED, 0, 5, expected);
+        ply->write(after, 0, MESH_NORMALS, 3, 1, expected + 9, first);
         assert_saved(after, s.bytes.data, s.bytes.size);
         ply->close(after);
         ffd_file_unload(&saved);
@@ -446,8 +446,8 @@ static void unchanged_numbers_keep_their_text(void **state)
     snprintf(before, sizeof before, "%s 1.000 \t+2.50E0  .5  \n\n1e0 -0.0 0.100000001490116", header);
     snprintf(after, sizeof after, "%s 1.1 \t1.1  .5  \n\n1e0 -0.0 0.100000001490116", header);
     mesh_document *d = opened(before, strlen(before));
-    assert_int_equal(ply->begin_results(d, true, false, NULL), FFD_OK);
-    ply->write_positions(d, 0, 0, 2, moved, changed);
+    assert_int_equal(ply->begin_results(d, &(mesh_results){.directions = true}, NULL), FFD_OK);
+    ply->write(d, 0, MESH_POSITIONS, 0, 2, moved, changed);
     assert_saved(d, after, strlen(after));
     ply->close(d);
 }
@@ -458,7 +458,7 @@ static void mixed_line_ends_are_read_and_kept(void **state)
     static const char text[] = ASCII "element vertex 3\n" XYZ "end_header\n0 0 0\r1 0 0\r\n\n0 1 0";
     mesh_document *d = opened(text, strlen(text));
     double xyz[9];
-    ply->read_positions(d, 0, 0, 3, xyz);
+    ply->read(d, 0, MESH_POSITIONS, MESH_STORED, 0, 3, xyz);
     assert_true(xyz[3] == 1 && xyz[7] == 1);
     assert_saved(d, text, strlen(text));
     ply->close(d);
@@ -475,7 +475,7 @@ static void coordinates_of_a_whole_type_are_refused(void **state)
     mesh_document *d = opened(text, strlen(text));
     ffd_error error;
     double xyz[3];
-    ply->read_positions(d, 0, 0, 1, xyz);
+    ply->read(d, 0, MESH_POSITIONS, MESH_STORED, 0, 1, xyz);
     assert_true(xyz[1] == 2);
     assert_int_equal(ply->check(d, &error), FFD_E_UNSUPPORTED);
     assert_int_equal(error.line, 3);
@@ -492,8 +492,8 @@ static void normals_of_a_whole_type_can_only_be_kept(void **state)
     mesh_document *d = opened(text, strlen(text));
     ffd_error error;
     assert_int_equal(d->parts[0].normal_count, 0);
-    assert_int_equal(ply->begin_results(d, true, false, &error), FFD_E_UNSUPPORTED);
-    assert_int_equal(ply->begin_results(d, false, false, &error), FFD_OK);
+    assert_int_equal(ply->begin_results(d, &(mesh_results){.directions = true}, &error), FFD_E_UNSUPPORTED);
+    assert_int_equal(ply->begin_results(d, &(mesh_results){.directions = false}, &error), FFD_OK);
     ply->close(d);
 }
 
@@ -504,7 +504,7 @@ static void two_of_three_normal_properties_are_no_normals(void **state)
                                      "end_header\n1 2 3 zero 1\n";
     mesh_document *d = opened(text, strlen(text));
     assert_int_equal(d->parts[0].normal_count, 0);
-    assert_int_equal(ply->begin_results(d, true, false, NULL), FFD_OK);
+    assert_int_equal(ply->begin_results(d, &(mesh_results){.directions = true}, NULL), FFD_OK);
     assert_saved(d, text, strlen(text));
     ply->close(d);
 }
@@ -528,7 +528,7 @@ static void the_largest_coordinate_is_that_of_the_type(void **state)
 static ffd_status faces_of(const char *text, mesh_faces *faces, ffd_error *error)
 {
     mesh_document *d = opened(text, strlen(text));
-    const ffd_status status = ply->faces(d, faces, error);
+    const ffd_status status = ply->faces(d, MESH_STORED, faces, error);
     ply->close(d);
     return status;
 }

@@ -163,7 +163,7 @@ static void an_embedding_in_memory_has_the_rules_of_a_file(void **state)
     ffd_deform_desc desc;
     ffd_error error;
     ffd_deform_desc_init(&desc, sizeof desc);
-    desc.embedding_bytes = (ffd_bytes){&byte, 1};
+    desc.embedding.bytes = (ffd_bytes){&byte, 1};
     set(&desc, "lattices");
     assert_int_equal(ffd_deform_desc_check(&desc, &error), FFD_OK);
     desc.blocks = true;
@@ -286,7 +286,7 @@ static void settings_come_from_texts_and_go_through_bytes(void **state)
     other.threads = 1;
     other.input.memory = 0;
     other.force = other.if_changed = false;
-    other.embedding = "f.npy"; /* its bytes count, not its name */
+    other.embedding.path = "f.npy"; /* its bytes count, not its name */
     ffd_settings_write(&other, SETTINGS_CONTENT, &idle);
     assert_int_equal(content.size, idle.size);
     assert_memory_equal(content.data, idle.data, content.size);

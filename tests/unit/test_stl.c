@@ -161,7 +161,8 @@ static void binary_is_read_whatever_its_header_says(void **state)
                 assert_int_equal(contents.size, strlen(expected[count]));
                 assert_memory_equal(contents.data, expected[count], contents.size);
                 assert_true(document->largest_coordinate == (double)FLT_MAX);
-                assert_int_equal(stl->begin_results(document, true, true, NULL), FFD_OK);
+                assert_int_equal(stl->begin_results(document, &(mesh_results){.directions = true}, NULL),
+                                 FFD_OK);
                 assert_saved(document, file.data, file.size);
                 stl->close(document);
                 ffd_buffer_free(&contents);
@@ -260,8 +261,8 @@ static void assert_turned(const char *normal, bool renew, const char *expected)
              "endfacet\nendsolid",
              expected);
     mesh_document *document = opened(before);
-    assert_int_equal(stl->begin_results(document, renew, renew, NULL), FFD_OK);
-    stl->write_positions(document, 0, 0, 3, turned, changed);
+    assert_int_equal(stl->begin_results(document, &(mesh_results){.directions = renew}, NULL), FFD_OK);
+    stl->write(document, 0, MESH_POSITIONS, 0, 3, turned, changed);
     assert_saved(document, after, strlen(after));
     stl->close(document);
 }
@@ -303,8 +304,8 @@ static void only_facets_that_turn_get_new_normals(void **state)
     after[0].normal[2] = (float)(1 / length);
     byte_buffer before_file = binary("solid", records, 4), after_file = binary("solid", after, 4);
     mesh_document *document = opened_bytes(stl, before_file.data, before_file.size);
-    assert_int_equal(stl->begin_results(document, true, true, NULL), FFD_OK);
-    stl->write_positions(document, 0, 0, 12, place, changed);
+    assert_int_equal(stl->begin_results(document, &(mesh_results){.directions = true}, NULL), FFD_OK);
+    stl->write(document, 0, MESH_POSITIONS, 0, 12, place, changed);
     file_input saved;
     assert_int_equal(save_bytes(document, &saved, NULL), FFD_OK);
     assert_int_equal(saved.size, after_file.size);
@@ -333,8 +334,8 @@ static void text_is_written_in_double_precision(void **state)
     const double place[3] = {1, 0.1, 1e-300};
     const uint8_t changed = 1;
     mesh_document *document = opened(before);
-    assert_int_equal(stl->begin_results(document, false, false, NULL), FFD_OK);
-    stl->write_positions(document, 0, 0, 1, place, &changed);
+    assert_int_equal(stl->begin_results(document, &(mesh_results){.directions = false}, NULL), FFD_OK);
+    stl->write(document, 0, MESH_POSITIONS, 0, 1, place, &changed);
     assert_saved(document, after, sizeof after - 1);
     stl->close(document);
 }
@@ -350,7 +351,7 @@ static void facets_share_vertices_of_one_position(void **state)
     byte_buffer file = binary("", records, 3);
     mesh_document *document = opened_bytes(stl, file.data, file.size);
     mesh_faces faces;
-    assert_int_equal(stl->faces(document, &faces, NULL), FFD_OK);
+    assert_int_equal(stl->faces(document, MESH_STORED, &faces, NULL), FFD_OK);
     assert_int_equal(faces.vertex_count, 9);
     assert_int_equal(faces.face_count, 3);
     assert_int_equal(faces.repeated, 4);

@@ -92,7 +92,7 @@ static void open_fixture(fixture *f)
     assert_int_equal(
         open_bytes(f->text, strlen(f->text), "t.gltf", FFD_FORMAT_GLTF, FFD_SPACE_SCENE, &f->document, NULL),
         FFD_OK);
-    assert_int_equal(gltf->read_skeleton(f->document, false, &skeleton, NULL), FFD_OK);
+    assert_int_equal(gltf->rig->read_skeleton(f->document, false, &skeleton, NULL), FFD_OK);
     assert_int_equal(skeleton->animation_count, 1);
     assert_int_equal(skeleton->load(skeleton, 0, NULL), FFD_OK);
     f->scene.rigs[0].skeleton = f->scene.rigs[1].skeleton = skeleton;
@@ -128,7 +128,7 @@ static void vertices_follow_their_joints_and_nodes(void **state)
     const mesh_skeleton *const s = f.scene.rigs[0].skeleton;
     assert_int_equal(s->vertex_count, 8);
     assert_int_equal(s->node_count, 3); /* the first node represents the skin; the last one moves nothing */
-    assert_int_equal(gltf->read_anchors(s, false, &f.scene.rigs[0].anchors, NULL), FFD_OK);
+    assert_int_equal(gltf->rig->read_anchors(s, MESH_STORED, false, &f.scene.rigs[0].anchors, NULL), FFD_OK);
     assert_int_equal(f.scene.rigs[0].anchors.target_count, 1);
     const double h = sqrt(0.5), c = cos(acos(-1) / 8), d = sin(acos(-1) / 8);
     check_pose(&f, 0, 0,
@@ -157,7 +157,7 @@ static void a_deformed_mesh_moves_as_its_file_would(void **state)
     open_fixture(&f);
     const mesh_skeleton *const s = f.scene.rigs[0].skeleton;
     assert_int_equal(deform(f.document, add_one, false, NULL), FFD_OK); /* x in the file's own space */
-    assert_int_equal(gltf->read_anchors(s, true, &f.scene.rigs[1].anchors, NULL), FFD_OK);
+    assert_int_equal(gltf->rig->read_anchors(s, MESH_STORED, true, &f.scene.rigs[1].anchors, NULL), FFD_OK);
     assert_false(f.scene.rigs[1].anchors.keeps_offsets);
     const double h = sqrt(0.5);
     check_pose(&f, 1, 1,
@@ -201,12 +201,12 @@ static void memory_that_runs_out_is_said(void **state)
         view_scene scene = {0};
         double *positions = NULL;
         ffd_alloc_fail_after(successes);
-        status = gltf->read_skeleton(f.document, false, &skeleton, NULL);
+        status = gltf->rig->read_skeleton(f.document, false, &skeleton, NULL);
         scene.rigs[0].skeleton = skeleton;
         if (!status)
             status = skeleton->load(skeleton, 0, NULL);
         if (!status)
-            status = gltf->read_anchors(skeleton, false, &scene.rigs[0].anchors, NULL);
+            status = gltf->rig->read_anchors(skeleton, MESH_STORED, false, &scene.rigs[0].anchors, NULL);
         scene.animations = f.scene.animations;
         scene.vertex_count = 8;
         if (!status)

@@ -23,7 +23,7 @@ static void *start(void *argument)
 
 /* Runs `run` in this many threads. Worker 0 is the calling thread, which does all the work if no others can
    be started. */
-static void run_all(void (*run)(void *work, int number), void *work, int threads)
+static void start_workers(void (*run)(void *work, int number), void *work, int threads)
 {
     worker_thread *others = threads > 1 ? ffd_alloc_zero((size_t)threads - 1, sizeof *others) : NULL;
     int started = 0;
@@ -80,7 +80,7 @@ static void call(tile_function function, const tiling *of, size_t index, int wor
     function(of->context, index, begin, begin + (rest < of->tile_size ? rest : of->tile_size), worker);
 }
 
-static void run_tiles(void *context, int worker)
+static void take_tiles(void *context, int worker)
 {
     tile_work *work = context;
     const size_t tiles = work->tiling.tiles;
@@ -99,7 +99,7 @@ void ffd_parallel_tiles(size_t count, size_t tile_size, int threads, tile_functi
     tile_work work = {.tiling = tile(count, tile_size, context), .function = function};
     work.share = share_of(work.tiling.tiles, threads);
     atomic_init(&work.next, 0);
-    run_all(run_tiles, &work, workers_for(work.tiling.tiles, threads));
+    start_workers(take_tiles, &work, workers_for(work.tiling.tiles, threads));
 }
 
 /* A tile that is being processed or waits to be finished. */
@@ -197,7 +197,7 @@ bool ffd_parallel_in_order(size_t count, size_t tile_size, int threads, tile_fun
     work.slots = ffd_alloc_zero((size_t)work.slot_count, sizeof *work.slots);
     if (!work.slots)
         return false;
-    run_all(run_ordered, &work, workers_for(work.tiling.tiles, threads));
+    start_workers(run_ordered, &work, workers_for(work.tiling.tiles, threads));
     pthread_cond_destroy(&work.freed);
     pthread_mutex_destroy(&work.lock);
     ffd_free(work.slots);

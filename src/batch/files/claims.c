@@ -229,7 +229,7 @@ static ffd_status judge_name(sidecar_claim *claim, sidecar_name *name, ffd_error
 
 static ffd_status claim_name(sidecar_claim *claim, size_t index, ffd_error *error)
 {
-    sidecar_name name = {.path = claim->kind->format->name_sidecar(claim->job->target, index)};
+    sidecar_name name = {.path = claim->kind->format->sidecars->name(claim->job->target, index)};
     if (!name.path)
         return ffd_fail_memory(error);
     name.place = ffd_run_place(claim->files, name.path);

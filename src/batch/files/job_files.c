@@ -17,18 +17,18 @@ job_kind ffd_job_kind(const batch_job *job)
     kind.source = ffd_format_table(kind.from);
     kind.format = ffd_format_table(kind.to);
     kind.is_kept = kind.format && kind.format == kind.source;
-    kind.has_sidecars = kind.format && kind.format->name_sidecar;
+    kind.has_sidecars = kind.format && kind.format->sidecars;
     return kind;
 }
 
 bool ffd_job_has_copies(const batch_job *job, const job_kind *kind)
 {
-    return job->output && kind->format && kind->is_kept && kind->format->find_resources &&
+    return job->output && kind->format && kind->is_kept && kind->format->resources &&
            job->desc.resources != FFD_RESOURCES_REFERENCE && ffd_folders_differ(kind->input, job->target);
 }
 
 size_t ffd_job_count_sidecars(const job_kind *kind)
 {
-    return kind->has_sidecars && !kind->is_kept ? kind->format->count_sidecars(NULL, kind->from, kind->to)
+    return kind->has_sidecars && !kind->is_kept ? kind->format->sidecars->count(NULL, kind->from, kind->to)
                                                 : 0;
 }

@@ -48,7 +48,7 @@ static named_read read_of(const batch_job *job, size_t index)
     if (index <= desc->lattice_count)
         return (named_read){"the lattice ", desc->lattices[index - 1].path, true, true};
     const bool is_last = index == desc->lattice_count + 1;
-    return (named_read){"the embedding ", is_last ? desc->embedding : NULL, false, false};
+    return (named_read){"the embedding ", is_last ? desc->embedding.path : NULL, false, false};
 }
 
 ffd_status ffd_reads_check(run_files *files, batch_job *job, ffd_error *error)
@@ -147,7 +147,7 @@ bool ffd_reads_know_mesh(const run_files *files, const job_kind *kind)
 bool ffd_reads_need_named(run_files *files, const job_kind *kind)
 {
     const mesh_format *const source = kind->source;
-    return source && source->find_named && (source->list_files || files->has_odd_outputs) &&
+    return source && source->resources && (source->sidecars || files->has_odd_outputs) &&
            ffd_run_writes_near(files, kind->input);
 }
 

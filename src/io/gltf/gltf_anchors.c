@@ -9,6 +9,7 @@
 
 typedef struct anchor_work {
     const gltf_skeleton *rig;
+    mesh_state state;
     bool after;
     mesh_anchors *anchors;
     size_t *first; /* per part: the number of its first vertex */
@@ -47,7 +48,7 @@ static void place_part(const anchor_work *w, size_t part)
     const size_t count = d->mesh_parts[part].vertex_count;
     double *const points = w->anchors->points + 3 * w->first[part];
     const double *const rest = rest_of(w, part);
-    ffd_gltf_read_shown(d, part, GLTF_POSITION, 0, count, 3, points);
+    ffd_gltf_read_shown(d, part, GLTF_POSITION, w->state, 0, count, 3, points);
     if (w->after)
         put_results(&d->parts[part].streams[GLTF_POSITION], count, points);
     for (size_t i = 0; i < count; i++)
@@ -170,11 +171,14 @@ static ffd_status make_anchors(anchor_work *w)
     return make_targets(w);
 }
 
-ffd_status ffd_gltf_read_anchors(const mesh_skeleton *skeleton, bool after, mesh_anchors *anchors,
-                                 ffd_error *error)
+ffd_status ffd_gltf_read_anchors(const mesh_skeleton *skeleton, mesh_state state, bool after,
+                                 mesh_anchors *anchors, ffd_error *error)
 {
-    anchor_work w = {
-        .rig = (const gltf_skeleton *)skeleton, .after = after, .anchors = anchors, .error = error};
+    anchor_work w = {.rig = (const gltf_skeleton *)skeleton,
+                     .state = state,
+                     .after = after,
+                     .anchors = anchors,
+                     .error = error};
     *anchors = (mesh_anchors){0};
     const ffd_status status = make_anchors(&w);
     ffd_free(w.first);

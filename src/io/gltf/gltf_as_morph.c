@@ -10,7 +10,7 @@
 static ffd_status finish_target(gltf_document *d, ffd_error *error)
 {
     const size_t count = d->base.part_count * GLTF_DEFORMED;
-    gltf_morph morph = {.name = d->morph_name, .normals = d->morph_normals, .result_count = count};
+    gltf_morph morph = {.name = d->morph_name, .normals = d->results.directions, .result_count = count};
     if (!ffd_grow((void **)&d->morphs, &d->morph_capacity, d->morph_count + 1, sizeof *d->morphs))
         return ffd_fail_memory(error);
     morph.results = ffd_alloc_zero(count, sizeof *morph.results);
@@ -34,7 +34,6 @@ ffd_status ffd_gltf_keep_base(mesh_document *document, const char *name, ffd_err
     d->morph_name = ffd_text_copy(name);
     if (!d->morph_name)
         return ffd_fail_memory(error);
-    d->base.keeps_base = true;
     return FFD_OK;
 }
 

@@ -26,6 +26,7 @@ _Static_assert(sizeof(shown_texcoords) == 10 * sizeof(double), "a key has no pad
 
 typedef struct extractor {
     const gltf_document *document;
+    mesh_state state;
     mesh_model *model;
     size_t *first_position, *first_normal; /* per part */
     size_t *colours;                       /* per part: the accessor of its colours; GLTF_NONE: none yet */
@@ -91,7 +92,7 @@ static shown_texcoords texcoords_of(const extractor *e, const gltf_instance *ins
     bool stands_in;
     const size_t set = ffd_gltf_texcoords(d, primitive, &found.taken, &stands_in);
     name_set(set, name);
-    if (found.taken.accessor == GLTF_NONE ||
+    if (found.taken.accessor == GLTF_NONE || e->state == MESH_STORED ||
         !ffd_gltf_add_shapes(d, primitive, instance->node, name,
                              (size_t)d->model.accessors[found.taken.accessor].count, 2, 2, NULL))
         return found;
@@ -152,11 +153,12 @@ static ffd_status count_values(extractor *e)
 
 /* Reads a stream's results where they differ from the file's values as floats, else the file's values: stored
    integers may be more precise than floats. */
-static void read_stream(const gltf_document *d, size_t part, gltf_semantic semantic, double *values)
+static void read_stream(const gltf_document *d, mesh_state state, size_t part, gltf_semantic semantic,
+                        double *values)
 {
     const gltf_stream *stream = &d->parts[part].streams[semantic];
     const size_t count = d->mesh_parts[part].vertex_count;
-    ffd_gltf_read_shown(d, part, semantic, 0, count, 3, values);
+    ffd_gltf_read_shown(d, part, semantic, state, 0, count, 3, values);
     for (size_t i = 0; i < 3 * count && stream->result; i++) {
         const bool filled = !stream->filled || stream->filled[i / 3 / MESH_RANGE_STEP];
         if (filled && ((float)values[i] < stream->result[i] || (float)values[i] > stream->result[i]))
@@ -220,12 +222,12 @@ static void fill_values(const extractor *e)
             continue;
         if (!part->repeats_positions) {
             double *positions = e->model->positions + 3 * e->first_position[i];
-            read_stream(d, i, GLTF_POSITION, positions);
+            read_stream(d, e->state, i, GLTF_POSITION, positions);
             ffd_part_transform(&d->base, i, 0, part->vertex_count, positions);
         }
         if (part->normal_count > 0) {
             double *normals = e->model->normals + 3 * e->first_normal[i];
-            read_stream(d, i, GLTF_NORMAL, normals);
+            read_stream(d, e->state, i, GLTF_NORMAL, normals);
             turn_normals(d, i, normals);
         }
     }
@@ -245,7 +247,8 @@ static ffd_status take_colours(extractor *e, const gltf_instance *instance, cons
     e->colours[drawing->part] = a;
     const size_t count = (size_t)d->model.accessors[primitive->accessor[GLTF_POSITION]].count;
     const size_t components = (size_t)d->model.accessors[a].rows, node = instance->node;
-    const bool shapes = ffd_gltf_add_shapes(d, primitive, node, "COLOR_0", count, components, 4, NULL);
+    const bool shapes = e->state == MESH_SHOWN &&
+                        ffd_gltf_add_shapes(d, primitive, node, "COLOR_0", count, components, 4, NULL);
     const bool coarse = d->model.accessors[a].component == GLTF_U8 && !shapes &&
                         (!e->model->colours || e->model->coarse_colours);
     const ffd_status status = ffd_model_make_colours(e->model, e->error);
@@ -255,7 +258,8 @@ static ffd_status take_colours(extractor *e, const gltf_instance *instance, cons
     double *const colours = e->model->colours + 4 * drawing->position;
     for (size_t i = 0; i < count; i++)
         ffd_gltf_read(d, a, i, 1, components, colours + 4 * i);
-    ffd_gltf_add_shapes(d, primitive, node, "COLOR_0", count, components, 4, colours);
+    if (shapes)
+        ffd_gltf_add_shapes(d, primitive, node, "COLOR_0", count, components, 4, colours);
     for (size_t i = 0; i < count; i++) {
         double *const colour = colours + 4 * i;
         for (int c = 0; c < 4; c++)
@@ -515,9 +519,10 @@ static ffd_status refuse_instances(const gltf_document *d, const mesh_model *mod
                               "instances of EXT_mesh_gpu_instancing cannot be converted");
 }
 
-ffd_status ffd_gltf_extract(const mesh_document *document, mesh_model *model, ffd_error *error)
+ffd_status ffd_gltf_extract(const mesh_document *document, mesh_state state, mesh_model *model,
+                            ffd_error *error)
 {
-    extractor e = {.document = ffd_gltf_of(document), .model = model, .error = error};
+    extractor e = {.document = ffd_gltf_of(document), .state = state, .model = model, .error = error};
     ffd_status status = refuse_instances(e.document, model, error);
     if (!status)
         status = extract(&e);

@@ -26,21 +26,11 @@ static ffd_status warn(const mesh_document *document, const mesh_log *log, ffd_e
     return ffd_gltf_warn_of_faults(document, log, error);
 }
 
-static void read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
-                           double *xyz)
+static void read(const mesh_document *document, size_t part, mesh_stream stream, mesh_state state,
+                 size_t first, size_t count, double *values)
 {
-    ffd_gltf_read_shown(ffd_gltf_of(document), part, GLTF_POSITION, first, count, 3, xyz);
-}
-
-static void read_normals(const mesh_document *document, size_t part, size_t first, size_t count, double *xyz)
-{
-    ffd_gltf_read_shown(ffd_gltf_of(document), part, GLTF_NORMAL, first, count, 3, xyz);
-}
-
-static void read_tangents(const mesh_document *document, size_t part, size_t first, size_t count,
-                          double *xyzw)
-{
-    ffd_gltf_read_shown(ffd_gltf_of(document), part, GLTF_TANGENT, first, count, 4, xyzw);
+    ffd_gltf_read_shown(ffd_gltf_of(document), part, (gltf_semantic)stream, state, first, count,
+                        stream == MESH_TANGENTS ? 4 : 3, values);
 }
 
 static void read_offsets(const mesh_document *document, size_t part, size_t shape, mesh_stream stream,
@@ -51,10 +41,10 @@ static void read_offsets(const mesh_document *document, size_t part, size_t shap
     ffd_gltf_read(d, d->parts[target].streams[stream].accessor, first, count, 3, xyz);
 }
 
-static ffd_status begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
+static ffd_status begin_results(mesh_document *document, const mesh_results *results, ffd_error *error)
 {
     ffd_gltf_free_rig((gltf_document *)document);
-    TRY(ffd_gltf_begin_results(document, normals, tangents, error));
+    TRY(ffd_gltf_begin_results(document, results, error));
     return ffd_gltf_begin_splats((gltf_document *)document, error);
 }
 
@@ -70,58 +60,70 @@ static ffd_status follow(mesh_document *document, const mesh_places *places, mes
 static ffd_status save(mesh_document *document, const mesh_save_options *options, file_output *output,
                        const mesh_log *log, ffd_error *error)
 {
-    ffd_gltf_warn_of_splats(ffd_gltf_of(document), log);
+    if (output)
+        ffd_gltf_warn_of_splats(ffd_gltf_of(document), log);
     return ffd_gltf_save(document, options, output, log, error);
 }
+
+static const mesh_selector_calls selectors = {
+    .kinds = SELECTOR_BIT(SELECT_NODE) | SELECTOR_BIT(SELECT_MESH) | SELECTOR_BIT(SELECT_MATERIAL),
+    .select = ffd_gltf_select,
+    .list = ffd_gltf_list_parts,
+    .name_owner = ffd_gltf_name_part,
+};
+static const mesh_resource_calls resources = {
+    .find_named = ffd_gltf_find_named,
+    .list_linked = ffd_gltf_list_linked,
+};
+static const mesh_sidecar_calls sidecars = {
+    .list = ffd_gltf_list_files,
+    .list_images = ffd_gltf_list_images,
+    .count = ffd_gltf_count_sidecars,
+    .name = ffd_sidecar_name,
+};
+static const mesh_place_calls places = {
+    .list = ffd_gltf_list_places,
+    .name = ffd_gltf_place_name,
+    .count_skins = ffd_gltf_count_skins,
+    .follow = follow,
+};
+static const mesh_morph_calls morphs = {
+    .read_offsets = read_offsets,
+    .write_offsets = ffd_gltf_write_offsets,
+    .keep_base = ffd_gltf_keep_base,
+    .keep_clips = ffd_gltf_keep_clips,
+};
+static const mesh_rig_calls rig = {.read_skeleton = ffd_gltf_read_skeleton,
+                                   .read_anchors = ffd_gltf_read_anchors};
+static const mesh_splat_calls splats = {.read = ffd_gltf_read_splats, .write = ffd_gltf_write_splats};
 
 const mesh_format ffd_gltf_format = {
     .format = FFD_FORMAT_GLTF,
     .name = "glTF",
     .open = ffd_gltf_open,
     .close = ffd_gltf_close,
-    .list_files = ffd_gltf_list_files,
-    .list_images = ffd_gltf_list_images,
-    .list_linked = ffd_gltf_list_linked,
-    .find_resources = ffd_gltf_find_resources,
-    .find_named = ffd_gltf_find_named,
-    .count_sidecars = ffd_gltf_count_sidecars,
-    .name_sidecar = ffd_sidecar_name,
     .check = check,
     .warn = warn,
     .check_reach = ffd_gltf_check_reach,
-    .list_places = ffd_gltf_list_places,
-    .place_name = ffd_gltf_place_name,
-    .count_skins = ffd_gltf_count_skins,
-    .follow = follow,
-    .keep_base = ffd_gltf_keep_base,
-    .keep_clips = ffd_gltf_keep_clips,
     .largest_coordinate = FLT_MAX,
-    .selector_kinds = SELECTOR_BIT(SELECT_NODE) | SELECTOR_BIT(SELECT_MESH) | SELECTOR_BIT(SELECT_MATERIAL),
-    .select = ffd_gltf_select,
-    .list_parts = ffd_gltf_list_parts,
-    .mark_used = ffd_gltf_mark_used,
-    .read_positions = read_positions,
-    .read_normals = read_normals,
-    .read_tangents = read_tangents,
     .read_transforms = ffd_gltf_read_transforms,
-    .read_offsets = read_offsets,
-    .read_splats = ffd_gltf_read_splats,
-    .write_splats = ffd_gltf_write_splats,
+    .mark_used = ffd_gltf_mark_used,
+    .read = read,
     .begin_results = begin_results,
-    .write_positions = ffd_gltf_write_positions,
-    .write_normals = ffd_gltf_write_normals,
-    .write_tangents = ffd_gltf_write_tangents,
-    .write_offsets = ffd_gltf_write_offsets,
+    .write = ffd_gltf_write,
     .save = save,
-    .check_save = ffd_gltf_save,
     .faces = ffd_gltf_faces,
     .mixed_faces = ffd_gltf_mixed_faces,
-    .name_part = ffd_gltf_name_part,
     .corner_normals = ffd_gltf_corner_normals,
     .model = ffd_gltf_extract,
     .list_materials = ffd_gltf_list_materials,
-    .read_skeleton = ffd_gltf_read_skeleton,
-    .read_anchors = ffd_gltf_read_anchors,
+    .selectors = &selectors,
+    .resources = &resources,
+    .sidecars = &sidecars,
+    .places = &places,
+    .morphs = &morphs,
+    .rig = &rig,
+    .splats = &splats,
     .describe = ffd_gltf_describe,
     .compare = ffd_gltf_compare,
 };

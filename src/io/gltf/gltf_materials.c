@@ -259,18 +259,15 @@ ffd_status ffd_gltf_list_materials(mesh_document *document, const mesh_log *log,
                                    ffd_error *error)
 {
     const gltf_document *const d = ffd_gltf_of(document);
-    const bool has_folder = !ffd_file_is_stream(d->path);
-    char *const folder = has_folder ? ffd_path_folder(d->path) : NULL;
     reader r = {.document = d,
                 .images = {.materials = materials,
                            .budget = &document->budget,
                            .mesh = d->base.folder,
-                           .folder = folder},
+                           .has_folder = !ffd_file_is_stream(d->path)},
                 .error = error};
-    ffd_status status = folder || !has_folder ? FFD_OK : ffd_fail_memory(error);
+    ffd_status status = FFD_OK;
     for (size_t i = 0; i < d->material_values.count && !status; i++)
         status = read_material(&r, d->material_values.values[i]);
     ffd_images_end(&r.images, log);
-    ffd_free(folder);
     return status;
 }

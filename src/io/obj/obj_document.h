@@ -11,6 +11,8 @@
 #include "io/obj/obj_blocks.h"
 #include "io/obj/obj_corner.h"
 #include "io/text/file_document.h"
+#include "mesh/linked_files.h"
+#include "mesh/selector.h"
 
 /* A walk is a scan that knows which element each statement is, so that indices can be looked up. */
 
@@ -59,7 +61,7 @@ typedef struct obj_unknown {
 
 typedef struct obj_document {
     /* positions: of each `v`; directions: of each `vn`, NULL: not held; new_directions: of each pair. Results
-       may be where what was read was (results_replace). */
+       may be where what was read was (mesh_results.replace). */
     file_document file;
     size_t vertices, texcoords, normals;                       /* `v`, `vt`, `vn` */
     size_t faces, corners, lines, points;                      /* statements; corners of faces */
@@ -103,18 +105,15 @@ mesh_open_function ffd_obj_open;
 mesh_close_function ffd_obj_close;
 mesh_list_files_function ffd_obj_list_linked;
 mesh_select_function ffd_obj_select;
-mesh_list_parts_function ffd_obj_list_parts;
+mesh_list_things_function ffd_obj_list_parts;
 mesh_mark_used_function ffd_obj_mark_used;
-mesh_read_function ffd_obj_read_positions;
-mesh_read_function ffd_obj_read_normals;
+mesh_read_function ffd_obj_read;
 mesh_begin_results_function ffd_obj_begin_results;
-mesh_write_function ffd_obj_write_positions;
-mesh_write_function ffd_obj_write_normals;
+mesh_write_function ffd_obj_write;
 mesh_save_function ffd_obj_save;
-mesh_save_function ffd_obj_check_save;
 mesh_faces_function ffd_obj_faces;
 mesh_mixed_faces_function ffd_obj_mixed_faces;
-mesh_name_part_function ffd_obj_name_part;
+mesh_name_owner_function ffd_obj_name_part;
 mesh_corner_normals_function ffd_obj_corner_normals;
 mesh_model_function ffd_obj_model;
 mesh_describe_function ffd_obj_describe;

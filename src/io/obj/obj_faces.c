@@ -209,16 +209,17 @@ static ffd_status fill_faces(const obj_document *d, mesh_faces *faces, ffd_error
     return ffd_filler_end(&filler, d->file.name, error);
 }
 
-ffd_status ffd_obj_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error)
+ffd_status ffd_obj_faces(const mesh_document *document, mesh_state state, mesh_faces *faces, ffd_error *error)
 {
     const obj_document *d = ffd_obj_of(document);
+    (void)state;
     *faces = (mesh_faces){
         .vertex_count = d->vertices, .face_count = d->faces, .lines = d->lines, .points = d->points};
     TRY(ffd_mesh_faces_make(document, faces, d->corners, error));
     if (d->file.new_positions && d->file.new_positions == d->file.positions)
         ffd_obj_read_again(d, NULL, 0, faces->positions);
     else
-        ffd_obj_read_positions(document, 0, 0, d->vertices, faces->positions);
+        ffd_obj_read(document, 0, MESH_POSITIONS, MESH_STORED, 0, d->vertices, faces->positions);
     return fill_faces(d, faces, error);
 }
 
@@ -324,11 +325,12 @@ static ffd_status find_mixed(mixed_search *search, mesh_faces *faces, ffd_error 
     return status;
 }
 
-ffd_status ffd_obj_mixed_faces(const mesh_document *document, const vertex_marks *marks, mesh_faces *faces,
-                               ffd_error *error)
+ffd_status ffd_obj_mixed_faces(const mesh_document *document, mesh_state state, const vertex_marks *marks,
+                               mesh_faces *faces, ffd_error *error)
 {
     const obj_document *const d = ffd_obj_of(document);
     mixed_search search = {d, *marks, ffd_alloc_zero(d->blocks.count, sizeof *search.lists)};
+    (void)state;
     *faces = (mesh_faces){.vertex_count = d->vertices};
     const ffd_status status = search.lists ? find_mixed(&search, faces, error) : ffd_fail_memory(error);
     for (size_t b = 0; search.lists && b < d->blocks.count; b++)

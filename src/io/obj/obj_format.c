@@ -3,30 +3,32 @@
 #include "io/obj/resource/obj_resources.h"
 #include <float.h>
 
+static const mesh_selector_calls selectors = {
+    .kinds = SELECTOR_BIT(SELECT_GROUP) | SELECTOR_BIT(SELECT_OBJECT) | SELECTOR_BIT(SELECT_MATERIAL),
+    .select = ffd_obj_select,
+    .list = ffd_obj_list_parts,
+    .name_owner = ffd_obj_name_part,
+};
+static const mesh_resource_calls resources = {
+    .find_named = ffd_obj_find_named,
+    .list_linked = ffd_obj_list_linked,
+};
+
 const mesh_format ffd_obj_format = {
     .format = FFD_FORMAT_OBJ,
     .name = "OBJ",
     .open = ffd_obj_open,
     .close = ffd_obj_close,
-    .find_resources = ffd_obj_find_resources,
-    .find_named = ffd_obj_find_named,
-    .list_linked = ffd_obj_list_linked,
+    .resources = &resources,
     .largest_coordinate = DBL_MAX,
-    .selector_kinds =
-        SELECTOR_BIT(SELECT_GROUP) | SELECTOR_BIT(SELECT_OBJECT) | SELECTOR_BIT(SELECT_MATERIAL),
-    .select = ffd_obj_select,
-    .list_parts = ffd_obj_list_parts,
+    .selectors = &selectors,
     .mark_used = ffd_obj_mark_used,
-    .read_positions = ffd_obj_read_positions,
-    .read_normals = ffd_obj_read_normals,
+    .read = ffd_obj_read,
     .begin_results = ffd_obj_begin_results,
-    .write_positions = ffd_obj_write_positions,
-    .write_normals = ffd_obj_write_normals,
+    .write = ffd_obj_write,
     .save = ffd_obj_save,
-    .check_save = ffd_obj_check_save,
     .faces = ffd_obj_faces,
     .mixed_faces = ffd_obj_mixed_faces,
-    .name_part = ffd_obj_name_part,
     .corner_normals = ffd_obj_corner_normals,
     .model = ffd_obj_model,
     .list_materials = ffd_obj_list_materials,

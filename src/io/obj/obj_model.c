@@ -191,11 +191,12 @@ static ffd_status take_statement(extractor *e)
     }
 }
 
-ffd_status ffd_obj_model(const mesh_document *document, mesh_model *model, ffd_error *error)
+ffd_status ffd_obj_model(const mesh_document *document, mesh_state state, mesh_model *model, ffd_error *error)
 {
     const obj_document *d = ffd_obj_of(document);
     extractor e = {.document = d, .model = model, .error = error};
     ffd_status status = ffd_model_make_values(model, d->vertices, d->texcoords, count_normals(d), error);
+    (void)state;
     if (!status) {
         copy_values(&e);
         status = ffd_model_begin_run(model, NULL, NULL, NULL, error);

@@ -14,21 +14,24 @@ void ffd_obj_forget_vectors(const obj_document *d, size_t first, size_t count)
     ffd_spill_release_pages(&d->result_store, first * OBJ_VECTOR, count * OBJ_VECTOR);
 }
 
-void ffd_obj_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
-                            double *xyz)
+static void read_normals(const obj_document *d, size_t first, size_t count, double *xyz)
+{
+    for (size_t i = 0; i < count; i++)
+        memcpy(xyz + 3 * i, d->file.directions + 3 * (size_t)d->pair_normal[first + i], 3 * sizeof *xyz);
+}
+
+void ffd_obj_read(const mesh_document *document, size_t part, mesh_stream stream, mesh_state state,
+                  size_t first, size_t count, double *xyz)
 {
     const obj_document *d = ffd_obj_of(document);
     (void)part; /* there is one */
+    (void)state;
+    if (stream != MESH_POSITIONS) {
+        read_normals(d, first, count, xyz);
+        return;
+    }
     ffd_vectors_read(d->file.positions, first, count, xyz);
     ffd_obj_forget_vectors(d, first, count);
-}
-
-void ffd_obj_read_normals(const mesh_document *document, size_t part, size_t first, size_t count, double *xyz)
-{
-    const obj_document *d = ffd_obj_of(document);
-    (void)part;
-    for (size_t i = 0; i < count; i++)
-        memcpy(xyz + 3 * i, d->file.directions + 3 * (size_t)d->pair_normal[first + i], 3 * sizeof *xyz);
 }
 
 static void copy_tile(void *context, size_t tile, size_t first, size_t last, int worker)
@@ -45,7 +48,7 @@ static void copy_normals(void *context, size_t tile, size_t first, size_t last, 
     const obj_document *d = context;
     (void)tile;
     (void)worker;
-    ffd_obj_read_normals(&d->file.base, 0, first, last - first, d->file.new_directions + 3 * first);
+    read_normals(d, first, last - first, d->file.new_directions + 3 * first);
 }
 
 /* Nothing has changed so far. */
@@ -58,11 +61,11 @@ static bool clear_changes(uint8_t **changes, size_t count)
     return *changes;
 }
 
-static ffd_status begin_positions(obj_document *d, ffd_error *error)
+static ffd_status begin_positions(obj_document *d, bool replace, ffd_error *error)
 {
     if (!clear_changes(&d->position_changes, d->vertices))
         return ffd_fail_memory(error);
-    if (d->file.base.results_replace) {
+    if (replace) {
         d->file.new_positions = d->position_store.data;
         return FFD_OK;
     }
@@ -83,12 +86,12 @@ static bool results_fit(const obj_document *d)
     return fit;
 }
 
-static ffd_status begin_normals(obj_document *d, ffd_error *error)
+static ffd_status begin_normals(obj_document *d, bool replace, ffd_error *error)
 {
     const size_t count = d->file.part.normal_count;
     if (!clear_changes(&d->direction_changes, count))
         return ffd_fail_memory(error);
-    if (d->file.base.results_replace && results_fit(d)) {
+    if (replace && results_fit(d)) {
         d->file.new_directions = d->direction_store.data;
         return FFD_OK;
     }
@@ -107,13 +110,12 @@ void ffd_obj_free_normals(obj_document *d)
     d->file.new_directions = NULL;
 }
 
-ffd_status ffd_obj_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
+ffd_status ffd_obj_begin_results(mesh_document *document, const mesh_results *results, ffd_error *error)
 {
     obj_document *d = (obj_document *)document;
-    (void)tangents; /* there are none */
-    const ffd_status status = begin_positions(d, error);
-    if (!status && normals && d->pair_normal)
-        return begin_normals(d, error);
+    const ffd_status status = begin_positions(d, results->replace, error);
+    if (!status && results->directions && d->pair_normal)
+        return begin_normals(d, results->replace, error);
     ffd_obj_free_normals(d);
     return status;
 }
@@ -131,20 +133,15 @@ static void write_vectors(double *results, uint8_t *changes, size_t first, size_
         }
 }
 
-void ffd_obj_write_positions(mesh_document *document, size_t part, size_t first, size_t count,
-                             const double *xyz, const uint8_t *changed)
+void ffd_obj_write(mesh_document *document, size_t part, mesh_stream stream, size_t first, size_t count,
+                   const double *xyz, const uint8_t *changed)
 {
     const obj_document *d = ffd_obj_of(document);
     (void)part;
-    write_vectors(d->file.new_positions, d->position_changes, first, count, xyz, changed);
-    ffd_obj_forget_vectors(d, first, count);
-}
-
-void ffd_obj_write_normals(mesh_document *document, size_t part, size_t first, size_t count,
-                           const double *xyz, const uint8_t *changed)
-{
-    const obj_document *d = ffd_obj_of(document);
-    (void)part;
-    if (d->file.new_directions) /* else normals are kept */
+    if (stream == MESH_POSITIONS) {
+        write_vectors(d->file.new_positions, d->position_changes, first, count, xyz, changed);
+        ffd_obj_forget_vectors(d, first, count);
+    } else if (d->file.new_directions) { /* else normals are kept */
         write_vectors(d->file.new_directions, d->direction_changes, first, count, xyz, changed);
+    }
 }

@@ -246,10 +246,11 @@ ffd_status ffd_obj_save(mesh_document *document, const mesh_save_options *option
     const obj_document *d = ffd_obj_of(document);
     file_splice splice;
     saver s = {.document = d, .splice = &splice};
-    ffd_status status = ffd_obj_bring_resources(&d->file.input, &document->folder, d->names_files, options,
-                                                output, log, error);
-    if (!status && d->file.new_directions)
-        status = ffd_obj_split_normals(d, &s.split, error);
+    TRY(ffd_obj_bring_resources(&d->file.input, &document->folder, d->names_files, options, output, log,
+                                error));
+    if (!output)
+        return FFD_OK;
+    ffd_status status = d->file.new_directions ? ffd_obj_split_normals(d, &s.split, error) : FFD_OK;
     if (!status) {
         ffd_splice_begin(&splice, &d->file, options, output, error);
         if (d->file.new_positions && splice.status == FFD_OK)
@@ -262,12 +263,4 @@ ffd_status ffd_obj_save(mesh_document *document, const mesh_save_options *option
         status = ffd_file_document_changed(&d->file, error);
     ffd_obj_split_free(&s.split);
     return status;
-}
-
-ffd_status ffd_obj_check_save(mesh_document *document, const mesh_save_options *options, file_output *output,
-                              const mesh_log *log, ffd_error *error)
-{
-    const obj_document *d = ffd_obj_of(document);
-    return ffd_obj_bring_resources(&d->file.input, &document->folder, d->names_files, options, output, log,
-                                   error);
 }

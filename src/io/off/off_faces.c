@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "io/off/off_document.h"
+#include "io/text/vectors.h"
 #include "mesh/face_filler.h"
 #include "mesh/mixed_faces.h"
 #include <inttypes.h>
@@ -84,25 +85,27 @@ static ffd_status fill_faces(const off_document *d, mesh_faces *faces, ffd_error
     return ffd_filler_end(&filler, d->file.name, error);
 }
 
-ffd_status ffd_off_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error)
+ffd_status ffd_off_faces(const mesh_document *document, mesh_state state, mesh_faces *faces, ffd_error *error)
 {
     const off_document *d = ffd_off_of(document);
+    (void)state;
     *faces = (mesh_faces){.vertex_count = d->header.vertices,
                           .face_count = d->header.faces - d->lines - d->points,
                           .lines = d->lines,
                           .points = d->points};
     TRY(ffd_mesh_faces_make(document, faces, d->corners, error));
-    ffd_file_document_read_positions(document, 0, 0, faces->vertex_count, faces->positions);
+    ffd_vectors_read(d->file.positions, 0, faces->vertex_count, faces->positions);
     return fill_faces(d, faces, error);
 }
 
-ffd_status ffd_off_mixed_faces(const mesh_document *document, const vertex_marks *marks, mesh_faces *faces,
-                               ffd_error *error)
+ffd_status ffd_off_mixed_faces(const mesh_document *document, mesh_state state, const vertex_marks *marks,
+                               mesh_faces *faces, ffd_error *error)
 {
     const off_document *d = ffd_off_of(document);
     off_walk walk = d->faces_begin;
     face_list list = {0};
     bool has_changed = false;
+    (void)state;
     *faces = (mesh_faces){.vertex_count = marks->vertices};
     for (size_t i = 0; i < d->header.faces && !has_changed; i++) {
         for (size_t left = ffd_off_walk_face_size(&walk); left > 0 && !has_changed; left--) {

@@ -98,12 +98,13 @@ static ffd_status take_face(extractor *e)
     return colour_face(e, count > 2);
 }
 
-ffd_status ffd_off_model(const mesh_document *document, mesh_model *model, ffd_error *error)
+ffd_status ffd_off_model(const mesh_document *document, mesh_state state, mesh_model *model, ffd_error *error)
 {
     const off_document *d = ffd_off_of(document);
     extractor e = {.document = d, .model = model, .error = error};
     ffd_status status =
         ffd_file_document_model(&d->file, d->header.has_texcoords ? d->header.vertices : 0, model, error);
+    (void)state;
     if (!status)
         status = ffd_model_begin_run(model, NULL, NULL, NULL, error);
     ffd_off_walk_begin(&d->header, &e.walk);

@@ -37,6 +37,8 @@ ffd_status ffd_off_save(mesh_document *document, const mesh_save_options *option
     const off_document *d = ffd_off_of(document);
     file_splice splice;
     (void)log;
+    if (!output)
+        return FFD_OK;
     ffd_splice_begin(&splice, &d->file, options, output, error);
     if (d->file.new_positions)
         write_vertices(d, &splice);

@@ -9,6 +9,7 @@
 
 #include "io/ply/ply_walk.h"
 #include "io/text/file_document.h"
+#include "mesh/splats.h"
 #include "splat/harmonics.h"
 
 /* Marks of a splat: whether its numbers change, and whether its harmonics turn and are mirrored. */
@@ -94,7 +95,7 @@ static inline double ply_new_splat_number(const ply_document *document, size_t v
     return document->float_splats ? (double)document->float_splats[at] : document->double_splats[at];
 }
 /* Allocates the results of splats, none of which is changed. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
-ffd_status ffd_ply_begin_splats(ply_document *document, ffd_error *error);
+ffd_status ffd_ply_begin_splats(ply_document *document, const mesh_results *results, ffd_error *error);
 /* Returns the turn of a vertex marked PLY_SPLAT_TURNS. */
 splat_turn ffd_ply_turn_of(const ply_document *document, size_t vertex);
 /* Returns the slot of a coefficient of a channel. */
@@ -113,9 +114,8 @@ mesh_write_splats_function ffd_ply_write_splats;
 mesh_open_function ffd_ply_open;
 mesh_close_function ffd_ply_close;
 mesh_begin_results_function ffd_ply_begin_results;
-mesh_write_function ffd_ply_write_positions;
-mesh_write_function ffd_ply_write_normals;
-mesh_save_function ffd_ply_save, ffd_ply_check_save;
+mesh_write_function ffd_ply_write;
+mesh_save_function ffd_ply_save;
 mesh_mark_used_function ffd_ply_mark_used;
 mesh_faces_function ffd_ply_faces;
 mesh_mixed_faces_function ffd_ply_mixed_faces;

@@ -3,6 +3,7 @@
 #include "base/memory/memory.h"
 #include "io/ply/ply_document.h"
 #include "io/ply/ply_walk.h"
+#include "io/text/vectors.h"
 #include "mesh/face_filler.h"
 #include "mesh/mixed_faces.h"
 #include <string.h>
@@ -301,7 +302,7 @@ static ffd_status read_faces(const ply_document *d, mesh_faces *faces, ffd_error
 {
     face_reader r = {.document = d, .faces = faces, .capacity = faces->face_count, .error = error};
     TRY(ffd_mesh_faces_make(&d->file.base, faces, faces->face_count, error));
-    ffd_file_document_read_positions(&d->file.base, 0, 0, faces->vertex_count, faces->positions);
+    ffd_vectors_read(d->file.positions, 0, faces->vertex_count, faces->positions);
     ffd_status status = visit_faces(&r);
     if (!status && r.face_count != faces->face_count)
         status = ffd_faces_changed(d->file.name, error);
@@ -318,11 +319,12 @@ ffd_status ffd_ply_check_faces(const ply_document *d, ffd_error *error)
     return visit_faces(&r);
 }
 
-ffd_status ffd_ply_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error)
+ffd_status ffd_ply_faces(const mesh_document *document, mesh_state state, mesh_faces *faces, ffd_error *error)
 {
     const ply_document *d = ffd_ply_of(document);
     const ply_element *edges = ffd_ply_find_edges(d);
     size_t triangles = 0;
+    (void)state;
     *faces =
         (mesh_faces){.vertex_count = d->file.part.vertex_count, .lines = edges ? (size_t)edges->count : 0};
     TRY(visit_strips(d, count_triangle, &triangles, error));
@@ -330,12 +332,13 @@ ffd_status ffd_ply_faces(const mesh_document *document, mesh_faces *faces, ffd_e
     return read_faces(d, faces, error);
 }
 
-ffd_status ffd_ply_mixed_faces(const mesh_document *document, const vertex_marks *marks, mesh_faces *faces,
-                               ffd_error *error)
+ffd_status ffd_ply_mixed_faces(const mesh_document *document, mesh_state state, const vertex_marks *marks,
+                               mesh_faces *faces, ffd_error *error)
 {
     const ply_document *d = ffd_ply_of(document);
     face_list list = {0};
     face_reader r = {.document = d, .mixed = &list, .marks = marks, .error = error};
+    (void)state;
     *faces = (mesh_faces){.vertex_count = marks->vertices};
     ffd_status status = visit_faces(&r);
     if (!status)

@@ -14,25 +14,23 @@ static ffd_status check(const mesh_document *document, ffd_error *error)
     return ffd_ply_check_faces(d, error);
 }
 
+static const mesh_resource_calls resources = {.find_named = ffd_ply_find_named};
+static const mesh_splat_calls splats = {.read = ffd_ply_read_splats, .write = ffd_ply_write_splats};
+
 const mesh_format ffd_ply_format = {
     .format = FFD_FORMAT_PLY,
     .name = "PLY",
     .open = ffd_ply_open,
     .close = ffd_ply_close,
-    .find_resources = ffd_ply_find_textures,
-    .find_named = ffd_ply_find_named,
+    .resources = &resources,
     .check = check,
     .warn = ffd_ply_warn,
     .mark_used = ffd_ply_mark_used,
     .largest_coordinate = DBL_MAX,
-    .read_positions = ffd_file_document_read_positions,
-    .read_normals = ffd_file_document_read_normals,
-    .read_splats = ffd_ply_read_splats,
-    .write_splats = ffd_ply_write_splats,
+    .read = ffd_file_document_read,
+    .splats = &splats,
     .begin_results = ffd_ply_begin_results,
-    .write_positions = ffd_ply_write_positions,
-    .write_normals = ffd_ply_write_normals,
-    .check_save = ffd_ply_check_save,
+    .write = ffd_ply_write,
     .save = ffd_ply_save,
     .faces = ffd_ply_faces,
     .mixed_faces = ffd_ply_mixed_faces,

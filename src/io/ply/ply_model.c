@@ -285,10 +285,10 @@ static uint32_t features_of(const extractor *e)
     return found;
 }
 
-ffd_status ffd_ply_model(const mesh_document *document, mesh_model *model, ffd_error *error)
+ffd_status ffd_ply_model(const mesh_document *document, mesh_state state, mesh_model *model, ffd_error *error)
 {
     extractor e = {.document = ffd_ply_of(document), .model = model, .error = error};
-    TRY(ffd_ply_faces(document, &e.faces, error));
+    TRY(ffd_ply_faces(document, state, &e.faces, error));
     find_roles(&e);
     ffd_status status = make_values(&e);
     if (!status)

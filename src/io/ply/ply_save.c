@@ -87,22 +87,14 @@ static size_t write_elements(const ply_document *d, file_splice *splice)
     return unturned;
 }
 
-ffd_status ffd_ply_check_save(mesh_document *document, const mesh_save_options *options, file_output *output,
-                              const mesh_log *log, ffd_error *error)
-{
-    return ffd_ply_bring_textures(&ffd_ply_of(document)->header, &document->folder, options, output, log,
-                                  error);
-}
-
 ffd_status ffd_ply_save(mesh_document *document, const mesh_save_options *options, file_output *output,
                         const mesh_log *log, ffd_error *error)
 {
     const ply_document *d = ffd_ply_of(document);
     file_splice splice;
-    const ffd_status status =
-        ffd_ply_bring_textures(&d->header, &document->folder, options, output, log, error);
-    if (status)
-        return status;
+    TRY(ffd_ply_bring_textures(&d->header, &document->folder, options, output, log, error));
+    if (!output)
+        return FFD_OK;
     ffd_splice_begin(&splice, &d->file, options, output, error);
     const size_t unturned = d->file.new_positions ? write_elements(d, &splice) : 0;
     if (unturned > 0)

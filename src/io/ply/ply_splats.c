@@ -187,9 +187,9 @@ static ffd_status make_results(ply_document *d, ffd_error *error)
     return is_there ? FFD_OK : ffd_fail_memory(error);
 }
 
-ffd_status ffd_ply_begin_splats(ply_document *d, ffd_error *error)
+ffd_status ffd_ply_begin_splats(ply_document *d, const mesh_results *results, ffd_error *error)
 {
-    if (!d->file.part.has_ellipsoids || d->file.base.converted)
+    if (!d->file.part.has_ellipsoids || results->converted)
         return FFD_OK;
     TRY(d->splat_marks ? FFD_OK : make_results(d, error));
     memset(d->splat_marks, 0, d->file.part.vertex_count);

@@ -105,10 +105,9 @@ ffd_status ffd_ply_bring_textures(const ply_header *header, const file_folder *f
     return status;
 }
 
-/* Adds the images that a header names to `named`, and those in the folder of the mesh or below to `inside`;
-   either may be NULL. */
-static ffd_status find(const char *path, const file_input *bytes, path_list *named, path_list *inside,
-                       ffd_error *error)
+/* Only images in the folder of the mesh or below are copied. */
+ffd_status ffd_ply_find_named(const char *path, const file_input *bytes, const mesh_named *named,
+                              ffd_error *error)
 {
     ply_header header = {0};
     resource_list list = {0};
@@ -120,25 +119,13 @@ static ffd_status find(const char *path, const file_input *bytes, path_list *nam
     for (size_t i = 0; i < list.count && !status; i++) {
         char *const file = ffd_path_sibling(path, list.resources[i].path);
         status = file ? FFD_OK : ffd_fail_memory(error);
-        if (!status && named)
-            status = ffd_paths_add(named, file, error);
-        if (!status && inside && !ffd_path_leads_out(list.resources[i].path))
-            status = ffd_paths_add(inside, file, error);
+        if (!status && named->files)
+            status = ffd_paths_add(named->files, file, error);
+        if (!status && named->copies && !ffd_path_leads_out(list.resources[i].path))
+            status = ffd_paths_add(named->copies, file, error);
         ffd_free(file);
     }
     ffd_resources_free(&list);
     ffd_ply_header_free(&header);
     return status;
-}
-
-ffd_status ffd_ply_find_textures(const char *path, const file_input *bytes, path_list *files,
-                                 ffd_error *error)
-{
-    return find(path, bytes, NULL, files, error);
-}
-
-ffd_status ffd_ply_find_named(const char *path, const file_input *bytes, const mesh_named *named,
-                              ffd_error *error)
-{
-    return find(path, bytes, named->files, named->copies, error);
 }

@@ -3,6 +3,7 @@
 #define FFD_IO_PLY_PLY_TEXTURES_H
 
 #include "io/ply/ply_header.h"
+#include "mesh/linked_files.h"
 #include "mesh/mesh.h"
 
 /* Finds the name in a note of the header. Returns false if the note names no texture. */
@@ -15,8 +16,7 @@ ffd_status ffd_ply_bring_textures(const ply_header *header, const file_folder *f
                                   const mesh_save_options *options, file_output *output, const mesh_log *log,
                                   ffd_error *error);
 
-/* mesh_format's find_resources and find_named. */
-mesh_find_resources_function ffd_ply_find_textures;
+/* The calls of mesh_resource_calls. */
 mesh_find_named_function ffd_ply_find_named;
 
 #endif

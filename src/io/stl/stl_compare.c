@@ -44,7 +44,7 @@ static void next_text_facet(stl_side *side)
 
 static void next_facet(stl_side *side, size_t index)
 {
-    ffd_stl_read_positions(&side->document->file.base, 0, 3 * index, 3, side->corners);
+    ffd_stl_read_corners(side->document, 3 * index, 3, side->corners);
     if (!side->document->binary) {
         next_text_facet(side);
         return;

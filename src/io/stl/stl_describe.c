@@ -29,7 +29,7 @@ static size_t count_degenerate(const stl_document *d)
     size_t count = 0;
     for (size_t i = 0; i < d->facets; i++) {
         double corners[9], normal[3];
-        ffd_stl_read_positions(&d->file.base, 0, 3 * i, 3, corners);
+        ffd_stl_read_corners(d, 3 * i, 3, corners);
         count += !ffd_stl_normal(corners, normal);
     }
     return count;

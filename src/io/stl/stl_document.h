@@ -39,6 +39,9 @@ static inline const unsigned char *ffd_stl_facet(const stl_document *document, s
     return document->file.input.data + STL_START + STL_FACET * facet;
 }
 
+/* Reads vertices, which are the corners of facets. */
+void ffd_stl_read_corners(const stl_document *document, size_t first, size_t count, double *xyz);
+
 /* Loads three floats of a binary file. */
 void ffd_stl_load(const unsigned char *bytes, double xyz[3]);
 /* Stores count numbers as floats of a binary file. */
@@ -50,9 +53,9 @@ bool ffd_stl_normal(const double corners[9], double normal[3]);
 
 /* Functions of the mesh_format. */
 mesh_open_function ffd_stl_open;
-mesh_read_function ffd_stl_read_positions;
+mesh_read_function ffd_stl_read;
 mesh_begin_results_function ffd_stl_begin_results;
-mesh_write_function ffd_stl_write_positions;
+mesh_write_function ffd_stl_write;
 mesh_save_function ffd_stl_save;
 mesh_faces_function ffd_stl_faces;
 mesh_mixed_faces_function ffd_stl_mixed_faces;

@@ -51,10 +51,11 @@ static void join_corners(mesh_faces *faces, const stl_key *keys)
     }
 }
 
-ffd_status ffd_stl_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error)
+ffd_status ffd_stl_faces(const mesh_document *document, mesh_state state, mesh_faces *faces, ffd_error *error)
 {
     const stl_document *d = ffd_stl_of(document);
     const size_t vertices = 3 * d->facets;
+    (void)state;
     *faces = (mesh_faces){.vertex_count = vertices, .face_count = d->facets};
     TRY(ffd_mesh_faces_make(document, faces, vertices, error));
     stl_key *keys = ffd_alloc(vertices, sizeof *keys);
@@ -62,7 +63,7 @@ ffd_status ffd_stl_faces(const mesh_document *document, mesh_faces *faces, ffd_e
         ffd_mesh_faces_free(faces);
         return ffd_fail_memory(error);
     }
-    ffd_stl_read_positions(document, 0, 0, vertices, faces->positions);
+    ffd_stl_read_corners(d, 0, vertices, faces->positions);
     for (size_t i = 0; i <= d->facets; i++)
         faces->start[i] = 3 * i;
     fill_keys(faces->positions, vertices, keys);
@@ -97,7 +98,7 @@ static ffd_status join_marked(const stl_document *d, const vertex_marks *marks, 
         double position[3];
         if (!is_marked(marks, v))
             continue;
-        ffd_stl_read_positions(&d->file.base, 0, v, 1, position);
+        ffd_stl_read_corners(d, v, 1, position);
         uint32_t *const first = ffd_positions_at(&table, position);
         if (*first == UINT32_MAX || *first <= v)
             continue;
@@ -111,11 +112,12 @@ static ffd_status join_marked(const stl_document *d, const vertex_marks *marks, 
     return FFD_OK;
 }
 
-ffd_status ffd_stl_mixed_faces(const mesh_document *document, const vertex_marks *marks, mesh_faces *faces,
-                               ffd_error *error)
+ffd_status ffd_stl_mixed_faces(const mesh_document *document, mesh_state state, const vertex_marks *marks,
+                               mesh_faces *faces, ffd_error *error)
 {
     const stl_document *d = ffd_stl_of(document);
     face_list list = {0};
+    (void)state;
     *faces = (mesh_faces){.vertex_count = marks->vertices};
     for (uint32_t first = 0; first < marks->vertices; first += 3) {
         const uint32_t corners[3] = {first, first + 1, first + 2};

@@ -27,7 +27,7 @@ static ffd_status add_facet(extractor *e, size_t facet)
     double positions[9];
     model_corner corners[3];
     ffd_status status = FFD_OK;
-    ffd_stl_read_positions(&e->document->file.base, 0, 3 * facet, 3, positions);
+    ffd_stl_read_corners(e->document, 3 * facet, 3, positions);
     for (size_t c = 0; c < 3 && !status; c++) {
         corners[c] = (model_corner){0, MODEL_NONE, MODEL_NONE};
         status = find_vertex(e, positions + 3 * c, &corners[c].position);
@@ -139,10 +139,11 @@ static ffd_status fill_positions(extractor *e)
     return FFD_OK;
 }
 
-ffd_status ffd_stl_model(const mesh_document *document, mesh_model *model, ffd_error *error)
+ffd_status ffd_stl_model(const mesh_document *document, mesh_state state, mesh_model *model, ffd_error *error)
 {
     extractor e = {.document = ffd_stl_of(document), .model = model, .error = error};
     ffd_status status = e.document->binary ? take_binary(&e) : take_text(&e);
+    (void)state;
     if (!status)
         status = fill_positions(&e);
     if (!status && model->wants_details)

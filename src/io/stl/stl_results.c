@@ -16,11 +16,8 @@ void ffd_stl_store(unsigned char *bytes, const double *values, size_t count)
         store_float(bytes + 4 * i, (float)values[i]);
 }
 
-void ffd_stl_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
-                            double *xyz)
+void ffd_stl_read_corners(const stl_document *d, size_t first, size_t count, double *xyz)
 {
-    const stl_document *d = ffd_stl_of(document);
-    (void)part; /* the only one */
     if (!d->binary) {
         ffd_vectors_read(d->file.positions, first, count, xyz);
         return;
@@ -31,24 +28,33 @@ void ffd_stl_read_positions(const mesh_document *document, size_t part, size_t f
     }
 }
 
-ffd_status ffd_stl_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
+void ffd_stl_read(const mesh_document *document, size_t part, mesh_stream stream, mesh_state state,
+                  size_t first, size_t count, double *xyz)
+{
+    (void)part; /* the only one, with positions only */
+    (void)stream;
+    (void)state;
+    ffd_stl_read_corners(ffd_stl_of(document), first, count, xyz);
+}
+
+ffd_status ffd_stl_begin_results(mesh_document *document, const mesh_results *results, ffd_error *error)
 {
     stl_document *d = (stl_document *)document;
-    (void)tangents; /* STL has none */
-    d->renew_normals = normals;
+    d->renew_normals = results->directions;
     if (!d->file.new_positions)
         d->file.new_positions = ffd_alloc(d->facets, 9 * sizeof *d->file.new_positions);
     if (!d->file.new_positions)
         return ffd_fail_memory(error);
-    ffd_stl_read_positions(document, 0, 0, 3 * d->facets, d->file.new_positions);
+    ffd_stl_read_corners(d, 0, 3 * d->facets, d->file.new_positions);
     return FFD_OK;
 }
 
-void ffd_stl_write_positions(mesh_document *document, size_t part, size_t first, size_t count,
-                             const double *xyz, const uint8_t *changed)
+void ffd_stl_write(mesh_document *document, size_t part, mesh_stream stream, size_t first, size_t count,
+                   const double *xyz, const uint8_t *changed)
 {
     const stl_document *d = ffd_stl_of(document);
     (void)part;
+    (void)stream;
     for (size_t i = 0; i < count; i++)
         for (size_t a = 0; a < 3 && changed[i]; a++) {
             const double value = xyz[3 * i + a];

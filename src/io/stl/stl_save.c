@@ -13,7 +13,7 @@ typedef struct stl_saver {
 
 static void corners_before(const stl_document *d, size_t facet, double corners[9])
 {
-    ffd_stl_read_positions(&d->file.base, 0, 3 * facet, 3, corners);
+    ffd_stl_read_corners(d, 3 * facet, 3, corners);
 }
 
 /* Computes the unit normal of a moved facet from its corners as written. It points to the side of the old
@@ -84,6 +84,8 @@ ffd_status ffd_stl_save(mesh_document *document, const mesh_save_options *option
 {
     stl_saver s = {.document = ffd_stl_of(document)};
     (void)log;
+    if (!output)
+        return FFD_OK;
     ffd_splice_begin(&s.splice, &s.document->file, options, output, error);
     if (s.document->file.new_positions)
         write_facets(&s);

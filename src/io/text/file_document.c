@@ -62,18 +62,13 @@ void ffd_file_document_close(mesh_document *document)
     ffd_file_document_free(d);
 }
 
-void ffd_file_document_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
-                                      double *xyz)
+void ffd_file_document_read(const mesh_document *document, size_t part, mesh_stream stream, mesh_state state,
+                            size_t first, size_t count, double *xyz)
 {
+    const file_document *const d = (const file_document *)document;
     (void)part; /* the only one */
-    ffd_vectors_read(((const file_document *)document)->positions, first, count, xyz);
-}
-
-void ffd_file_document_read_normals(const mesh_document *document, size_t part, size_t first, size_t count,
-                                    double *xyz)
-{
-    (void)part;
-    ffd_vectors_read(((const file_document *)document)->directions, first, count, xyz);
+    (void)state;
+    ffd_vectors_read(stream == MESH_POSITIONS ? d->positions : d->directions, first, count, xyz);
 }
 
 /* Vectors compared with zeros at a time: about a memory page. */
@@ -105,13 +100,12 @@ static ffd_status copy(const double *vectors, size_t count, double **results, ff
     return FFD_OK;
 }
 
-ffd_status ffd_file_document_begin_results(mesh_document *document, bool normals, bool tangents,
+ffd_status ffd_file_document_begin_results(mesh_document *document, const mesh_results *results,
                                            ffd_error *error)
 {
     file_document *d = (file_document *)document;
-    (void)tangents; /* these formats have none */
     const ffd_status status = copy(d->positions, d->part.vertex_count, &d->new_positions, error);
-    if (status || !normals || !d->directions) {
+    if (status || !results->directions || !d->directions) {
         ffd_free(d->new_directions);
         d->new_directions = NULL;
         return status;
@@ -119,27 +113,15 @@ ffd_status ffd_file_document_begin_results(mesh_document *document, bool normals
     return copy(d->directions, d->part.normal_count, &d->new_directions, error);
 }
 
-/* Copies the vectors that are marked as changed to results; NULL: nothing is kept. */
-static void write_vectors(double *results, size_t first, size_t count, const double *xyz,
-                          const uint8_t *changed)
+void ffd_file_document_write(mesh_document *document, size_t part, mesh_stream stream, size_t first,
+                             size_t count, const double *xyz, const uint8_t *changed)
 {
+    const file_document *const d = (const file_document *)document;
+    double *const results = stream == MESH_POSITIONS ? d->new_positions : d->new_directions;
+    (void)part;
     for (size_t i = 0; results && i < count; i++)
         if (changed[i])
             memcpy(results + 3 * (first + i), xyz + 3 * i, 3 * sizeof *xyz);
-}
-
-void ffd_file_document_write_positions(mesh_document *document, size_t part, size_t first, size_t count,
-                                       const double *xyz, const uint8_t *changed)
-{
-    (void)part;
-    write_vectors(((file_document *)document)->new_positions, first, count, xyz, changed);
-}
-
-void ffd_file_document_write_normals(mesh_document *document, size_t part, size_t first, size_t count,
-                                     const double *xyz, const uint8_t *changed)
-{
-    (void)part;
-    write_vectors(((file_document *)document)->new_directions, first, count, xyz, changed);
 }
 
 ffd_status ffd_file_document_model(const file_document *d, size_t texcoords, mesh_model *model,
@@ -163,8 +145,10 @@ void ffd_file_document_fill_positions(const file_document *d, mesh_faces *faces)
 {
     for (size_t c = 0; !faces->numbers && c < faces->start[faces->face_count]; c++) {
         const size_t vertex = faces->corners[c];
-        d->base.format->read_positions(&d->base, 0, vertex, 1, faces->positions + 3 * vertex);
+        d->base.format->read(&d->base, 0, MESH_POSITIONS, MESH_STORED, vertex, 1,
+                             faces->positions + 3 * vertex);
     }
     for (size_t v = 0; faces->numbers && v < faces->vertex_count; v++)
-        d->base.format->read_positions(&d->base, 0, faces->numbers[v], 1, faces->positions + 3 * v);
+        d->base.format->read(&d->base, 0, MESH_POSITIONS, MESH_STORED, faces->numbers[v], 1,
+                             faces->positions + 3 * v);
 }

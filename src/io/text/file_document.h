@@ -45,10 +45,8 @@ void ffd_file_document_fill_positions(const file_document *document, mesh_faces 
 
 /* Functions of the mesh_format, for formats whose vectors are in these four arrays. */
 mesh_close_function ffd_file_document_close;
-mesh_read_function ffd_file_document_read_positions;
-mesh_read_function ffd_file_document_read_normals;
+mesh_read_function ffd_file_document_read;
 mesh_begin_results_function ffd_file_document_begin_results;
-mesh_write_function ffd_file_document_write_positions;
-mesh_write_function ffd_file_document_write_normals;
+mesh_write_function ffd_file_document_write;
 
 #endif

@@ -40,8 +40,8 @@ void ffd_job_cache_lend_locator(const ffd_job_cache *cache, ffd_isa isa, chain_l
 void ffd_job_cache_put_chain(ffd_job_cache *cache, lattice_chain *chain);
 
 /* Returns an array for the locations of a document's vertices in a rest volume. *filled: it already has them;
-   else ffd_pass_run is to fill it. taken: the document came from ffd_job_cache_take_mesh. Returns NULL if
-   locations are not kept. */
+   else ffd_pass_over_mesh is to fill it. taken: the document came from ffd_job_cache_take_mesh. Returns NULL
+   if locations are not kept. */
 ffd_location *ffd_job_cache_locations(ffd_job_cache *cache, mesh_document *document, bool taken,
                                       const hash128 *rest, bool *filled);
 /* Records that the pass has filled the array. */

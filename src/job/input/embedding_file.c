@@ -40,7 +40,7 @@ static void hash_tile(void *context, size_t tile, size_t first, size_t last, int
     const part_hashes *work = context;
     double xyz[3 * TILE];
     (void)worker;
-    ffd_source_positions(work->document, work->part, first, last - first, xyz);
+    ffd_source_positions(work->document, MESH_STORED, work->part, first, last - first, xyz);
     work->tiles[tile] = ffd_hash_doubles(xyz, 3 * (last - first));
 }
 
@@ -251,13 +251,13 @@ static ffd_status check_vertices(const embedding_file *file, const char *name, f
     return FFD_OK;
 }
 
-ffd_status ffd_embedding_open(const char *path, ffd_bytes bytes, size_t count, const hash128 *positions,
+ffd_status ffd_embedding_open(const ffd_embedding_source *source, size_t count, const hash128 *positions,
                               const hash128 *lattice, embedding_file *file, ffd_error *error)
 {
-    file_content content = {.name = ffd_file_display_name(path)};
+    file_content content = {.name = ffd_file_display_name(source->path)};
     bool own = true;
     *file = (embedding_file){.count = count};
-    ffd_status status = ffd_file_take(path, bytes, &file->input, error);
+    ffd_status status = ffd_file_take(source->path, source->bytes, &file->input, error);
     if (!status)
         status = find_footer(&file->input, &content, error);
     if (!status)
@@ -275,14 +275,14 @@ ffd_status ffd_embedding_open(const char *path, ffd_bytes bytes, size_t count, c
     return status;
 }
 
-ffd_status ffd_embedding_reuse(const char *path, ffd_bytes bytes, const mesh_document *document,
+ffd_status ffd_embedding_reuse(const ffd_embedding_source *source, const mesh_document *document,
                                const ffd_lattice *lattice, double snap, int threads, embedding_file *file,
                                ffd_error *error)
 {
     hash128 positions;
     const hash128 rest = ffd_embedding_hash_rest(lattice, snap);
     TRY(ffd_embedding_hash_positions(document, threads, &positions, error));
-    return ffd_embedding_open(path, bytes, (size_t)ffd_mesh_vertex_count(document), &positions, &rest, file,
+    return ffd_embedding_open(source, (size_t)ffd_mesh_vertex_count(document), &positions, &rest, file,
                               error);
 }
 

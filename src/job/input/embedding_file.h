@@ -53,19 +53,19 @@ typedef struct embedding_file {
     double *turned;   /* copy of u,v,w with swapped byte order, if the file has the other one; else NULL */
 } embedding_file;
 
-/* Opens a file, or bytes of that name (ffd_file_take), as an embedding for a mesh with count vertices and
+/* Opens a file, or bytes of that name, as an embedding for a mesh with count vertices and
    these hashes. Refuses (FFD_E_INVALID) a file that is truncated or corrupt (all bytes are checked), of
    another version, or made for another mesh or rest lattice. The arrays are borrowed from file, which must be
    closed; it is empty on failure. A forged file may hold u,v,w outside of the domain or of other points: the
    pass over the vertices checks that. Errors also: FFD_E_IO, FFD_E_MEMORY. */
-ffd_status ffd_embedding_open(const char *path, ffd_bytes bytes, size_t count, const hash128 *positions,
+ffd_status ffd_embedding_open(const ffd_embedding_source *source, size_t count, const hash128 *positions,
                               const hash128 *lattice, embedding_file *file, ffd_error *error);
 /* Closes the file; its arrays are no longer valid. */
 void ffd_embedding_close(embedding_file *file);
 
 /* Opens the embedding that `ffd embed` made for this document, lattice and snap (world units). The lattice
    must be fitted to the mesh. Errors: as of ffd_embedding_open. */
-ffd_status ffd_embedding_reuse(const char *path, ffd_bytes bytes, const mesh_document *document,
+ffd_status ffd_embedding_reuse(const ffd_embedding_source *source, const mesh_document *document,
                                const ffd_lattice *lattice, double snap, int threads, embedding_file *file,
                                ffd_error *error);
 

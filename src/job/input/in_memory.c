@@ -81,7 +81,7 @@ ffd_status ffd_in_memory_desc(job_memory *memory, ffd_deform_desc *desc, ffd_err
     if (!status)
         status = name_lattices(memory, desc, error);
     if (!status)
-        status = ffd_in_memory_bytes(desc->embedding_bytes, "embedding", &desc->embedding, error);
+        status = ffd_in_memory_bytes(desc->embedding.bytes, "embedding", &desc->embedding.path, error);
     if (!status)
         status = ffd_in_memory_output(desc->sink, desc->output, error);
     if (desc->sink)

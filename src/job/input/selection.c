@@ -10,7 +10,7 @@ ffd_status ffd_selector_check(const char *text, ffd_error *error)
 ffd_status ffd_selection_apply(const char *const *only, size_t count, const char *name,
                                mesh_document *document, ffd_error *error)
 {
-    const mesh_format *format = document->format;
+    const mesh_selector_calls *const calls = document->format->selectors;
     if (count == 0)
         return FFD_OK;
     mesh_selector *selectors = ffd_alloc(count, sizeof *selectors);
@@ -18,11 +18,11 @@ ffd_status ffd_selection_apply(const char *const *only, size_t count, const char
     for (size_t i = 0; i < count && !status; i++) {
         status = ffd_selector_parse(only[i], &selectors[i], error);
         if (!status)
-            status =
-                ffd_selector_check_kind(&selectors[i], format->selector_kinds, format->name, name, error);
+            status = ffd_selector_check_kind(&selectors[i], calls ? calls->kinds : 0, document->format->name,
+                                             name, error);
     }
     if (!status)
-        status = format->select(document, selectors, count, error);
+        status = calls->select(document, selectors, count, error);
     ffd_free(selectors);
     return status;
 }

@@ -3,6 +3,7 @@
 #define FFD_JOB_INPUT_SELECTION_H
 
 #include "mesh/mesh.h"
+#include "mesh/selector.h"
 
 /* Restricts the document's movable vertices to those that the selectors name. count: number of selectors; 0:
    no restriction. name: of the mesh, for messages. Errors: FFD_E_ARGUMENT, FFD_E_MEMORY, and those of the

@@ -34,7 +34,7 @@ static const ffd_member members[] = {
     {"outside", "outside", FFD_MEMBER_CHOICE, AT(outside), 0, outside_words, 0},
     {"falloff", "falloff", FFD_MEMBER_LENGTH, AT(falloff), 0, NULL, 0},
     {"snap", "snap", FFD_MEMBER_DISTANCE, AT(snap), AT(snap_relative), NULL, 0},
-    {"embedding", "embedding", FFD_MEMBER_TEXT, AT(embedding), 0, NULL, FFD_MEMBER_IS_PATH},
+    {"embedding", "embedding", FFD_MEMBER_TEXT, AT(embedding.path), 0, NULL, FFD_MEMBER_IS_PATH},
     {"fail_on", "fail-on", FFD_MEMBER_GATES, AT(fail_on), 0, gate_words, 0},
     {"quality", NULL, FFD_MEMBER_FLAG, AT(quality), 0, NULL, FFD_MEMBER_IS_IDLE},
     {"normals", "normals", FFD_MEMBER_CHOICE, AT(normals), 0, normals_words, 0},
@@ -239,8 +239,8 @@ ffd_status ffd_deform_desc_check(const ffd_deform_desc *callers, ffd_error *erro
 {
     ffd_deform_desc desc;
     ffd_status status = ffd_deform_desc_take(callers, &desc, error);
-    if (!status && desc.embedding_bytes.data && !desc.embedding)
-        desc.embedding = "embedding";
+    if (!status && desc.embedding.bytes.data && !desc.embedding.path)
+        desc.embedding.path = "embedding";
     for (size_t m = 0; m < MEMBERS && !status; m++)
         status = check_range(&desc, &members[m], error);
     if (!status)

@@ -7,6 +7,8 @@
 #include "io/format_names.h"
 #include "io/formats.h"
 #include "mesh/bounds.h"
+#include "mesh/linked_files.h"
+#include "mesh/morphs.h"
 #include <string.h>
 
 /* Positions read per call. */
@@ -85,20 +87,20 @@ ffd_status ffd_source_files(const ffd_source *source, const mesh_document *docum
         return FFD_OK;
     if (!ffd_file_is_stream(source->path))
         status = ffd_paths_add(files, source->path, error);
-    if (!status && document->format->list_files)
-        status = document->format->list_files(document, files, error);
+    if (!status && document->format->sidecars)
+        status = document->format->sidecars->list(document, files, error);
     return status;
 }
 
 bool ffd_source_is_alone(const mesh_document *document)
 {
-    const mesh_format *const format = document->format;
+    const mesh_sidecar_calls *const sidecars = document->format->sidecars;
     path_list others = {0};
-    ffd_status status = FFD_OK;
-    if (format->list_files)
-        status = format->list_files(document, &others, NULL);
-    if (!status && format->list_images)
-        status = format->list_images(document, &others, NULL);
+    if (!sidecars)
+        return true;
+    ffd_status status = sidecars->list(document, &others, NULL);
+    if (!status)
+        status = sidecars->list_images(document, &others, NULL);
     const bool is_alone = !status && others.count == 0;
     ffd_paths_free(&others);
     return is_alone;
@@ -111,20 +113,21 @@ void ffd_source_close(mesh_document **document)
     *document = NULL;
 }
 
-void ffd_source_positions(const mesh_document *document, size_t part, size_t first, size_t count, double *xyz)
+void ffd_source_positions(const mesh_document *document, mesh_state state, size_t part, size_t first,
+                          size_t count, double *xyz)
 {
-    document->format->read_positions(document, part, first, count, xyz);
+    document->format->read(document, part, MESH_POSITIONS, state, first, count, xyz);
     ffd_part_transform(document, part, first, count, xyz);
 }
 
-size_t ffd_source_widen(const mesh_document *document, size_t part, ffd_bounds *bounds)
+size_t ffd_source_widen(const mesh_document *document, mesh_state state, size_t part, ffd_bounds *bounds)
 {
     const size_t vertices = document->parts[part].vertex_count;
     size_t not_finite = 0;
     double xyz[3 * BLOCK];
     for (size_t first = 0; first < vertices; first += BLOCK) {
         const size_t left = vertices - first, count = left < BLOCK ? left : BLOCK;
-        ffd_source_positions(document, part, first, count, xyz);
+        ffd_source_positions(document, state, part, first, count, xyz);
         for (size_t i = 0; i < count; i++)
             if (vec_is_finite(xyz + 3 * i))
                 ffd_bounds_widen(bounds, xyz + 3 * i);
@@ -143,13 +146,15 @@ typedef struct place_walk {
 } place_walk;
 
 /* Visits those positions, from `first` on, that the offsets of a morph target move; shape NULL: all. */
-static bool visit_block(const place_walk *walk, const size_t *shape, size_t first, size_t count)
+static bool visit_block(const place_walk *walk, mesh_state state, const size_t *shape, size_t first,
+                        size_t count)
 {
     const mesh_format *const format = walk->document->format;
     double xyz[3 * BLOCK], offsets[3 * BLOCK];
-    format->read_positions(walk->document, walk->part, first, count, xyz);
+    format->read(walk->document, walk->part, MESH_POSITIONS, state, first, count, xyz);
     if (shape)
-        format->read_offsets(walk->document, walk->part, *shape, MESH_POSITIONS, first, count, offsets);
+        format->morphs->read_offsets(walk->document, walk->part, *shape, MESH_POSITIONS, first, count,
+                                     offsets);
     for (size_t i = 0; i < 3 * count; i++)
         xyz[i] += shape ? offsets[i] : 0;
     ffd_part_transform(walk->document, walk->part, first, count, xyz);
@@ -162,26 +167,21 @@ static bool visit_block(const place_walk *walk, const size_t *shape, size_t firs
     return true;
 }
 
-static bool visit_all(const place_walk *walk, const size_t *shape)
+static bool visit_all(const place_walk *walk, mesh_state state, const size_t *shape)
 {
     const size_t vertices = walk->document->parts[walk->part].vertex_count;
     bool goes_on = true;
     for (size_t first = 0; first < vertices && goes_on; first += BLOCK)
-        goes_on = visit_block(walk, shape, first, vertices - first < BLOCK ? vertices - first : BLOCK);
+        goes_on = visit_block(walk, state, shape, first, vertices - first < BLOCK ? vertices - first : BLOCK);
     return goes_on;
 }
 
-bool ffd_source_visit_places(mesh_document *document, size_t part, place_visitor *visit, void *context)
+bool ffd_source_visit_places(const mesh_document *document, size_t part, place_visitor *visit, void *context)
 {
     const mesh_part *const p = &document->parts[part];
     const place_walk walk = {document, part, visit, context};
-    bool goes_on = visit_all(&walk, NULL);
+    bool goes_on = visit_all(&walk, MESH_STORED, NULL);
     for (size_t s = 0; s < p->shape_count && goes_on; s++)
-        goes_on = !p->shapes[s].has[MESH_POSITIONS] || visit_all(&walk, &s);
-    if (goes_on && p->shows_shapes) {
-        document->shown = true;
-        goes_on = visit_all(&walk, NULL);
-        document->shown = false;
-    }
-    return goes_on;
+        goes_on = !p->shapes[s].has[MESH_POSITIONS] || visit_all(&walk, MESH_STORED, &s);
+    return goes_on && (!p->shows_shapes || visit_all(&walk, MESH_SHOWN, NULL));
 }

@@ -29,18 +29,18 @@ void ffd_source_close(mesh_document **document);
 
 /* Fills 3*count doubles with the positions of a part's vertices [first, first + count) in the lattice's
    space. */
-void ffd_source_positions(const mesh_document *document, size_t part, size_t first, size_t count,
-                          double *xyz);
+void ffd_source_positions(const mesh_document *document, mesh_state state, size_t part, size_t first,
+                          size_t count, double *xyz);
 
 /* Receives a position of a vertex in the lattice's space. Returns false to stop the walk. */
 typedef bool place_visitor(void *context, size_t vertex, const double place[3]);
 
 /* Visits all positions that a box round a part has to enclose: of its vertices at rest, moved by each morph
    target in full, and moved by all targets with their default weights. Returns false if a visitor stopped. */
-bool ffd_source_visit_places(mesh_document *document, size_t part, place_visitor *visit, void *context);
+bool ffd_source_visit_places(const mesh_document *document, size_t part, place_visitor *visit, void *context);
 
 /* Widens bounds by a part's finite vertices, in the lattice's space. Returns the number of other vertices. */
-size_t ffd_source_widen(const mesh_document *document, size_t part, ffd_bounds *bounds);
+size_t ffd_source_widen(const mesh_document *document, mesh_state state, size_t part, ffd_bounds *bounds);
 
 /* Hashes the options that decide whether a file is read or refused: strict, and the allowed extensions. */
 hash128 ffd_source_rules(const ffd_source *source);

@@ -105,15 +105,14 @@ static ffd_status make(jacobian *j, ffd_jacobian_result *result, ffd_error *erro
     return status;
 }
 
-static ffd_status run(const ffd_jacobian_desc *desc, ffd_jacobian_result *result, ffd_error *error)
+static ffd_status differentiate(const ffd_jacobian_desc *desc, ffd_jacobian_result *result, ffd_error *error)
 {
     ffd_job_result figures;
     jacobian j = {.desc = desc};
     ffd_status status = ffd_deform_job_begin(&j.job, desc->job, true, &figures);
-    j.job.derives = desc->by == FFD_BY_PARAMETERS;
-    j.job.only_positions = true;
     if (!status)
-        status = ffd_deform_job_open(&j.job, &figures, &figures.error);
+        status = ffd_deform_job_open(&j.job, desc->by == FFD_BY_PARAMETERS ? JOB_NEEDS_DERIVATIVES : 0,
+                                     &figures, &figures.error);
     if (!status && !desc->job->sink)
         status = ffd_job_check_mesh_files(desc->output, &desc->job->input, j.job.document, &figures.error);
     if (!status && !desc->job->sink)
@@ -160,7 +159,7 @@ ffd_status ffd_jacobian_run(const ffd_jacobian_desc *callers, ffd_jacobian_resul
     deadline limit;
     const deadline *const before = ffd_deadline_begin(&limit, runs ? job.timeout : 0);
     if (runs)
-        status = run(&desc, &result, &own);
+        status = differentiate(&desc, &result, &own);
     ffd_deadline_end(before);
     status = ffd_in_memory_end(&memory, status, &own);
     if (status && error)

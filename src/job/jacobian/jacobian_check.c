@@ -274,7 +274,7 @@ static ffd_status find_base(const jacobian *j, const size_t *vertices, size_t co
     return status;
 }
 
-static ffd_status run(check_work *work, ffd_error *error)
+static ffd_status check_sample(check_work *work, ffd_error *error)
 {
     const jacobian *const j = work->j;
     size_t vertices[VERTICES];
@@ -298,7 +298,7 @@ ffd_status ffd_jacobian_check(const jacobian *j, double *worst, ffd_error *error
     if (!status && !work.scratch)
         status = ffd_fail_memory(error);
     if (!status)
-        status = run(&work, error);
+        status = check_sample(&work, error);
     *worst = work.worst;
     ffd_jacobian_rows_free(&work.rows);
     ffd_free(work.scratch);

@@ -26,7 +26,7 @@ ffd_status ffd_jacobian_positions(const jacobian *j, size_t link, double *before
     pass_totals totals;
     mesh_pass pass = pass_of(j, link);
     pass.deformed = before;
-    return ffd_pass_run(&pass, &totals, error);
+    return ffd_pass_over_mesh(&pass, &totals, error);
 }
 
 /* Lists the vertices outside that are extended from the border. */
@@ -99,7 +99,7 @@ static ffd_status fill_embedding(jacobian *j, jacobian_link *link, pass_totals *
     pass.pace = &j->pace;
     pass.uvw = link->embedding->uvw;
     pass.statuses = link->embedding->status;
-    ffd_status status = ffd_pass_run(&pass, totals, error);
+    ffd_status status = ffd_pass_over_mesh(&pass, totals, error);
     return status || !of->border ? status : extend(j, link->number, link->embedding, error);
 }
 

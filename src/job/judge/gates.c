@@ -63,7 +63,7 @@ ffd_status ffd_policies_judge(const ffd_deform_desc *desc, const char *name, con
                               const pass_totals *totals, ffd_error *error)
 {
     if (totals->first_missed != UINT64_MAX)
-        return fail_missed(desc->embedding, totals, error);
+        return fail_missed(desc->embedding.path, totals, error);
     /* If a target alone moves what is shown outside, that is the reason. */
     const bool by_target = totals->of_shown && !totals->base_outside && totals->shapes_outside &&
                            totals->outside_all == totals->weighted_outside && !totals->unshown_outside;

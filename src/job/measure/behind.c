@@ -16,7 +16,7 @@ static ffd_status add_name(const mesh_document *document, size_t place, ffd_behi
         used++;
     if (used == FFD_BEHIND_NAMES)
         return FFD_OK;
-    char *name = document->format->place_name(document, place);
+    char *name = document->format->places->name(document, place);
     if (!name)
         return ffd_fail_memory(error);
     ffd_name_shown(name, behind->names[used], sizeof behind->names[used]);
@@ -87,7 +87,7 @@ static bool only_translates(const lattice_chain *chain)
 ffd_status ffd_behind_find(const deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     /* Conversions drop nodes and the properties of splats. */
-    if (job->totals.moved == 0 || (job->document->converted && !job->details))
+    if (job->totals.moved == 0 || (job->converts && !job->details))
         return FFD_OK;
     ffd_status status = FFD_OK;
     if (job->totals.splats_moved > 0 && !only_translates(&job->chain))

@@ -52,12 +52,12 @@ static ffd_status take_memory(const deform_job *job, const mesh_faces *faces, me
     return FFD_OK;
 }
 
-static ffd_status read_faces(const deform_job *job, figure_arrays *arrays, ffd_error *error)
+static ffd_status read_faces(const deform_job *job, mesh_state state, figure_arrays *arrays, ffd_error *error)
 {
     ffd_error own;
     char line[1024];
     memory_budget budget = arrays->budget;
-    ffd_status status = job->document->format->faces(job->document, &arrays->faces, &own);
+    ffd_status status = job->document->format->faces(job->document, state, &arrays->faces, &own);
     if (!status)
         status = take_memory(job, &arrays->faces, &budget, &own);
     arrays->has_faces = status == FFD_OK;
@@ -76,10 +76,11 @@ static ffd_status read_faces(const deform_job *job, figure_arrays *arrays, ffd_e
     return FFD_OK;
 }
 
-ffd_status ffd_figures_prepare(const deform_job *job, figure_arrays *arrays, ffd_error *error)
+ffd_status ffd_figures_prepare(const deform_job *job, mesh_state state, figure_arrays *arrays,
+                               ffd_error *error)
 {
     const size_t count = (size_t)ffd_mesh_vertex_count(job->document);
-    TRY(read_faces(job, arrays, error));
+    TRY(read_faces(job, state, arrays, error));
     if (!arrays->has_faces)
         return FFD_OK;
     arrays->deformed = ffd_alloc(count, 3 * sizeof *arrays->deformed);
@@ -143,8 +144,8 @@ ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_j
     result->flipped_faces = ffd_quality_flipped(&arrays->faces, arrays->deformed, arrays->gradients);
     if (!wants_edges(job))
         return FFD_OK;
-    TRY(ffd_quality_edges(job->document, &arrays->faces, arrays->deformed, &job->chain, job->threads, &edges,
-                          error));
+    TRY(ffd_quality_edges(job->document, ffd_job_judged(job), &arrays->faces, arrays->deformed, &job->chain,
+                          job->threads, &edges, error));
     result->edges.is_known = true;
     result->edges.count = edges.edges;
     result->edges.deviation.max = edges.deviation_max;

@@ -18,7 +18,8 @@ bool ffd_figures_wanted(const deform_job *job);
 /* Reads the mesh's faces (at rest, so before the pass) and allocates the arrays, charged to arrays->budget.
    If the faces are invalid or exceed the budget, a check or a recomputation of normals fails; a deformation
    warns and goes on without these figures. */
-ffd_status ffd_figures_prepare(const deform_job *job, figure_arrays *arrays, ffd_error *error);
+ffd_status ffd_figures_prepare(const deform_job *job, mesh_state state, figure_arrays *arrays,
+                               ffd_error *error);
 /* Frees the arrays and the faces. */
 void ffd_figures_free(figure_arrays *arrays);
 

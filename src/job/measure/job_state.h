@@ -8,16 +8,16 @@
 #include "job/measure/details.h"
 #include "job/measure/rig.h"
 #include "mesh/mesh.h"
+#include "mesh/morphs.h"
 
 /* The state of a job. */
 typedef struct deform_job {
     const ffd_deform_desc *desc;
-    bool check;          /* no output will be written; all figures are wanted */
-    bool recomputes;     /* normals exist, and are to be recomputed from the deformed faces */
-    bool derives;        /* set before opening: keep derivatives by placeholders */
-    bool stored;         /* set before it runs: judge the base, whatever default weights show */
-    bool only_positions; /* set before opening: nothing needs normals */
-    unsigned losses;     /* of mapped inputs, before this job (base/file/mapping.h) */
+    bool check;      /* no output will be written; all figures are wanted */
+    bool recomputes; /* normals exist, and are to be recomputed from the deformed faces */
+    bool stored;     /* set before it runs: judge the base, whatever default weights show */
+    bool converts;   /* set before it runs: the results are for another format */
+    unsigned losses; /* of mapped inputs, before this job (base/file/mapping.h) */
     int threads;
     mesh_log log;
     mesh_log file_log; /* for messages about the file, not its deformation */
@@ -37,5 +37,26 @@ typedef struct deform_job {
     morph_clip *clips;      /* clip_count animations of the weights of new morph targets */
     size_t clip_count;
 } deform_job;
+
+/* Whether the deformation becomes a further morph target. The other ones stay, and are not judged. */
+static inline bool ffd_job_adds_target(const deform_job *job)
+{
+    return job->desc->as_morph && job->document->format->morphs;
+}
+
+/* What the figures are of: what default weights show, because users see that; or the base, if that is asked
+   for, or a further morph target refers to it. */
+static inline mesh_state ffd_job_judged(const deform_job *job)
+{
+    return !job->stored && !ffd_job_adds_target(job) && ffd_mesh_shows_shapes(job->document) ? MESH_SHOWN
+                                                                                             : MESH_STORED;
+}
+
+/* What the results are of: the same in conversions, and if nothing is saved. Else base and targets, as the
+   file stores them. */
+static inline mesh_state ffd_job_written(const deform_job *job)
+{
+    return job->check || job->converts ? ffd_job_judged(job) : MESH_STORED;
+}
 
 #endif

@@ -75,6 +75,7 @@ typedef struct edge_tile {
 
 typedef struct edge_work {
     const mesh_faces *faces;
+    mesh_state state;     /* what the faces are of */
     vertex_owners owners; /* for rounding cells; document NULL: coordinates are exact */
     const double *deformed;
     const lattice_chain *chain;
@@ -166,8 +167,8 @@ static void clip(const bounds *box, const double start[3], const double along[3]
 static void edge_rounding(const edge_work *work, uint64_t key, const double x[3], double half[3])
 {
     double other[3];
-    ffd_vertex_rounding(&work->owners, (size_t)(key >> 32), x, half);
-    ffd_vertex_rounding(&work->owners, (size_t)(key & UINT32_MAX), x, other);
+    ffd_vertex_rounding(&work->owners, work->state, (size_t)(key >> 32), x, half);
+    ffd_vertex_rounding(&work->owners, work->state, (size_t)(key & UINT32_MAX), x, other);
     for (int a = 0; a < 3; a++)
         half[a] = larger_of(half[a], other[a]);
 }
@@ -570,11 +571,15 @@ static edge_scratch *make_scratch(size_t workers, size_t layers)
     return scratch;
 }
 
-ffd_status ffd_quality_edges(const mesh_document *document, const mesh_faces *faces, const double *deformed,
-                             const lattice_chain *chain, int threads, edge_quality *result, ffd_error *error)
+ffd_status ffd_quality_edges(const mesh_document *document, mesh_state state, const mesh_faces *faces,
+                             const double *deformed, const lattice_chain *chain, int threads,
+                             edge_quality *result, ffd_error *error)
 {
-    edge_work work = {
-        .faces = faces, .deformed = deformed, .chain = chain, .layers = ffd_chain_layers(chain)};
+    edge_work work = {.state = state,
+                      .faces = faces,
+                      .deformed = deformed,
+                      .chain = chain,
+                      .layers = ffd_chain_layers(chain)};
     size_t workers = (size_t)(threads > 0 ? threads : ffd_processor_count()), tiles = 0;
     *result = (edge_quality){0};
     TRY(ffd_edges_collect(faces, &work.list, error));

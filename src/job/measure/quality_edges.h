@@ -39,7 +39,8 @@ typedef struct edge_quality {
      deformed  3 doubles a vertex: the chain's own results in double, as rounding would count as deviation
      threads   0 for all; never changes the result
    The chain's locators must exist. Errors: FFD_E_MEMORY. */
-ffd_status ffd_quality_edges(const mesh_document *document, const mesh_faces *faces, const double *deformed,
-                             const lattice_chain *chain, int threads, edge_quality *result, ffd_error *error);
+ffd_status ffd_quality_edges(const mesh_document *document, mesh_state state, const mesh_faces *faces,
+                             const double *deformed, const lattice_chain *chain, int threads,
+                             edge_quality *result, ffd_error *error);
 
 #endif

@@ -54,9 +54,9 @@ ffd_status ffd_rig_places_find(const mesh_document *document, const lattice_chai
                                rig_places *rig, ffd_error *error)
 {
     *rig = (rig_places){0};
-    if (!document->format->list_places)
+    if (!document->format->places)
         return FFD_OK;
-    TRY(document->format->list_places(document, all, &rig->places, error));
+    TRY(document->format->places->list(document, all, &rig->places, error));
     if (rig->places.count == 0)
         return FFD_OK;
     rig->moves = ffd_alloc_zero(rig->places.count, sizeof *rig->moves);
@@ -100,7 +100,7 @@ double ffd_rig_lag(const mesh_place_move *move, double diagonal)
 static ffd_status name_worst(const mesh_document *document, size_t index, ffd_rig_figures *figures,
                              ffd_error *error)
 {
-    char *name = document->format->place_name(document, index);
+    char *name = document->format->places->name(document, index);
     if (!name)
         return ffd_fail_memory(error);
     ffd_name_shown(name, figures->worst, sizeof figures->worst);
@@ -154,8 +154,8 @@ ffd_status ffd_rig_figures_find(const mesh_document *document, const rig_places 
     if (worst != SIZE_MAX) {
         status = name_worst(document, rig->places.list[worst].number, figures, error);
         if (!status)
-            status = document->format->count_skins(document, &rig->places, lagging, &figures->lagging_skins,
-                                                   &figures->lagging_joints, error);
+            status = document->format->places->count_skins(
+                document, &rig->places, lagging, &figures->lagging_skins, &figures->lagging_joints, error);
     }
     ffd_free(lagging);
     return status;

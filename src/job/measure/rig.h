@@ -5,13 +5,14 @@
 
 #include "job/chain/chain.h"
 #include "mesh/mesh.h"
+#include "mesh/places.h"
 
 typedef struct rig_places {
     mesh_places places;
     mesh_place_move *moves; /* one a place */
 } rig_places;
 
-/* Lists the places (all: as in mesh_format.list_places) and sends them through the fitted chain like
+/* Lists the places (all: as in mesh_place_calls.list) and sends them through the fitted chain like
    vertices; became: filled with the new place of each. Leaves none if the format has no places. Call
    ffd_rig_places_free also after a failure. Errors: FFD_E_MEMORY, and those of finding u,v,w. */
 ffd_status ffd_rig_places_find(const mesh_document *document, const lattice_chain *chain, bool all,

@@ -8,6 +8,7 @@
 #include "job/measure/tears.h"
 #include "lattice/lattice.h"
 #include "mesh/mixed_faces.h"
+#include "mesh/selector.h"
 #include <inttypes.h>
 #include <limits.h>
 #include <stdio.h>
@@ -143,9 +144,9 @@ static void name_part(const deform_job *job, ffd_job_result *result)
     const vertex_marks still = marks_of(job, 1);
     const mesh_format *const format = job->document->format;
     mark_still(job);
-    if (format->name_part)
-        result->tear.stays = format->name_part(job->document, result->tear.vertex, job->kept,
-                                               result->tear.part, sizeof result->tear.part);
+    if (format->selectors)
+        result->tear.stays = format->selectors->name_owner(job->document, result->tear.vertex, job->kept,
+                                                           result->tear.part, sizeof result->tear.part);
     if (*result->tear.part)
         return;
     result->tear.stays = 0;
@@ -254,8 +255,8 @@ static ffd_status read_and_count(deform_job *job, size_t planes, const figure_ar
     const mesh_format *const format = job->document->format;
     const vertex_marks marks = marks_of(job, planes);
     const bool all = some_may_not_move(job) || (is_asked_for(job) && job->chain.count > 1);
-    TRY(all ? format->faces(job->document, &faces, error)
-            : format->mixed_faces(job->document, &marks, &faces, error));
+    TRY(all ? format->faces(job->document, ffd_job_judged(job), &faces, error)
+            : format->mixed_faces(job->document, ffd_job_judged(job), &marks, &faces, error));
     ffd_status status = ffd_mesh_faces_take(&faces, faces.start[faces.face_count], &budget, error);
     if (!status)
         status = count_torn(job, &faces, arrays, &budget, result, error);

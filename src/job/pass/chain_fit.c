@@ -47,10 +47,10 @@ static ffd_status find_box(const lattice_chain *chain, size_t links, mesh_docume
     pass_totals totals;
     ffd_status status = ffd_mesh_mark_used(document, error);
     if (!status)
-        status = ffd_pass_run(&pass, &totals, error);
+        status = ffd_pass_over_mesh(&pass, &totals, error);
     pass.bounds_of = PASS_BOUNDS_ALL;
     if (!status && is_empty(&totals.after) && is_empty(&totals.shapes))
-        status = ffd_pass_run(&pass, &totals, error);
+        status = ffd_pass_over_mesh(&pass, &totals, error);
     if (status)
         return status;
     *box = totals.after;

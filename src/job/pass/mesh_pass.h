@@ -15,6 +15,9 @@ typedef enum pass_bounds {
 
 typedef struct mesh_pass {
     mesh_document *document;
+    mesh_state state;  /* what of the document is deformed; MESH_SHOWN: no morph targets then */
+    bool only_base;    /* morph targets and splats stay: the results are the offsets of a further target */
+    bool is_converted; /* the results are for another format (mesh_results) */
     const lattice_chain *chain;
     size_t links; /* the number of lattices that act, from the first on */
     int threads;

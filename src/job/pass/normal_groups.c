@@ -12,6 +12,7 @@ enum { SIDE_SHOWN, SIDE_MIRRORED, SIDE_SINGULAR };
 
 typedef struct grouping {
     const mesh_document *document;
+    mesh_state state;
     const mesh_faces *faces;
     const double *deformed;
     normal_groups *groups;
@@ -91,7 +92,7 @@ static void read_block(grouping *g, size_t part, size_t first, size_t count, uin
     ffd_vertex_transforms_read(g->document, part, first, count, g->transforms, NULL);
     const size_t from = p->normal_start ? p->normal_start[first] : first;
     const size_t end = p->normal_start ? p->normal_start[first + count] : first + count;
-    g->document->format->read_normals(g->document, part, from, end - from, values + 3 * from);
+    g->document->format->read(g->document, part, MESH_NORMALS, g->state, from, end - from, values + 3 * from);
     for (size_t i = 0; i < count; i++) {
         const vertex_transform transform = ffd_vertex_transform_of(g->transforms, i);
         const size_t v = first + i, own = p->normal_start ? p->normal_start[v] : v;
@@ -251,10 +252,11 @@ static ffd_status make(grouping *g, ffd_error *error)
     return status;
 }
 
-ffd_status ffd_normal_groups_make(const mesh_document *document, const mesh_faces *faces,
+ffd_status ffd_normal_groups_make(const mesh_document *document, mesh_state state, const mesh_faces *faces,
                                   const double *deformed, normal_groups *groups, ffd_error *error)
 {
-    grouping g = {.document = document, .faces = faces, .deformed = deformed, .groups = groups};
+    grouping g = {
+        .document = document, .state = state, .faces = faces, .deformed = deformed, .groups = groups};
     *groups = (normal_groups){0};
     const ffd_status status = make(&g, error);
     ffd_free(g.values);

@@ -31,7 +31,7 @@ typedef struct normal_groups {
    the faces have the same unit normal, it is exactly that one. faces      of the whole document, at rest
      deformed   3 doubles a vertex: deformed positions in the lattice's space
    Call ffd_normal_groups_free also after a failure. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
-ffd_status ffd_normal_groups_make(const mesh_document *document, const mesh_faces *faces,
+ffd_status ffd_normal_groups_make(const mesh_document *document, mesh_state state, const mesh_faces *faces,
                                   const double *deformed, normal_groups *groups, ffd_error *error);
 /* Frees the arrays. */
 void ffd_normal_groups_free(normal_groups *groups);

@@ -156,8 +156,8 @@ static void finish_positions(const pass_tile *tile)
     if (unfit < tile->count)
         totals->first_overflow = tile->first_number + unfit;
     if (ffd_pass_stores(pass))
-        pass->document->format->write_positions(pass->document, tile->part_number, tile->first, tile->count,
-                                                base->stored, changed);
+        pass->document->format->write(pass->document, tile->part_number, MESH_POSITIONS, tile->first,
+                                      tile->count, base->stored, changed);
 }
 
 /* Lists the points that normals [from, to) belong to. *vertex: the first one's vertex; moved on to the last
@@ -183,7 +183,8 @@ static void deform_normals(const pass_tile *tile, size_t from, size_t to)
                                    .directions = s->normals,
                                    .step = 3,
                                    .outcomes = s->outcomes};
-    document->format->read_normals(document, tile->part_number, from, batch.count, s->normals);
+    document->format->read(document, tile->part_number, MESH_NORMALS, tile->pass->state, from, batch.count,
+                           s->normals);
     ffd_deform_normals(tile->pass->chain->isa, &batch);
     if (tile->pass->only_offsets)
         return;
@@ -193,8 +194,8 @@ static void deform_normals(const pass_tile *tile, size_t from, size_t to)
         tile->totals->normals_collapsed += selected && s->outcomes[i] == FFD_DIRECTION_COLLAPSED;
     }
     if (ffd_pass_stores(tile->pass))
-        document->format->write_normals(document, tile->part_number, from, batch.count, s->normals,
-                                        s->normals_changed);
+        document->format->write(document, tile->part_number, MESH_NORMALS, from, batch.count, s->normals,
+                                s->normals_changed);
 }
 
 /* Deforms normals that are not one a vertex, in runs of at most a tile. */
@@ -222,14 +223,15 @@ static void deform_tangents(const pass_tile *tile)
                                    .step = 4,
                                    .normals = tile->part->normal_count ? s->normals : NULL,
                                    .outcomes = s->outcomes};
-    document->format->read_tangents(document, tile->part_number, tile->first, tile->count, s->tangents);
+    document->format->read(document, tile->part_number, MESH_TANGENTS, tile->pass->state, tile->first,
+                           tile->count, s->tangents);
     ffd_deform_tangents(tile->pass->chain->isa, &batch);
     for (size_t i = 0; i < tile->count; i++)
         s->tangents_changed[i] = s->outcomes[i] == FFD_DIRECTION_CARRIED;
     if (tile->pass->only_offsets || !ffd_pass_stores(tile->pass))
         return;
-    document->format->write_tangents(document, tile->part_number, tile->first, tile->count, s->tangents,
-                                     s->tangents_changed);
+    document->format->write(document, tile->part_number, MESH_TANGENTS, tile->first, tile->count, s->tangents,
+                            s->tangents_changed);
 }
 
 static void finish_attributes(const pass_tile *tile)
@@ -389,7 +391,8 @@ static void take_points(const pass_tile *tile)
     const bool counts = !tile->part->repeats_positions;
     tile_points *const base = &tile->scratch->base;
     ffd_tile_points_begin(tile, NULL, 0, base);
-    document->format->read_positions(document, tile->part_number, tile->first, tile->count, base->stored);
+    document->format->read(document, tile->part_number, MESH_POSITIONS, tile->pass->state, tile->first,
+                           tile->count, base->stored);
     ffd_vertex_transforms_read(document, tile->part_number, tile->first, tile->count,
                                &tile->scratch->transforms,
                                counts && !tile->part->skipped ? &tile->totals->weights : NULL);
@@ -417,7 +420,7 @@ static gradient_need find_need(const pass_tile *tile, bool directions)
 }
 
 /* Sends the selected vertices through the lattices. */
-static ffd_status deform_points(const pass_tile *tile, const gradient_need *need, ffd_error *error)
+static ffd_status send_points(const pass_tile *tile, const gradient_need *need, ffd_error *error)
 {
     const mesh_pass *const pass = tile->pass;
     const bool counts = !tile->part->repeats_positions;
@@ -467,7 +470,7 @@ static ffd_status deform_tile(const pass_tile *tile, ffd_error *error)
 
     take_points(tile);
     TRY(ffd_deadline_check(error));
-    TRY(deform_points(tile, &need, error));
+    TRY(send_points(tile, &need, error));
     if (need.turns)
         note_turns(tile);
     spread(tile);
@@ -568,7 +571,7 @@ static int worker_count(const mesh_pass *pass)
     return most < (size_t)pass->threads ? (int)most : pass->threads;
 }
 
-static ffd_status deform_part(part_work *work, pass_totals *totals, ffd_error *error)
+static ffd_status pass_over_part(part_work *work, pass_totals *totals, ffd_error *error)
 {
     const size_t count = work->whole.count, size = tile_size(count), tiles = tile_count(count);
     work->tiles = ffd_alloc_zero(tiles, sizeof *work->tiles);
@@ -644,7 +647,7 @@ static tile_scratch *make_scratch(const mesh_pass *pass, int workers)
     return scratch;
 }
 
-ffd_status ffd_pass_run(const mesh_pass *pass, pass_totals *totals, ffd_error *error)
+ffd_status ffd_pass_over_mesh(const mesh_pass *pass, pass_totals *totals, ffd_error *error)
 {
     part_work work = {.whole = {.pass = pass}, .workers = worker_count(pass)};
     ffd_status status = FFD_OK;
@@ -659,7 +662,7 @@ ffd_status ffd_pass_run(const mesh_pass *pass, pass_totals *totals, ffd_error *e
         work.whole.part_number = i;
         work.whole.count = part->vertex_count;
         const uint64_t moved = totals->moved;
-        status = deform_part(&work, totals, error);
+        status = pass_over_part(&work, totals, error);
         if (part->splats && !ffd_pass_takes_splats(pass, part))
             ffd_totals_note_splats(totals, i, totals->moved - moved);
         if (!part->repeats_positions)

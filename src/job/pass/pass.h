@@ -18,6 +18,6 @@ int ffd_pass_threads(const memory_budget *budget, size_t edge_links, int threads
 
 /* Sends all vertices of the document through the chain, and counts. Errors: FFD_E_MEMORY, and those of
    ffd_chain_apply. */
-ffd_status ffd_pass_run(const mesh_pass *pass, pass_totals *totals, ffd_error *error);
+ffd_status ffd_pass_over_mesh(const mesh_pass *pass, pass_totals *totals, ffd_error *error);
 
 #endif

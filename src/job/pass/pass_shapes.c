@@ -5,6 +5,7 @@
 #include "deform/attribute.h"
 #include "job/chain/chain_apply.h"
 #include "job/pass/tile.h"
+#include "mesh/morphs.h"
 #include <math.h>
 #include <string.h>
 
@@ -19,8 +20,8 @@ static void read_offsets(shape_scratch *s, mesh_stream stream)
     const pass_tile *const tile = s->moved.tile;
     const mesh_document *document = tile->pass->document;
     if (has(s, stream))
-        document->format->read_offsets(document, tile->part_number, s->moved.shape, stream, tile->first,
-                                       tile->count, s->offsets);
+        document->format->morphs->read_offsets(document, tile->part_number, s->moved.shape, stream,
+                                               tile->first, tile->count, s->offsets);
     else
         memset(s->offsets, 0, 3 * tile->count * sizeof *s->offsets);
 }
@@ -29,8 +30,8 @@ static void write_offsets(shape_scratch *s, mesh_stream stream)
 {
     const pass_tile *const tile = s->moved.tile;
     mesh_document *document = tile->pass->document;
-    document->format->write_offsets(document, tile->part_number, s->moved.shape, stream, tile->first,
-                                    tile->count, s->offsets, s->changed);
+    document->format->morphs->write_offsets(document, tile->part_number, s->moved.shape, stream, tile->first,
+                                            tile->count, s->offsets, s->changed);
 }
 
 /* Reads the position offsets of the target, or, for SHAPE_SHOWN, their weighted sum. */
@@ -48,8 +49,8 @@ static void read_position_offsets(shape_scratch *s)
         const double weight = tile->part->shapes[k].weight;
         if (weight == 0 || !tile->part->shapes[k].has[MESH_POSITIONS])
             continue;
-        document->format->read_offsets(document, tile->part_number, k, MESH_POSITIONS, tile->first,
-                                       tile->count, one);
+        document->format->morphs->read_offsets(document, tile->part_number, k, MESH_POSITIONS, tile->first,
+                                               tile->count, one);
         for (size_t i = 0; i < 3 * tile->count; i++)
             sum[i] += weight * one[i];
     }
@@ -92,7 +93,8 @@ static ffd_status send_moved(shape_scratch *s, bool gradients, ffd_error *error)
     const pass_tile *const tile = moved->tile;
     const mesh_document *const document = tile->pass->document;
     read_position_offsets(s);
-    document->format->read_positions(document, tile->part_number, tile->first, tile->count, moved->stored);
+    document->format->read(document, tile->part_number, MESH_POSITIONS, MESH_STORED, tile->first, tile->count,
+                           moved->stored);
     moved->are_all = false;
     moved->count = 0;
     list_moved(s, true);
@@ -185,7 +187,8 @@ static void deform_normals(shape_scratch *s)
                                    .step = 3,
                                    .outcomes = tile->scratch->outcomes};
     read_offsets(s, MESH_NORMALS);
-    document->format->read_normals(document, tile->part_number, tile->first, tile->count, s->before);
+    document->format->read(document, tile->part_number, MESH_NORMALS, MESH_STORED, tile->first, tile->count,
+                           s->before);
     memset(s->changed, 0, tile->count);
     for (size_t k = 0; k < 3 * tile->count; k++)
         s->normals[k] = s->before[k] + s->offsets[k];
@@ -210,7 +213,8 @@ static void deform_tangents(shape_scratch *s)
                                    .normals = tile->part->normal_count ? s->normals : NULL,
                                    .outcomes = tile->scratch->outcomes};
     read_offsets(s, MESH_TANGENTS);
-    document->format->read_tangents(document, tile->part_number, tile->first, tile->count, s->tangents);
+    document->format->read(document, tile->part_number, MESH_TANGENTS, MESH_STORED, tile->first, tile->count,
+                           s->tangents);
     memset(s->changed, 0, tile->count);
     for (size_t v = 0; v < tile->count; v++)
         for (size_t a = 0; a < 3; a++)
@@ -249,7 +253,7 @@ static ffd_status deform_shape(shape_scratch *s, ffd_error *error)
 }
 
 /* Whether default weights show something else than the base and the targets. Only boxes have to go round it:
-   figures of it come from a pass of its own (mesh_document.shown). */
+   figures of it come from a pass of its own (mesh_pass.state). */
 static bool wants_shown(const mesh_pass *pass, const mesh_part *part)
 {
     size_t shown = 0, last = 0;

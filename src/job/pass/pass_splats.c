@@ -1,5 +1,6 @@
 /* pass_splats.c - Gaussian splats in a tile of a pass (src/maths.md 9.6). */
 #include "job/pass/tile.h"
+#include "mesh/splats.h"
 
 void ffd_tile_splat_turns(const pass_tile *tile)
 {
@@ -16,7 +17,7 @@ void ffd_tile_splats(const pass_tile *tile)
 {
     mesh_document *const document = tile->pass->document;
     splat_scratch *const s = tile->scratch->splat;
-    document->format->read_splats(document, tile->part_number, tile->first, tile->count, s->splats);
+    document->format->splats->read(document, tile->part_number, tile->first, tile->count, s->splats);
     ffd_splats_deform(tile->pass->chain->isa, tile->scratch->base.gradient, s->turns, &tile->part->form,
                       tile->count, s->splats, s->outcomes);
     for (size_t i = 0; i < tile->count; i++) {
@@ -29,6 +30,6 @@ void ffd_tile_splats(const pass_tile *tile)
         tile->totals->splats_broken += outcome == SPLAT_BROKEN && tile->scratch->changed[i];
     }
     if (ffd_pass_stores(tile->pass))
-        document->format->write_splats(document, tile->part_number, tile->first, tile->count, s->splats,
-                                       s->turns, s->changed);
+        document->format->splats->write(document, tile->part_number, tile->first, tile->count, s->splats,
+                                        s->turns, s->changed);
 }

@@ -12,6 +12,7 @@
 
 typedef struct recomputing {
     mesh_document *document;
+    mesh_state state;
     const double *gradients;
     const normal_groups *groups;
     recompute_counts *counts;
@@ -92,7 +93,7 @@ static bool recompute(const recomputing *r, const vertex_transform *transform, s
 static void recompute_tangents(recomputing *r, size_t first, size_t count)
 {
     mesh_document *document = r->document;
-    document->format->read_tangents(document, r->part, first, count, r->tangents);
+    document->format->read(document, r->part, MESH_TANGENTS, r->state, first, count, r->tangents);
     for (size_t i = 0; i < count; i++) {
         double gradient[9], *t = r->tangents + 4 * i;
         const vertex_transform transform = ffd_vertex_transform_of(&r->transforms, i);
@@ -101,7 +102,7 @@ static void recompute_tangents(recomputing *r, size_t first, size_t count)
         read_gradient(r, &transform, first + i, gradient);
         r->changed[i] = ffd_tangent_of_normal(gradient, t, r->normals + 3 * i, t) == FFD_DIRECTION_CARRIED;
     }
-    document->format->write_tangents(document, r->part, first, count, r->tangents, r->changed);
+    document->format->write(document, r->part, MESH_TANGENTS, first, count, r->tangents, r->changed);
 }
 
 /* Recomputes normals [from, to) of the part. first: the first vertex of r->transforms. *vertex: the first
@@ -111,14 +112,14 @@ static void recompute_run(recomputing *r, size_t first, size_t from, size_t to, 
     mesh_document *document = r->document;
     const mesh_part *part = &document->parts[r->part];
     const size_t count = to - from;
-    document->format->read_normals(document, r->part, from, count, r->normals);
+    document->format->read(document, r->part, MESH_NORMALS, r->state, from, count, r->normals);
     for (size_t i = 0; i < count; i++) {
         while (part->normal_start ? part->normal_start[*vertex + 1] <= from + i : *vertex < from + i)
             (*vertex)++;
         const vertex_transform transform = ffd_vertex_transform_of(&r->transforms, *vertex - first);
         r->changed[i] = recompute(r, &transform, *vertex, from + i, r->normals + 3 * i);
     }
-    document->format->write_normals(document, r->part, from, count, r->normals, r->changed);
+    document->format->write(document, r->part, MESH_NORMALS, from, count, r->normals, r->changed);
     if (part->has_tangents)
         recompute_tangents(r, first, count);
 }
@@ -153,17 +154,19 @@ static ffd_status recompute_parts(recomputing *r, ffd_error *error)
     return status;
 }
 
-ffd_status ffd_recompute_normals(mesh_document *document, const mesh_faces *faces, const double *deformed,
-                                 const double *gradients, recompute_counts *counts, ffd_error *error)
+ffd_status ffd_recompute_normals(mesh_document *document, mesh_state state, const mesh_faces *faces,
+                                 const double *deformed, const double *gradients, recompute_counts *counts,
+                                 ffd_error *error)
 {
     normal_groups groups = {0};
     recomputing *r = ffd_alloc_zero(1, sizeof *r);
     *counts = (recompute_counts){0};
     ffd_status status = r ? FFD_OK : ffd_fail_memory(error);
     if (!status)
-        status = ffd_normal_groups_make(document, faces, deformed, &groups, error);
+        status = ffd_normal_groups_make(document, state, faces, deformed, &groups, error);
     if (!status) {
         r->document = document;
+        r->state = state;
         r->gradients = gradients;
         r->groups = &groups;
         r->counts = counts;

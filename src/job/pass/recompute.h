@@ -17,7 +17,8 @@ typedef struct recompute_counts {
    touched: a pass deforms them (mesh_pass.only_offsets). faces      of the whole document, at rest deformed
    3 doubles a vertex, and gradients  9 doubles a vertex: both from a pass over the whole chain (mesh_pass)
    Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
-ffd_status ffd_recompute_normals(mesh_document *document, const mesh_faces *faces, const double *deformed,
-                                 const double *gradients, recompute_counts *counts, ffd_error *error);
+ffd_status ffd_recompute_normals(mesh_document *document, mesh_state state, const mesh_faces *faces,
+                                 const double *deformed, const double *gradients, recompute_counts *counts,
+                                 ffd_error *error);
 
 #endif

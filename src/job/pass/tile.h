@@ -84,15 +84,15 @@ typedef struct pass_tile {
 /* Whether the pass processes the morph targets of a part. */
 static inline bool ffd_pass_takes_shapes(const mesh_pass *pass, const mesh_part *part)
 {
-    const bool deforms = (pass->write || pass->counts_shapes) && !pass->document->keeps_base;
-    return part->shape_count > 0 && !pass->document->shown && (deforms || pass->bounds_shapes);
+    const bool deforms = (pass->write || pass->counts_shapes) && !pass->only_base;
+    return part->shape_count > 0 && pass->state == MESH_STORED && (deforms || pass->bounds_shapes);
 }
 
 /* Whether the pass deforms rotations and sizes of a part's splats. */
 static inline bool ffd_pass_takes_splats(const mesh_pass *pass, const mesh_part *part)
 {
     return pass->write && part->has_ellipsoids && !part->singular && !part->repeats_positions &&
-           !pass->document->keeps_base && !pass->document->converted;
+           !pass->only_base && !pass->is_converted;
 }
 
 /* Whether the results go to the document. */

@@ -15,7 +15,7 @@ double ffd_part_tolerance(const mesh_document *document)
 static bool rounds(const pass_tile *tile)
 {
     const bool *const floats = tile->part->rounding.is_float;
-    return tile->pass->write && !tile->pass->document->converted && floats[0] && floats[1] && floats[2];
+    return tile->pass->write && !tile->pass->is_converted && floats[0] && floats[1] && floats[2];
 }
 
 /* Returns the bounds of the finite coordinates of the tile's positions in the file. counted: the bounds of

@@ -1,6 +1,7 @@
 #include "job/pass/vertex_rounding.h"
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
+#include "mesh/morphs.h"
 #include <math.h>
 #include <string.h>
 
@@ -14,12 +15,12 @@ void ffd_vertex_in_file(const vertex_transform *transform, const double x[3], do
     mat_apply(transform->inverse, position, position);
 }
 
-void ffd_vertex_cell(const mesh_document *document, size_t part, size_t vertex, const double position[3],
-                     double half[3])
+void ffd_vertex_cell(const mesh_document *document, mesh_state state, size_t part, size_t vertex,
+                     const double position[3], double half[3])
 {
     const mesh_part *const p = &document->parts[part];
     double stored[3], all[3] = {0, 0, 0};
-    if (!document->shown || p->shape_count == 0) {
+    if (state == MESH_STORED || p->shape_count == 0) {
         ffd_rounding_cell(&p->rounding, position, half);
         return;
     }
@@ -29,7 +30,7 @@ void ffd_vertex_cell(const mesh_document *document, size_t part, size_t vertex, 
         double offset[3], cell[3];
         if (shape->weight == 0 || !shape->has[MESH_POSITIONS])
             continue;
-        document->format->read_offsets(document, part, k, MESH_POSITIONS, vertex, 1, offset);
+        document->format->morphs->read_offsets(document, part, k, MESH_POSITIONS, vertex, 1, offset);
         ffd_rounding_cell(&shape->rounding, offset, cell);
         for (int a = 0; a < 3; a++) {
             stored[a] -= shape->weight * offset[a];
@@ -89,7 +90,8 @@ static bool starts_up_to(const void *first, const void *vertex)
     return *(const size_t *)first <= *(const size_t *)vertex;
 }
 
-void ffd_vertex_rounding(const vertex_owners *owners, size_t vertex, const double x[3], double half[3])
+void ffd_vertex_rounding(const vertex_owners *owners, mesh_state state, size_t vertex, const double x[3],
+                         double half[3])
 {
     const mesh_document *const document = owners->document;
     const size_t owner =
@@ -97,9 +99,9 @@ void ffd_vertex_rounding(const vertex_owners *owners, size_t vertex, const doubl
     const size_t part = owners->parts[owner], i = vertex - owners->first[owner];
     double position[3], own[12], inverse[9];
     const vertex_transform transform = transform_of(document, part, i, own, inverse);
-    document->format->read_positions(document, part, i, 1, position);
+    document->format->read(document, part, MESH_POSITIONS, state, i, 1, position);
     if (x)
         ffd_vertex_in_file(&transform, x, position);
-    ffd_vertex_cell(document, part, i, position, half);
+    ffd_vertex_cell(document, state, part, i, position, half);
     ffd_vertex_rounding_place(&transform, half);
 }

@@ -8,10 +8,10 @@
 void ffd_vertex_in_file(const vertex_transform *transform, const double x[3], double position[3]);
 
 /* Fills half the extents of the rounding cell of a vertex of a part at a position, in the file's space. Of a
-   position that default weights show (document->shown) it is the sum of those of the stored position and of
-   the offsets. */
-void ffd_vertex_cell(const mesh_document *document, size_t part, size_t vertex, const double position[3],
-                     double half[3]);
+   position that default weights show (MESH_SHOWN) it is the sum of those of the stored position and of the
+   offsets. */
+void ffd_vertex_cell(const mesh_document *document, mesh_state state, size_t part, size_t vertex,
+                     const double position[3], double half[3]);
 
 /* Transforms half extents of a rounding cell from the file's space to the lattice's, in place. */
 void ffd_vertex_rounding_place(const vertex_transform *transform, double half[3]);
@@ -31,6 +31,7 @@ void ffd_vertex_owners_free(vertex_owners *owners);
 
 /* Fills half the extents of the rounding cell of a document's vertex, in the lattice's space. x: where the
    vertex has been moved to, in that space; NULL: it is at its position in the file. */
-void ffd_vertex_rounding(const vertex_owners *owners, size_t vertex, const double x[3], double half[3]);
+void ffd_vertex_rounding(const vertex_owners *owners, mesh_state state, size_t vertex, const double x[3],
+                         double half[3]);
 
 #endif

@@ -90,10 +90,10 @@ static ffd_status check_desc(const view_work *work, ffd_error *error)
     return status || desc->sink ? status : ffd_output_check(desc->output, desc->force, error);
 }
 
-/* Whether to show the shape with default weights of morph targets instead of the stored one. */
-static bool shows_shapes(const view_work *work, const mesh_document *document)
+/* What is shown of a mesh: the base, or what default weights of morph targets make of it. */
+static mesh_state shown_state(const view_work *work, const mesh_document *document)
 {
-    return !work->job.stored && ffd_mesh_shows_shapes(document);
+    return !work->job.stored && ffd_mesh_shows_shapes(document) ? MESH_SHOWN : MESH_STORED;
 }
 
 /* Reads the mesh in the shape that is shown. */
@@ -103,11 +103,9 @@ static ffd_status read_model(view_work *work, ffd_error *error)
     mesh_model *const model = &work->model;
     model->budget = &document->budget;
     model->wants_details = true;
-    document->shown = shows_shapes(work, document);
     const uint64_t before = document->budget.taken;
-    const ffd_status status = document->format->model(document, model, error);
+    const ffd_status status = document->format->model(document, shown_state(work, document), model, error);
     work->model_bytes = document->budget.taken - before;
-    document->shown = false;
     if (status || !document->format->list_materials)
         return status;
     /* A page shows no images. */
@@ -145,7 +143,7 @@ static ffd_status make_rigs(view_work *work, bool deformed, ffd_error *error)
                                  .deformed = deformed,
                                  .follows = deformed && desc->job->rig == FFD_RIG_FOLLOW,
                                  .gradients = work->details.gradients,
-                                 .shown = !work->job.stored,
+                                 .state = work->job.stored ? MESH_STORED : MESH_SHOWN,
                                  .before_name = ffd_source_name(&desc->job->input),
                                  .after_name = desc->deformed ? ffd_source_name(desc->deformed) : NULL,
                                  .animation = desc->animation,
@@ -180,11 +178,11 @@ static ffd_status run_job(view_work *work, ffd_job_result *result, ffd_error *er
 {
     deform_job *const job = &work->job;
     job->stored = job->stored || job->desc->as_morph; /* it keeps the other targets */
-    TRY(ffd_deform_job_open(job, result, error));
+    TRY(ffd_deform_job_open(job, JOB_NEEDS_NORMALS, result, error));
     TRY(check_mesh(work, &work->desc->job->input, job->document, error));
     TRY(read_model(work, error));
     /* Deform the shape with default weights, as for a conversion. */
-    job->document->converted = shows_shapes(work, job->document);
+    job->converts = shown_state(work, job->document) == MESH_SHOWN;
     job->details = &work->details;
     ffd_status status = ffd_deform_job_run(job, result, &result->error);
     result->status = status;
@@ -214,7 +212,7 @@ static ffd_status load_cages(view_work *work, ffd_error *error)
     const chain_outside outside = {0};
     if (desc->lattice_count == 0)
         return FFD_OK;
-    TRY(ffd_deform_job_load_chain(job, &outside, NULL, error));
+    TRY(ffd_deform_job_load_chain(job, 0, &outside, NULL, error));
     TRY(ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(&desc->input), job->document,
                             error));
     TRY(ffd_chain_fit(&job->chain, job->document, job->threads, error));
@@ -231,12 +229,12 @@ static ffd_status read_positions(const view_work *work, mesh_document *document,
     *positions = ffd_alloc(count, 3 * sizeof **positions);
     if (!*positions)
         return ffd_fail_memory(error);
-    document->shown = shows_shapes(work, document);
     for (size_t i = 0; i < document->part_count; i++) {
         const mesh_part *const part = &document->parts[i];
         if (part->repeats_positions)
             continue;
-        ffd_source_positions(document, i, 0, part->vertex_count, *positions + 3 * first);
+        ffd_source_positions(document, shown_state(work, document), i, 0, part->vertex_count,
+                             *positions + 3 * first);
         first += part->vertex_count;
     }
     return FFD_OK;
@@ -352,7 +350,7 @@ static void warn_of_unused(const view_work *work)
             names);
 }
 
-static ffd_status run(view_work *work, ffd_job_result *result, ffd_error *error)
+static ffd_status make_view(view_work *work, ffd_job_result *result, ffd_error *error)
 {
     const bool deforms = !work->desc->deformed && work->desc->job->lattice_count > 0;
     TRY(check_desc(work, error));
@@ -385,7 +383,7 @@ static ffd_status view(const ffd_view_desc *desc, ffd_job_result *result, ffd_er
     ffd_status status = ffd_deform_job_begin(&work.job, desc->job, true, result);
     work.job.stored = desc->as_stored;
     if (!status) {
-        status = run(&work, result, &own);
+        status = make_view(&work, result, &own);
         if (status) {
             result->error = own;
         } else {
@@ -403,34 +401,30 @@ static void allow_memory(ffd_source *source)
         source->memory = LEAST_VIEW_MEMORY;
 }
 
-/* The same for descriptions that may hold data in memory. */
-static ffd_status view_in_memory(ffd_view_desc *desc, ffd_deform_desc *job, ffd_job_result *result)
+/* Names and checks data in memory. deformed: receives the library's own copy of desc->deformed. The job's own
+   output is ignored. */
+static ffd_status take_memory(job_memory *memory, ffd_view_desc *desc, ffd_source *deformed,
+                              ffd_deform_desc *job, ffd_error *error)
 {
-    ffd_source deformed;
-    job_memory memory = {0};
-    ffd_status status = FFD_OK;
     job->sink = NULL;
     job->positions = NULL;
     allow_memory(&job->input);
     if (desc->deformed) {
-        deformed = *desc->deformed;
-        allow_memory(&deformed);
-        desc->deformed = &deformed;
-        status = ffd_in_memory_source(&memory, &deformed, &result->error);
+        *deformed = *desc->deformed;
+        allow_memory(deformed);
+        desc->deformed = deformed;
+        TRY(ffd_in_memory_source(memory, deformed, error));
     }
-    if (!status)
-        status = ffd_in_memory_output(desc->sink, desc->output, &result->error);
-    if (!status)
-        status = ffd_in_memory_desc(&memory, job, &result->error);
-    if (!status)
-        status = view(desc, result, &result->error);
-    return ffd_in_memory_end(&memory, status, &result->error);
+    TRY(ffd_in_memory_output(desc->sink, desc->output, error));
+    return ffd_in_memory_desc(memory, job, error);
 }
 
 ffd_status ffd_view_run(const ffd_view_desc *callers, ffd_job_result *callers_result, ffd_error *error)
 {
     ffd_view_desc desc;
     ffd_deform_desc job;
+    ffd_source deformed;
+    job_memory memory = {0};
     ffd_job_result result;
     ffd_view_desc_init(&desc, sizeof desc);
     ffd_deform_desc_init(&job, sizeof job); /* stays unused for files as they are */
@@ -444,7 +438,10 @@ ffd_status ffd_view_run(const ffd_view_desc *callers, ffd_job_result *callers_re
     deadline own;
     const deadline *const before = ffd_deadline_begin(&own, status ? 0 : job.timeout);
     if (!status)
-        status = view_in_memory(&desc, &job, &result);
+        status = take_memory(&memory, &desc, &deformed, &job, &result.error);
+    if (!status)
+        status = view(&desc, &result, &result.error);
+    status = ffd_in_memory_end(&memory, status, &result.error);
     ffd_deadline_end(before);
     if (status && error)
         *error = result.error;

@@ -57,7 +57,7 @@ typedef struct view_rigs_desc {
     bool deformed;                 /* `before` has results, which are the mesh after */
     bool follows;                  /* its nodes have moved too */
     const double *gradients;       /* of the displacement, 9 a vertex; or NULL */
-    bool shown;                    /* apply default weights of morph targets */
+    mesh_state state;              /* of both meshes */
     const char *before_name, *after_name;
     const char *animation; /* name of the animation to show; NULL: none */
     bool all;              /* load all animations, for a page; unreadable ones are left out with a warning */

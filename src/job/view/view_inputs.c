@@ -3,6 +3,7 @@
 #include "base/file/path.h"
 #include "job/reads.h"
 #include "job/view/view.h"
+#include "mesh/linked_files.h"
 
 static ffd_status refuse(const char *output, bool is_linked, ffd_error *error)
 {
@@ -25,10 +26,11 @@ static ffd_status find_resources(const ffd_source *source, const mesh_document *
                                  ffd_error *error)
 {
     file_input bytes;
-    if (!document->format->find_resources || ffd_file_is_stream(source->path) ||
+    if (!document->format->resources || ffd_file_is_stream(source->path) ||
         ffd_file_load(source->path, &bytes, NULL))
         return FFD_OK;
-    const ffd_status status = document->format->find_resources(source->path, &bytes, files, error);
+    const ffd_status status =
+        document->format->resources->find_named(source->path, &bytes, &(mesh_named){.copies = files}, error);
     ffd_file_unload(&bytes);
     return status;
 }
@@ -41,11 +43,11 @@ ffd_status ffd_view_check_files(const ffd_source *source, const mesh_document *d
     if (!ffd_file_exists(output) || source->bytes.data)
         return FFD_OK;
     ffd_status status = find_resources(source, document, &files, error);
-    if (!status && document->format->list_files)
-        status = document->format->list_files(document, &files, error);
+    if (!status && document->format->sidecars)
+        status = document->format->sidecars->list(document, &files, error);
     const size_t read = files.count;
-    if (!status && document->format->list_linked)
-        status = document->format->list_linked(document, &files, error);
+    if (!status)
+        status = ffd_mesh_list_linked(document, &files, error);
     for (size_t i = 0; i < files.count && !is_named; i++) {
         is_named = ffd_file_same(files.paths[i], output);
         is_linked = i >= read;

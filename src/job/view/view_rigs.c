@@ -4,6 +4,7 @@
 #include "base/text/words.h"
 #include "base/vector/vec.h"
 #include "job/view/view.h"
+#include "mesh/rig.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -25,7 +26,7 @@ static char *name_of(const mesh_skeleton *skeleton, size_t animation)
 static ffd_status read_skeleton(mesh_document *document, bool after, view_rig *rig, ffd_error *error)
 {
     const mesh_format *const format = document->format;
-    return format->read_skeleton ? format->read_skeleton(document, after, &rig->skeleton, error) : FFD_OK;
+    return format->rig ? format->rig->read_skeleton(document, after, &rig->skeleton, error) : FFD_OK;
 }
 
 static ffd_status list_animations(view_scene *scene, ffd_error *error)
@@ -189,10 +190,7 @@ static ffd_status read_anchors(const view_rigs_desc *desc, mesh_document *docume
 {
     if (!rig->skeleton || !rig->skeleton->starts)
         return FFD_OK;
-    document->shown = desc->shown && ffd_mesh_shows_shapes(document);
-    const ffd_status status = document->format->read_anchors(rig->skeleton, after, &rig->anchors, error);
-    document->shown = false;
-    return status;
+    return document->format->rig->read_anchors(rig->skeleton, desc->state, after, &rig->anchors, error);
 }
 
 /* A job that deforms the shape with default weights has no deformed targets. Transform their offsets by the

@@ -75,7 +75,6 @@ ffd_status ffd_images_add(material_images *images, const char *name, const unsig
 
 ffd_status ffd_images_load(material_images *images, const char *path, uint32_t *image, ffd_error *error)
 {
-    const resource_copier from = {.mesh = images->mesh, .from = images->folder};
     const mesh_resource resource = {.path = (char *)path, .kind = &ffd_resource_image};
     file_input bytes = {0};
     const char *left;
@@ -84,7 +83,7 @@ ffd_status ffd_images_load(material_images *images, const char *path, uint32_t *
     TRY(ffd_images_find(images, path, &is_known, image, error));
     if (is_known)
         return FFD_OK;
-    if (!images->folder) {
+    if (!images->has_folder) {
         ffd_left_add(&images->left, path, "is a file, and standard input has no folder");
         return FFD_OK;
     }
@@ -92,7 +91,7 @@ ffd_status ffd_images_load(material_images *images, const char *path, uint32_t *
         ffd_left_add(&images->left, path, "has tiles");
         return FFD_OK;
     }
-    TRY(ffd_resource_load(&from, &resource, &bytes, &left, &refused, error));
+    TRY(ffd_resource_load(&images->mesh, &resource, &bytes, &left, &refused, error));
     if (left || refused.status) {
         ffd_left_add_unloaded(&images->left, path, left);
         return FFD_OK;

@@ -12,8 +12,8 @@
 typedef struct material_images {
     mesh_materials *materials; /* receives the images */
     memory_budget *budget;
-    file_folder mesh;   /* where the names in the mesh file lead; its file is for messages too */
-    const char *folder; /* its folder; NULL: none */
+    file_folder mesh; /* where the names in the mesh file lead; its file is for messages too */
+    bool has_folder;  /* false: the mesh comes from standard input */
     left_out left;
     intern_table known; /* names of images that were requested */
     uint32_t *numbers;  /* index of the image of each name, or MATERIAL_LOST */

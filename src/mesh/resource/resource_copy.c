@@ -68,13 +68,20 @@ static ffd_status write_copy(const resource_copier *c, const resource_kind *kind
                   : ffd_output_write(c->output, bytes->data, bytes->size, error);
 }
 
-/* Returns whether a path in the mesh's folder goes through a symbolic link. */
-static bool is_through_link(const resource_copier *c, const char *path)
+/* Returns the mesh's folder without symbolic links; NULL if there is none, or memory runs out. */
+static char *resolve_folder(const file_folder *mesh)
 {
-    const char *const folder = c->from;
-    if (c->mesh.resolve)
+    char *const folder = ffd_path_folder(mesh->file), *const root = folder ? ffd_path_resolve(folder) : NULL;
+    ffd_free(folder);
+    return root;
+}
+
+/* Returns whether a path in the mesh's folder goes through a symbolic link. */
+static bool is_through_link(const file_folder *mesh, const char *path)
+{
+    if (mesh->resolve)
         return false;
-    char *const root = ffd_path_resolve(folder), *const joined = ffd_path_join(folder, path);
+    char *const root = resolve_folder(mesh), *const joined = ffd_path_sibling(mesh->file, path);
     char *const direct = root ? ffd_path_join(root, path) : NULL;
     char *const resolved = joined ? ffd_path_resolve(joined) : NULL;
     const bool same = direct && resolved && strcmp(direct, resolved) == 0;
@@ -85,11 +92,11 @@ static bool is_through_link(const resource_copier *c, const char *path)
     return !same;
 }
 
-bool ffd_resource_is_outside(const resource_copier *c, const char *path)
+bool ffd_resource_is_outside(const file_folder *mesh, const char *path)
 {
-    if (ffd_path_leads_out(path) || c->mesh.resolve)
+    if (ffd_path_leads_out(path) || mesh->resolve)
         return ffd_path_leads_out(path);
-    char *const root = ffd_path_resolve(c->from), *const joined = ffd_path_join(c->from, path);
+    char *const root = resolve_folder(mesh), *const joined = ffd_path_sibling(mesh->file, path);
     char *const resolved = joined ? ffd_path_resolve(joined) : NULL;
     char *const relative = root && resolved ? ffd_path_relative(root, resolved) : NULL;
     const bool is_outside = relative && ffd_path_leads_out(relative);
@@ -101,24 +108,24 @@ bool ffd_resource_is_outside(const resource_copier *c, const char *path)
 }
 
 /* Returns the reason why a file in the mesh's folder is not copied, judging by its name alone; NULL: none. */
-static const char *left_by_name(const resource_copier *c, const mesh_resource *resource)
+static const char *left_by_name(const file_folder *mesh, const mesh_resource *resource)
 {
     if (!resource->kind->has_name(resource->path))
         return resource->kind->other_name;
     if (ffd_image_is_hidden(resource->path))
         return "is a hidden file or in a hidden folder";
-    return ffd_folder_has(&c->mesh, resource->path) ? NULL : "is missing";
+    return ffd_folder_has(mesh, resource->path) ? NULL : "is missing";
 }
 
-static const char *left_by_content(const resource_copier *c, const mesh_resource *resource,
+static const char *left_by_content(const file_folder *mesh, const mesh_resource *resource,
                                    const file_input *bytes)
 {
-    if (is_through_link(c, resource->path))
+    if (is_through_link(mesh, resource->path))
         return "is reached through a link";
     return resource->kind->has_content(bytes->data, bytes->size) ? NULL : resource->kind->other_content;
 }
 
-ffd_status ffd_resource_load(const resource_copier *c, const mesh_resource *resource, file_input *bytes,
+ffd_status ffd_resource_load(const file_folder *mesh, const mesh_resource *resource, file_input *bytes,
                              const char **left, ffd_error *refused, ffd_error *error)
 {
     size_t most = SIZE_MAX;
@@ -128,13 +135,13 @@ ffd_status ffd_resource_load(const resource_copier *c, const mesh_resource *reso
         ffd_fail(refused, FFD_E_IO, "it is outside the model's folder");
         return FFD_OK;
     }
-    *left = left_by_name(c, resource);
+    *left = left_by_name(mesh, resource);
     if (*left)
         return FFD_OK;
-    const ffd_status status = ffd_folder_load(&c->mesh, resource->path, c->mesh.file, &most, bytes, refused);
+    const ffd_status status = ffd_folder_load(mesh, resource->path, mesh->file, &most, bytes, refused);
     if (status)
         return status == FFD_E_MEMORY ? ffd_fail_memory(error) : FFD_OK;
-    *left = left_by_content(c, resource, bytes);
+    *left = left_by_content(mesh, resource, bytes);
     if (*left)
         ffd_file_unload(bytes);
     return FFD_OK;
@@ -167,7 +174,7 @@ ffd_status ffd_resource_copy(const resource_copier *c, const mesh_resource *reso
 {
     file_input bytes = {0};
     const char *left;
-    TRY(ffd_resource_load(c, resource, &bytes, &left, refused, error));
+    TRY(ffd_resource_load(&c->mesh, resource, &bytes, &left, refused, error));
     if (refused->status)
         return FFD_OK;
     if (left) {

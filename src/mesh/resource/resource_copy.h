@@ -23,14 +23,14 @@ typedef struct resource_copier {
         *copied; /* receives the paths of files that are copied, embedded, or exist already; may be NULL */
 } resource_copier;
 
-/* Loads a file if it may be copied. *left: NULL, or the reason why it is not copied: its name or content is
-   not of its kind, or it is hidden, missing or reached through a symbolic link. refused->status: FFD_OK, or
-   the file must not be read, because it is outside of the mesh's folder or not a regular file. If neither is
-   set, the file is loaded, and the caller unloads it. Errors: FFD_E_MEMORY. */
-ffd_status ffd_resource_load(const resource_copier *copier, const mesh_resource *resource, file_input *bytes,
+/* Loads a file that a mesh names, if it may be copied. *left: NULL, or the reason why it is not copied: its
+   name or content is not of its kind, or it is hidden, missing or reached through a symbolic link.
+   refused->status: FFD_OK, or the file must not be read, because it is outside of the mesh's folder or not a
+   regular file. If neither is set, the file is loaded, and the caller unloads it. Errors: FFD_E_MEMORY. */
+ffd_status ffd_resource_load(const file_folder *mesh, const mesh_resource *resource, file_input *bytes,
                              const char **left, ffd_error *refused, ffd_error *error);
 /* Whether a file that is there is outside of the mesh's folder, by its path or by links. */
-bool ffd_resource_is_outside(const resource_copier *copier, const char *path);
+bool ffd_resource_is_outside(const file_folder *mesh, const char *path);
 /* Copies a file to the same relative path in the output's folder, as a further file of copier->output. Logs a
    warning if it is not copied; the caller reports refused. An existing file must have the same bytes
    (otherwise FFD_E_IO). Files must be copied in the order of their paths (ffd_resources_sort). Errors:

@@ -178,9 +178,10 @@ def _set_gates(desc: Any, value: Any) -> None:
 def _set_embedding(desc: Any, value: Any) -> Any:
     """Sets the embedding: a path, or the bytes of the file, which are returned to be kept alive."""
     if not isinstance(value, bytes):
-        desc.embedding = library.path(value)
+        desc.embedding.path = library.path(value)
         return None
-    desc.embedding_bytes.data, desc.embedding_bytes.size, kept = library.lend_bytes(value, "embedding")
+    lent = desc.embedding.bytes
+    lent.data, lent.size, kept = library.lend_bytes(value, "embedding")
     return kept
 
 

@@ -7,6 +7,7 @@
 #include "base/memory/intern.h"
 #include "io/gltf/model/gltf_animation.h"
 #include "io/gltf/read/gltf_document.h"
+#include "mesh/places.h"
 #include "json/json_edit.h"
 #include <float.h>
 

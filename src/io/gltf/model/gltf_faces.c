@@ -99,7 +99,7 @@ static ffd_status count_all(const gltf_document *d, mesh_faces *faces, ffd_error
 }
 
 /* Fills in the positions of all parts in order; base[i] becomes the first vertex of part i. */
-static void fill_positions(const gltf_document *d, mesh_faces *faces, size_t *base)
+static void fill_positions(const gltf_document *d, mesh_state state, mesh_faces *faces, size_t *base)
 {
     size_t at = 0;
     for (size_t i = 0; i < d->base.part_count; i++) {
@@ -108,7 +108,7 @@ static void fill_positions(const gltf_document *d, mesh_faces *faces, size_t *ba
         if (part->repeats_positions)
             continue;
         double *positions = faces->positions + 3 * at;
-        ffd_gltf_read_shown(d, i, GLTF_POSITION, 0, part->vertex_count, 3, positions);
+        ffd_gltf_read_shown(d, i, GLTF_POSITION, state, 0, part->vertex_count, 3, positions);
         ffd_part_transform(&d->base, i, 0, part->vertex_count, positions);
         at += part->vertex_count;
     }
@@ -201,7 +201,8 @@ static ffd_status check_budget(const gltf_document *d, const mesh_faces *faces, 
     return ffd_budget_check(&budget, ffd_gltf_most_corners(d), sizeof(uint32_t), error);
 }
 
-ffd_status ffd_gltf_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error)
+ffd_status ffd_gltf_faces(const mesh_document *document, mesh_state state, mesh_faces *faces,
+                          ffd_error *error)
 {
     const gltf_document *d = ffd_gltf_of(document);
     *faces = (mesh_faces){0};
@@ -217,7 +218,7 @@ ffd_status ffd_gltf_faces(const mesh_document *document, mesh_faces *faces, ffd_
     if (!base)
         status = ffd_fail_memory(error);
     else {
-        fill_positions(d, faces, base);
+        fill_positions(d, state, faces, base);
         for (size_t i = 0; i <= faces->face_count; i++)
             faces->start[i] = 3 * i;
     }
@@ -490,7 +491,8 @@ static bool search_primitive(mixed_work *work, const size_t *first, const gltf_p
     return true;
 }
 
-static void read_positions(const gltf_document *d, const size_t *first, const mesh_faces *faces)
+static void read_positions(const gltf_document *d, mesh_state state, const size_t *first,
+                           const mesh_faces *faces)
 {
     size_t part = 0;
     for (size_t v = 0; v < faces->vertex_count; v++) {
@@ -501,7 +503,7 @@ static void read_positions(const gltf_document *d, const size_t *first, const me
             for (part = 0; d->mesh_parts[part].repeats_positions || vertex < first[part] ||
                            vertex >= first[part] + d->mesh_parts[part].vertex_count;)
                 part++;
-        ffd_gltf_read_shown(d, part, GLTF_POSITION, vertex - first[part], 1, 3, xyz);
+        ffd_gltf_read_shown(d, part, GLTF_POSITION, state, vertex - first[part], 1, 3, xyz);
         ffd_part_transform(&d->base, part, vertex - first[part], 1, xyz);
     }
 }
@@ -515,8 +517,8 @@ static bool search_all(mixed_work *work, const size_t *first, mixed_lists *all)
     return plain;
 }
 
-ffd_status ffd_gltf_mixed_faces(const mesh_document *document, const vertex_marks *marks, mesh_faces *faces,
-                                ffd_error *error)
+ffd_status ffd_gltf_mixed_faces(const mesh_document *document, mesh_state state, const vertex_marks *marks,
+                                mesh_faces *faces, ffd_error *error)
 {
     const gltf_document *const d = ffd_gltf_of(document);
     mixed_work work = {.document = d, .marks = marks};
@@ -529,9 +531,9 @@ ffd_status ffd_gltf_mixed_faces(const mesh_document *document, const vertex_mark
     if (search_all(&work, first, &all)) {
         status = ffd_face_lists_narrow(document, all.lists, all.count, faces, error);
         if (!status)
-            read_positions(d, first, faces);
+            read_positions(d, state, first, faces);
     } else
-        status = ffd_gltf_faces(document, faces, error);
+        status = ffd_gltf_faces(document, state, faces, error);
     for (size_t l = 0; l < all.count; l++)
         ffd_free(all.lists[l].words);
     ffd_free(all.lists);

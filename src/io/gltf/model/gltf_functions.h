@@ -6,7 +6,12 @@
 #ifndef FFD_IO_GLTF_MODEL_GLTF_FUNCTIONS_H
 #define FFD_IO_GLTF_MODEL_GLTF_FUNCTIONS_H
 
-#include "mesh/mesh.h"
+#include "mesh/linked_files.h"
+#include "mesh/morphs.h"
+#include "mesh/places.h"
+#include "mesh/rig.h"
+#include "mesh/selector.h"
+#include "mesh/splats.h"
 
 mesh_faces_function ffd_gltf_faces;
 mesh_corner_normals_function ffd_gltf_corner_normals;
@@ -14,8 +19,8 @@ mesh_mark_used_function ffd_gltf_mark_used;
 mesh_mixed_faces_function ffd_gltf_mixed_faces;
 
 /* Names the node, or the mesh if the node has no name. */
-mesh_name_part_function ffd_gltf_name_part;
-mesh_list_parts_function ffd_gltf_list_parts;
+mesh_name_owner_function ffd_gltf_name_part;
+mesh_list_things_function ffd_gltf_list_parts;
 mesh_select_function ffd_gltf_select;
 
 mesh_check_reach_function ffd_gltf_check_reach;
@@ -39,9 +44,7 @@ mesh_read_transforms_function ffd_gltf_read_transforms;
 ffd_status ffd_gltf_warn_of_faults(const mesh_document *document, const mesh_log *log, ffd_error *error);
 
 mesh_begin_results_function ffd_gltf_begin_results;
-mesh_write_function ffd_gltf_write_positions;
-mesh_write_function ffd_gltf_write_normals;
-mesh_write_function ffd_gltf_write_tangents;
+mesh_write_function ffd_gltf_write;
 mesh_write_offsets_function ffd_gltf_write_offsets;
 
 mesh_read_splats_function ffd_gltf_read_splats;
@@ -55,7 +58,6 @@ mesh_save_function ffd_gltf_save_results;
 mesh_count_sidecars_function ffd_gltf_count_sidecars;
 mesh_list_files_function ffd_gltf_list_images;
 mesh_list_files_function ffd_gltf_list_linked;
-mesh_find_resources_function ffd_gltf_find_resources;
 mesh_find_named_function ffd_gltf_find_named;
 
 mesh_open_function ffd_gltf_open;

@@ -409,11 +409,12 @@ ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
 }
 
 /* Refuses accessors that cannot be read: results could be written neither in place nor into a copy. */
-ffd_status ffd_gltf_refuse_store(const gltf_document *d, bool normals, bool tangents, ffd_error *error)
+ffd_status ffd_gltf_refuse_store(const gltf_document *d, bool directions, ffd_error *error)
 {
     for (size_t i = 0; i < d->model.primitive_count; i++) {
         const gltf_primitive *const primitive = &d->model.primitives[i];
-        const bool wanted[GLTF_DEFORMED] = {true, normals, tangents && primitive->accessor[GLTF_NORMAL] >= 0};
+        const bool wanted[GLTF_DEFORMED] = {true, directions,
+                                            directions && primitive->accessor[GLTF_NORMAL] >= 0};
         if (d->mesh_uses[primitive->mesh].node_count == 0 || primitive->accessor[GLTF_POSITION] < 0)
             continue;
         for (size_t s = 0; s < gltf_vector_slots(primitive); s++) {

@@ -22,10 +22,9 @@ ffd_status ffd_gltf_warn_of_held(const gltf_document *document, const mesh_log *
    FFD_E_MEMORY. */
 ffd_status ffd_gltf_refuse_read(const gltf_document *document, ffd_error *error);
 
-/* Refuses attributes that cannot be written back: positions, and normals and tangents if wanted. Errors:
+/* Refuses attributes that cannot be written back: positions, and (directions) normals and tangents. Errors:
    FFD_E_UNSUPPORTED. */
-ffd_status ffd_gltf_refuse_store(const gltf_document *document, bool normals, bool tangents,
-                                 ffd_error *error);
+ffd_status ffd_gltf_refuse_store(const gltf_document *document, bool directions, ffd_error *error);
 
 /* Refuses a primitive if this accessor cannot be read. Errors: FFD_E_UNSUPPORTED. */
 ffd_status ffd_gltf_refuse_unreadable(const gltf_document *document, const gltf_primitive *primitive,

@@ -26,11 +26,12 @@ static void begin_tile(const gltf_document *d, size_t part, const gltf_stream *s
     double shown[3 * MESH_RANGE_STEP];
     float *const result = stream->result + 3 * first;
     stream->filled[tile] = 1;
-    if (!d->base.shown || !d->mesh_parts[part].shows_shapes) {
+    if (d->results.state == MESH_STORED || !d->mesh_parts[part].shows_shapes) {
         ffd_gltf_originals(d, stream->accessor, first, count, result);
         return;
     }
-    ffd_gltf_read_shown(d, part, (gltf_semantic)(stream - d->parts[part].streams), first, count, 3, shown);
+    ffd_gltf_read_shown(d, part, (gltf_semantic)(stream - d->parts[part].streams), MESH_SHOWN, first, count,
+                        3, shown);
     for (size_t i = 0; i < 3 * count; i++)
         result[i] = (float)shown[i];
 }
@@ -144,25 +145,24 @@ ffd_status ffd_gltf_add_results(gltf_document *d, size_t part, ffd_error *error)
     for (size_t k = 0; k <= d->mesh_parts[part].shape_count; k++)
         for (int s = 0; s < GLTF_DEFORMED && !status; s++) {
             const bool repeats = k == 0 && s == GLTF_POSITION && d->mesh_parts[part].repeats_positions;
-            if (!repeats && (s == GLTF_POSITION || d->morph_normals))
+            if (!repeats && (s == GLTF_POSITION || d->results.directions))
                 status = make_result(d, k == 0 ? part : shapes + k - 1, (gltf_semantic)s, error);
         }
     return status;
 }
 
-ffd_status ffd_gltf_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
+ffd_status ffd_gltf_begin_results(mesh_document *document, const mesh_results *results, ffd_error *error)
 {
     gltf_document *d = (gltf_document *)document;
-    const bool wanted[GLTF_DEFORMED] = {true, normals, tangents};
     ffd_status status = ffd_gltf_refuse_read(d, error);
     if (!status)
-        status = ffd_gltf_refuse_store(d, normals, tangents, error);
-    d->morph_normals = normals;
+        status = ffd_gltf_refuse_store(d, results->directions, error);
+    d->results = *results;
     /* Converted meshes have no morph targets. */
-    const bool targets = !d->morph_name && !d->base.converted;
+    const bool targets = !d->morph_name && !results->converted;
     for (size_t i = 0; i < (targets ? ffd_gltf_shape_end(d) : d->base.part_count); i++)
         for (int s = 0; s < GLTF_DEFORMED && !status; s++)
-            if (!wanted[s])
+            if (s != GLTF_POSITION && !results->directions)
                 drop_result(d, i, (gltf_semantic)s);
             else if (!d->mesh_parts[i].skipped && !(s == GLTF_POSITION && d->mesh_parts[i].repeats_positions))
                 status = make_result(d, i, (gltf_semantic)s, error);
@@ -192,7 +192,7 @@ static void write_offset(const gltf_document *d, const gltf_stream *stream, size
 static bool is_plain(const gltf_document *d, const gltf_stream *stream, gltf_semantic semantic)
 {
     return !d->morph_name &&
-           (d->base.converted || !has_steps(&d->model.accessors[stream->accessor], semantic));
+           (d->results.converted || !has_steps(&d->model.accessors[stream->accessor], semantic));
 }
 
 static void write_changed(const gltf_document *d, const gltf_stream *stream, bool plain, size_t first,
@@ -244,22 +244,11 @@ static void write_result(mesh_document *document, size_t part, gltf_semantic sem
         note_bounds(d, part, stream, t);
 }
 
-void ffd_gltf_write_positions(mesh_document *document, size_t part, size_t first, size_t count,
-                              const double *xyz, const uint8_t *changed)
+void ffd_gltf_write(mesh_document *document, size_t part, mesh_stream stream, size_t first, size_t count,
+                    const double *values, const uint8_t *changed)
 {
-    write_result(document, part, GLTF_POSITION, first, count, xyz, 3, changed);
-}
-
-void ffd_gltf_write_normals(mesh_document *document, size_t part, size_t first, size_t count,
-                            const double *xyz, const uint8_t *changed)
-{
-    write_result(document, part, GLTF_NORMAL, first, count, xyz, 3, changed);
-}
-
-void ffd_gltf_write_tangents(mesh_document *document, size_t part, size_t first, size_t count,
-                             const double *xyzw, const uint8_t *changed)
-{
-    write_result(document, part, GLTF_TANGENT, first, count, xyzw, 4, changed);
+    write_result(document, part, (gltf_semantic)stream, first, count, values, stream == MESH_TANGENTS ? 4 : 3,
+                 changed);
 }
 
 void ffd_gltf_write_offsets(mesh_document *document, size_t part, size_t shape, mesh_stream stream,

@@ -289,13 +289,13 @@ static void make_units(size_t count, size_t components, double *values)
     }
 }
 
-void ffd_gltf_read_shown(const gltf_document *d, size_t part, gltf_semantic semantic, size_t first,
-                         size_t count, size_t components, double *values)
+void ffd_gltf_read_shown(const gltf_document *d, size_t part, gltf_semantic semantic, mesh_state state,
+                         size_t first, size_t count, size_t components, double *values)
 {
     const mesh_part *const shown = &d->mesh_parts[part];
     bool any = false;
     ffd_gltf_read(d, d->parts[part].streams[semantic].accessor, first, count, components, values);
-    if (!d->base.shown || !shown->shows_shapes)
+    if (state == MESH_STORED || !shown->shows_shapes)
         return;
     for (size_t s = 0; s < shown->shape_count; s++) {
         const gltf_part *const target = &d->parts[d->base.part_count + d->parts[part].first_shape + s];
@@ -328,7 +328,7 @@ bool ffd_gltf_add_shapes(const gltf_document *d, const gltf_primitive *primitive
                          const char *name, size_t count, size_t components, size_t stride, double *values)
 {
     const uint32_t targets = ffd_json_tree_member(&d->tree, primitive->value, "targets");
-    uint32_t weight = d->base.shown ? ffd_gltf_first_weight(d, primitive->mesh, node) : JSON_NONE;
+    uint32_t weight = ffd_gltf_first_weight(d, primitive->mesh, node);
     bool any = false;
     for (uint32_t target = ffd_json_tree_first(&d->tree, targets); target != JSON_NONE && weight != JSON_NONE;
          target = ffd_json_tree_after(&d->tree, target), weight = ffd_json_tree_after(&d->tree, weight)) {

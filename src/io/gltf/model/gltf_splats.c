@@ -296,7 +296,7 @@ ffd_status ffd_gltf_begin_splats(gltf_document *d, ffd_error *error)
     for (size_t i = 0; i < d->base.part_count && !status; i++) {
         const mesh_part *const part = &d->mesh_parts[i];
         const bool follows = (!part->skipped || part->carried) && !part->singular &&
-                             !part->repeats_positions && !d->morph_name && !d->base.converted;
+                             !part->repeats_positions && !d->morph_name && !d->results.converted;
         for (size_t a = 0; part->has_ellipsoids && a < attribute_count(d, i) && !status; a++)
             if (follows)
                 status = make_result(d, part->vertex_count, stream_of(d, i, a), error);

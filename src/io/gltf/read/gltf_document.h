@@ -6,6 +6,8 @@
 #include "io/gltf/file/gltf_buffer.h"
 #include "io/gltf/read/gltf_model.h"
 #include "mesh/mesh.h"
+#include "mesh/morphs.h"
+#include "mesh/selector.h"
 #include "json/json_tree.h"
 #include <stdarg.h>
 #include <stdatomic.h>
@@ -198,13 +200,13 @@ typedef struct gltf_document {
     size_t shape_count;
     size_t splat_groups;    /* number of elements of parts that hold splats, after those of shapes */
     atomic_size_t unturned; /* splats whose harmonics could not be turned: they are not finite numbers */
+    mesh_results results;   /* as they were begun */
     /* Results are offsets of a further morph target of this name; NULL: results are not offsets. */
     char *morph_name;
     gltf_morph *morphs; /* morph_count: the further morph targets before it, complete */
     size_t morph_count, morph_capacity;
     const morph_clip *clips; /* clip_count, lent: animations to add */
     size_t clip_count;
-    bool morph_normals; /* whether the further morph target has offsets of normals and tangents too */
     gltf_instanced_node *instanced_nodes; /* in the order of nodes */
     size_t instanced_node_count;
     /* The reason if the transforms of instances are unknown: the document can then only be described. */

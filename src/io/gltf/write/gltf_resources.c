@@ -85,20 +85,6 @@ static ffd_status parse(const char *path, const file_input *bytes, json_tree *tr
     return parsed == FFD_E_MEMORY ? ffd_fail_memory(error) : FFD_OK;
 }
 
-ffd_status ffd_gltf_find_resources(const char *path, const file_input *bytes, path_list *files,
-                                   ffd_error *error)
-{
-    const file_folder mesh = {.file = path};
-    json_tree tree;
-    bool is_model;
-    ffd_status status = parse(path, bytes, &tree, &is_model, error);
-    if (is_model) {
-        status = find_images(&tree, &mesh, files, error);
-        ffd_json_tree_free(&tree);
-    }
-    return status;
-}
-
 /* Adds the files that the members of an array name. */
 static ffd_status find_files(const json_tree *tree, const char *array, const file_folder *mesh,
                              path_list *files, ffd_error *error)
@@ -123,10 +109,11 @@ ffd_status ffd_gltf_find_named(const char *path, const file_input *bytes, const 
     ffd_status status = parse(path, bytes, &tree, &is_model, error);
     if (!is_model)
         return status;
-    status = find_files(&tree, "buffers", &mesh, named->files, error);
-    if (!status)
+    if (named->files)
+        status = find_files(&tree, "buffers", &mesh, named->files, error);
+    if (!status && named->files)
         status = find_files(&tree, "images", &mesh, named->files, error);
-    if (!status)
+    if (!status && named->files)
         status = ffd_gltf_find_linked(&tree, &mesh, named->files, error);
     if (!status && named->copies)
         status = find_images(&tree, &mesh, named->copies, error);
@@ -214,10 +201,11 @@ static ffd_status embed_image(resources *r, size_t index, char *path, ffd_error 
 {
     const gltf_document *d = r->saver->document;
     const mesh_resource image = {path, &ffd_resource_image, index};
-    const char *left = ffd_resource_is_outside(&r->copier, path) ? "is outside the model's folder" : NULL;
+    const char *left =
+        ffd_resource_is_outside(&r->copier.mesh, path) ? "is outside the model's folder" : NULL;
     ffd_error refused = {0};
     file_input bytes = {0};
-    TRY(left ? FFD_OK : ffd_resource_load(&r->copier, &image, &bytes, &left, &refused, error));
+    TRY(left ? FFD_OK : ffd_resource_load(&r->copier.mesh, &image, &bytes, &left, &refused, error));
     if (refused.status)
         return ffd_json_tree_fail(&d->tree, d->image_values.values[index], d->name, FFD_E_IO, error,
                                   "the image \"%s\" cannot be put into the output: %s; {resources=reference} "

@@ -21,8 +21,7 @@ static bool is_zero(const float *xyz)
 
 static bool may_be_sparse(const gltf_document *d, const gltf_version *version)
 {
-    return d->base.sparse_targets && version->accessor != GLTF_NONE &&
-           ffd_gltf_is_added(d, version->accessor);
+    return version->accessor != GLTF_NONE && ffd_gltf_is_added(d, version->accessor);
 }
 
 static void put_index(gltf_stored_part *sparse, size_t k, size_t index)
@@ -69,7 +68,7 @@ ffd_status ffd_gltf_list_sparse(gltf_saver *saver, ffd_error *error)
     for (size_t i = 0; i < saver->plan.appended_count && !status; i++) {
         const gltf_version *const version = &saver->plan.versions[saver->plan.appended[i]];
         gltf_stored_part *const sparse = &saver->sparse[i];
-        if (!may_be_sparse(d, version))
+        if (!saver->options->sparse_targets || !may_be_sparse(d, version))
             continue;
         const size_t count = (size_t)d->model.accessors[version->accessor].count;
         for (size_t v = 0; v < count; v++)

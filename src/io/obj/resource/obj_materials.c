@@ -14,7 +14,6 @@
 #define HALF 0.5
 
 typedef struct reader {
-    resource_copier from; /* the mesh's folder; NULL: it has none */
     memory_budget *budget;
     mesh_materials *materials;
     material_images images;
@@ -103,8 +102,8 @@ static ffd_status load_map(reader *r, const char *library, text_word name, uint3
     bool is_known;
     ffd_buffer_append(&text, name.first, (size_t)(name.last - name.first));
     char *const named = ffd_buffer_finish(&text);
-    ffd_status status =
-        named ? ffd_obj_find_map(&r->from.mesh, library, named, &path, r->error) : ffd_fail_memory(r->error);
+    ffd_status status = named ? ffd_obj_find_map(&r->images.mesh, library, named, &path, r->error)
+                              : ffd_fail_memory(r->error);
     if (!status && path) {
         status = ffd_images_load(&r->images, path, image, r->error);
     } else if (!status) {
@@ -115,7 +114,7 @@ static ffd_status load_map(reader *r, const char *library, text_word name, uint3
     ffd_free(named);
     ffd_free(path);
     if (!status && r->images.known.count > OBJ_RESOURCES_MAX)
-        status = ffd_fail_file(r->error, FFD_E_LIMIT, r->from.mesh.file, "names more than %d maps",
+        status = ffd_fail_file(r->error, FFD_E_LIMIT, r->images.mesh.file, "names more than %d maps",
                                OBJ_RESOURCES_MAX);
     return status;
 }
@@ -164,7 +163,7 @@ static ffd_status read_file(reader *r, const char *path)
     file_input bytes = {0};
     const char *left;
     ffd_error refused;
-    TRY(ffd_resource_load(&r->from, &library, &bytes, &left, &refused, r->error));
+    TRY(ffd_resource_load(&r->images.mesh, &library, &bytes, &left, &refused, r->error));
     if (left || refused.status) {
         ffd_left_add_unloaded(&r->left, path, left);
         return FFD_OK;
@@ -177,11 +176,11 @@ static ffd_status read_file(reader *r, const char *path)
 static ffd_status read_library(reader *r, const char *name)
 {
     char *path;
-    if (!r->from.from) {
+    if (!r->images.has_folder) {
         ffd_left_add(&r->left, name, "is a file, and standard input has no folder");
         return FFD_OK;
     }
-    ffd_status status = ffd_obj_find_path(&r->from.mesh, "", name, &path, r->error);
+    ffd_status status = ffd_obj_find_path(&r->images.mesh, "", name, &path, r->error);
     if (status)
         return status;
     if (path)
@@ -199,16 +198,14 @@ ffd_status ffd_obj_list_materials(mesh_document *document, const mesh_log *log, 
     intern_table libraries = {0};
     const file_folder mesh = {file->path ? file->path : file->name, document->folder.resolve,
                               document->folder.user};
-    char *const folder = file->path ? ffd_path_folder(file->path) : NULL;
-    reader r = {
-        .from = {.mesh = mesh, .from = folder},
-        .budget = &document->budget,
-        .materials = materials,
-        .images = {.materials = materials, .budget = &document->budget, .mesh = mesh, .folder = folder},
-        .error = error};
-    ffd_status status = folder || !file->path ? FFD_OK : ffd_fail_memory(error);
-    if (!status)
-        status = ffd_obj_list_libraries(&file->input, &mesh, &libraries, error);
+    reader r = {.budget = &document->budget,
+                .materials = materials,
+                .images = {.materials = materials,
+                           .budget = &document->budget,
+                           .mesh = mesh,
+                           .has_folder = file->path},
+                .error = error};
+    ffd_status status = ffd_obj_list_libraries(&file->input, &mesh, &libraries, error);
     for (uint32_t i = 0; i < libraries.count && !status; i++)
         status = read_library(&r, ffd_intern_key(&libraries, i));
     ffd_left_out_log(&r.left, "material library cannot be read, and its materials are unknown",
@@ -216,6 +213,5 @@ ffd_status ffd_obj_list_materials(mesh_document *document, const mesh_log *log, 
     ffd_images_end(&r.images, log);
     ffd_intern_free(&r.names);
     ffd_intern_free(&libraries);
-    ffd_free(folder);
     return status;
 }

@@ -14,56 +14,56 @@
 /* Maps of a library that have tiles, each of which is looked for. */
 #define TILED_MAX 256
 
-static ffd_status add_file(const resource_copier *c, resource_list *list, const char *library,
+static ffd_status add_file(const file_folder *mesh, resource_list *list, const char *library,
                            const char *name, ffd_error *error)
 {
     char *path;
-    const ffd_status status = ffd_obj_find_map(&c->mesh, library, name, &path, error);
+    const ffd_status status = ffd_obj_find_map(mesh, library, name, &path, error);
     return status || !path ? status : ffd_resources_add(list, &ffd_resource_image, list->count, path, error);
 }
 
 /* Adds those tiles of a map that exist. */
-static ffd_status add_tiles(const resource_copier *c, resource_list *list, const char *library,
+static ffd_status add_tiles(const file_folder *mesh, resource_list *list, const char *library,
                             const char *name, ffd_error *error)
 {
     const size_t before = list->count;
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < IMAGE_TILES && !status; i++) {
         char *path = NULL, *const tile = ffd_image_tile(name, i);
-        status = tile ? ffd_obj_find_map(&c->mesh, library, tile, &path, error) : ffd_fail_memory(error);
+        status = tile ? ffd_obj_find_map(mesh, library, tile, &path, error) : ffd_fail_memory(error);
         ffd_free(tile);
-        if (!status && path && ffd_folder_has(&c->mesh, path))
+        if (!status && path && ffd_folder_has(mesh, path))
             status = ffd_resources_add(list, &ffd_resource_image, list->count, path, error);
         else
             ffd_free(path);
     }
-    return status || list->count > before ? status : add_file(c, list, library, name, error);
+    return status || list->count > before ? status : add_file(mesh, list, library, name, error);
 }
 
 /* Adds a map of a library. */
-static ffd_status add_map(const resource_copier *c, resource_list *list, const char *library,
-                          const char *name, ffd_error *error)
+static ffd_status add_map(const file_folder *mesh, resource_list *list, const char *library, const char *name,
+                          ffd_error *error)
 {
-    return ffd_image_has_tiles(name) ? add_tiles(c, list, library, name, error)
-                                     : add_file(c, list, library, name, error);
+    return ffd_image_has_tiles(name) ? add_tiles(mesh, list, library, name, error)
+                                     : add_file(mesh, list, library, name, error);
 }
 
 /* Adds the maps of a library that may be copied. */
-static ffd_status add_maps(const resource_copier *c, resource_list *list, const mesh_resource *library,
+static ffd_status add_maps(const file_folder *mesh, resource_list *list, const mesh_resource *library,
                            ffd_error *error)
 {
     file_input bytes = {0};
     const char *left;
     ffd_error refused;
     intern_table names = {0};
-    TRY(ffd_resource_load(c, library, &bytes, &left, &refused, error));
+    TRY(ffd_resource_load(mesh, library, &bytes, &left, &refused, error));
     if (left || refused.status)
         return FFD_OK;
     ffd_status status = ffd_mtl_list_maps(bytes.data, bytes.size, library->path, &names, error);
     size_t tiled = 0;
     for (uint32_t i = 0; i < names.count && !status; i++) {
         tiled += ffd_image_has_tiles(ffd_intern_key(&names, i));
-        status = tiled <= TILED_MAX ? add_map(c, list, library->path, ffd_intern_key(&names, i), error)
+        status = tiled <= TILED_MAX ? add_map(mesh, list, library->path, ffd_intern_key(&names, i), error)
                                     : ffd_fail_file(error, FFD_E_LIMIT, library->path,
                                                     "names more than %d maps with tiles", TILED_MAX);
     }
@@ -73,14 +73,14 @@ static ffd_status add_maps(const resource_copier *c, resource_list *list, const 
 }
 
 /* Lists the libraries, and what they name (with_maps), in the order of their paths. */
-static ffd_status list_all(const resource_copier *c, const file_input *input, bool with_maps,
+static ffd_status list_all(const file_folder *mesh, const file_input *input, bool with_maps,
                            resource_list *list, ffd_error *error)
 {
     intern_table names = {0};
-    ffd_status status = ffd_obj_list_libraries(input, &c->mesh, &names, error);
+    ffd_status status = ffd_obj_list_libraries(input, mesh, &names, error);
     for (uint32_t i = 0; i < names.count && !status; i++) {
         char *path;
-        status = ffd_obj_find_path(&c->mesh, "", ffd_intern_key(&names, i), &path, error);
+        status = ffd_obj_find_path(mesh, "", ffd_intern_key(&names, i), &path, error);
         if (!status && path)
             status = ffd_resources_add(list, &ffd_resource_library, i, path, error);
     }
@@ -88,10 +88,10 @@ static ffd_status list_all(const resource_copier *c, const file_input *input, bo
     const size_t libraries = list->count;
     for (size_t i = 0; i < libraries && with_maps && !status; i++) {
         const mesh_resource library = list->resources[i]; /* the list moves as it grows */
-        status = add_maps(c, list, &library, error);
+        status = add_maps(mesh, list, &library, error);
         if (!status && list->count > OBJ_RESOURCES_MAX)
             status =
-                ffd_fail_file(error, FFD_E_LIMIT, c->mesh.file, "names more than %d maps", OBJ_RESOURCES_MAX);
+                ffd_fail_file(error, FFD_E_LIMIT, mesh->file, "names more than %d maps", OBJ_RESOURCES_MAX);
     }
     ffd_resources_sort(list);
     return status;
@@ -103,7 +103,7 @@ static ffd_status bring(const resource_copier *c, const file_input *input, const
 {
     const bool copies = options->resources == FFD_RESOURCES_COPY;
     resource_list list = {0};
-    ffd_status status = list_all(c, input, copies || is_stay, &list, error);
+    ffd_status status = list_all(&c->mesh, input, copies || is_stay, &list, error);
     if (!status)
         status = ffd_resources_bring(c, &list, copies, is_stay, options->path, error);
     ffd_resources_free(&list);
@@ -188,33 +188,22 @@ ffd_status ffd_obj_bring_resources(const file_input *input, const file_folder *f
     return status;
 }
 
-ffd_status ffd_obj_find_resources(const char *path, const file_input *bytes, path_list *files,
-                                  ffd_error *error)
-{
-    resource_list list = {0};
-    char *const from = ffd_path_folder(path);
-    const resource_copier copier = {.mesh = {.file = path}, .from = from};
-    ffd_status status = from ? FFD_OK : ffd_fail_memory(error);
-    if (!status)
-        status = list_all(&copier, bytes, true, &list, error);
-    for (size_t i = 0; i < list.count && !status; i++) {
-        char *const file = ffd_path_sibling(path, list.resources[i].path);
-        status = file ? FFD_OK : ffd_fail_memory(error);
-        if (!status && !ffd_path_leads_out(list.resources[i].path))
-            status = ffd_paths_add(files, file, error);
-        ffd_free(file);
-    }
-    ffd_resources_free(&list);
-    ffd_free(from);
-    return status;
-}
-
 ffd_status ffd_obj_find_named(const char *path, const file_input *bytes, const mesh_named *named,
                               ffd_error *error)
 {
-    const size_t before = named->files->count;
-    TRY(ffd_obj_find_resources(path, bytes, named->files, error));
-    for (size_t i = before; named->copies && i < named->files->count; i++)
-        TRY(ffd_paths_add(named->copies, named->files->paths[i], error));
-    return FFD_OK;
+    resource_list list = {0};
+    const file_folder mesh = {.file = path};
+    ffd_status status = list_all(&mesh, bytes, true, &list, error);
+    for (size_t i = 0; i < list.count && !status; i++) {
+        char *const file = ffd_path_sibling(path, list.resources[i].path);
+        const bool is_outside = ffd_path_leads_out(list.resources[i].path);
+        status = file ? FFD_OK : ffd_fail_memory(error);
+        if (!status && named->files && !is_outside)
+            status = ffd_paths_add(named->files, file, error);
+        if (!status && named->copies && !is_outside)
+            status = ffd_paths_add(named->copies, file, error);
+        ffd_free(file);
+    }
+    ffd_resources_free(&list);
+    return status;
 }

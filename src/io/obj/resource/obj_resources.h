@@ -3,7 +3,7 @@
 #ifndef FFD_IO_OBJ_RESOURCE_OBJ_RESOURCES_H
 #define FFD_IO_OBJ_RESOURCE_OBJ_RESOURCES_H
 
-#include "mesh/mesh.h"
+#include "mesh/linked_files.h"
 
 /* Copies the libraries and maps of the file at options->input, whose bytes are `input`, to the same places
    beside the output, or says which libraries the output does not reach (FFD_RESOURCES_REFERENCE). What cannot
@@ -15,9 +15,7 @@ ffd_status ffd_obj_bring_resources(const file_input *input, const file_folder *f
                                    const mesh_save_options *options, file_output *output, const mesh_log *log,
                                    ffd_error *error);
 
-/* mesh_format's find_resources. */
-mesh_find_resources_function ffd_obj_find_resources;
-/* mesh_format's find_named. */
+/* mesh_resource_calls' find_named. Only files in the folder of the mesh or below. */
 mesh_find_named_function ffd_obj_find_named;
 
 /* mesh_format's list_materials. The document begins with a file_document. Of several definitions of a name
