@@ -126,6 +126,7 @@ def _listed(jobs: Sequence[Any]) -> Callable[[int], bytes | None]:
 
 def _iterated(jobs: Any) -> Callable[[int], bytes | None]:
     def following(index: int) -> bytes | None:
+        """The line of the next job; None: there are no more."""
         for job in jobs:
             return _line(job)
         return None
