@@ -128,7 +128,7 @@ static void select_group(mesh_document *document)
 {
     static const mesh_selector selector = {SELECT_GROUP, "default", sizeof "default" - 1};
     ffd_error error = {0};
-    if (document->format->selectors->kinds & SELECTOR_BIT(SELECT_GROUP))
+    if (document->format->selectors && document->format->selectors->kinds & SELECTOR_BIT(SELECT_GROUP))
         (void)document->format->selectors->select(document, &selector, 1, &error);
 }
 
