@@ -307,7 +307,7 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
     pool.wishes.depfile = run->depfile != NULL;
     pool.wishes.records = run->journal != NULL;
     pool.box = desc->given->shared_box ? &run->box : NULL;
-    pool.wishes.tells = run->files.comes_once;
+    pool.wishes.reports_empty_scan = run->files.comes_once;
     pool.origin = status ? NULL : ffd_jobs_name(run->source);
     return status ? status : ffd_pool_create(&pool, &run->pool, error);
 }

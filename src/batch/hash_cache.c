@@ -202,7 +202,7 @@ static ffd_status scan_bytes(hash_cache *cache, const char *path, const file_sta
     if (status)
         return status;
     if (table->sidecars)
-        scan->beside = table->sidecars->count(&bytes, from, to);
+        scan->sidecars = table->sidecars->count(&bytes, from, to);
     /* A GLB that is made of a .gltf holds its images. */
     const bool copies = from != FFD_FORMAT_GLTF || to != FFD_FORMAT_GLB;
     const mesh_named found = {.files = &scan->named, .copies = copies ? &scan->copied : NULL};
@@ -216,12 +216,12 @@ static ffd_status scan_bytes(hash_cache *cache, const char *path, const file_sta
     return status;
 }
 
-ffd_status ffd_hash_cache_scan(hash_cache *cache, const ffd_source *source, ffd_format to, size_t *beside,
+ffd_status ffd_hash_cache_scan(hash_cache *cache, const ffd_source *source, ffd_format to, size_t *sidecars,
                                path_list *named, path_list *copied, ffd_error *error)
 {
     ffd_format from;
     file_stamp stamp;
-    *beside = 0;
+    *sidecars = 0;
     ffd_status status = ffd_source_format(source, &from, error);
     if (!status && !ffd_format_table(from)->sidecars) {
         TRY(ffd_hash_cache_images(cache, source, copied, error));
@@ -233,7 +233,7 @@ ffd_status ffd_hash_cache_scan(hash_cache *cache, const ffd_source *source, ffd_
         status = scan_bytes(cache, source->path, &stamp, from, to, error);
     if (status)
         return status;
-    *beside = cache->scan.beside;
+    *sidecars = cache->scan.sidecars;
     TRY(copy_list(&cache->scan.named, named, error));
     return copy_list(&cache->scan.copied, copied, error);
 }

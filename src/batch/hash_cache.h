@@ -31,7 +31,7 @@ typedef struct cached_scan {
     char *path; /* NULL: none */
     file_stamp stamp;
     ffd_format from, to;
-    size_t beside;
+    size_t sidecars;
     path_list named, copied;
 } cached_scan;
 
@@ -54,9 +54,9 @@ ffd_status ffd_hash_cache_list(hash_cache *cache, const ffd_source *source, path
 ffd_status ffd_hash_cache_images(hash_cache *cache, const ffd_source *source, path_list *images,
                                  ffd_error *error);
 /* Finds the files that a mesh names, which are added to `named`, and to `copied` those that may be copied
-   with it; and what saving it in its own format, as `to`, writes beside it: *beside is the number of other
+   with it; and what saving it in its own format, as `to`, writes beside it: *sidecars is the number of other
    files. Errors: those of reading. */
-ffd_status ffd_hash_cache_scan(hash_cache *cache, const ffd_source *source, ffd_format to, size_t *beside,
+ffd_status ffd_hash_cache_scan(hash_cache *cache, const ffd_source *source, ffd_format to, size_t *sidecars,
                                path_list *named, path_list *copied, ffd_error *error);
 /* Adds the files that a mesh names; none if it cannot be read. Errors: FFD_E_MEMORY. */
 ffd_status ffd_hash_cache_list_named(const ffd_source *source, path_list *named, ffd_error *error);

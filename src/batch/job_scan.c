@@ -57,12 +57,12 @@ static ffd_status survey(byte_buffer *found, const ffd_deform_desc *desc, ffd_er
     return status;
 }
 
-/* Adds the files that the mesh names. *beside: the number of those beside the output. */
+/* Adds the files that the mesh names. *sidecars: the number of those beside the output. */
 static ffd_status scan_mesh(hash_cache *hashes, byte_buffer *found, const ffd_deform_desc *desc,
-                            size_t *beside, ffd_error *error)
+                            size_t *sidecars, ffd_error *error)
 {
     path_list named = {0}, copies = {0};
-    const ffd_status status = ffd_hash_cache_scan(hashes, &desc->input, ffd_job_output_format(desc), beside,
+    const ffd_status status = ffd_hash_cache_scan(hashes, &desc->input, ffd_job_output_format(desc), sidecars,
                                                   &named, &copies, error);
     if (!status) {
         ffd_scan_add_all(found, SCAN_NAMED, &named);
@@ -76,17 +76,17 @@ static ffd_status scan_mesh(hash_cache *hashes, byte_buffer *found, const ffd_de
 ffd_status ffd_job_scan(hash_cache *hashes, const wire_task *task, const ffd_deform_desc *desc,
                         byte_buffer *found, wire_answer *answer, ffd_error *error)
 {
-    size_t beside = 0;
+    size_t sidecars = 0;
     bool has_boxes = false;
-    ffd_status status = task->order.needs.mesh ? scan_mesh(hashes, found, desc, &beside, error) : FFD_OK;
+    ffd_status status = task->order.needs.mesh ? scan_mesh(hashes, found, desc, &sidecars, error) : FFD_OK;
     const bool has_names = found->size > 0;
     if (!status && task->order.needs.lattices)
         status = scan_lattices(hashes, found, desc, &has_boxes, error);
     if (!status && task->order.surveys)
         status = survey(found, desc, error);
-    answer->end.beside = beside;
+    answer->end.sidecars = sidecars;
     answer->scanned =
-        !status && (beside > 0 || has_names || has_boxes || task->order.only_scans || task->order.surveys);
+        !status && (sidecars > 0 || has_names || has_boxes || task->order.only_scans || task->order.surveys);
     if (!answer->scanned)
         found->size = 0;
     return status;

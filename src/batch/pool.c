@@ -297,7 +297,7 @@ static void take_scan(pool_worker *worker, const wire_answer *head, const char *
 {
     pool_task *const task = worker->task;
     ffd_buffer_append(&task->found, found, head->rule_size);
-    task->end.beside = (size_t)head->end.beside;
+    task->end.sidecars = (size_t)head->end.sidecars;
     task->has_scanned = true;
     task->was_returned = false;
     worker->retires = head->retires;

@@ -74,7 +74,7 @@ static ffd_status claim_others(batch_run *run, pool_task *task, ffd_error *error
     job_kind kind = ffd_job_kind(job);
     ffd_status status = FFD_OK;
     if (task->has_scanned)
-        status = ffd_reads_learn(&run->files, job, &kind, task->order.needs.mesh, task->end.beside,
+        status = ffd_reads_learn(&run->files, job, &kind, task->order.needs.mesh, task->end.sidecars,
                                  &task->found, error);
     ffd_buffer_free(&task->found);
     task->has_scanned = false;

@@ -21,19 +21,19 @@ typedef struct job_record {
 
 /* What all tasks of a pool ask for. */
 typedef struct task_wishes {
-    bool records; /* make a record (task_end) */
-    bool resume;  /* keep outputs that are up to date, replace others */
-    bool dry;     /* dry run: write nothing */
-    bool depfile; /* make the depfile rule */
-    bool report;  /* make the report entry, */
-    bool quality; /* with figures of quality, */
-    bool stable;  /* without times */
-    bool quiet;   /* log no warnings */
-    bool verbose; /* log details too */
-    bool measure; /* only measure the mesh's box, and list its files if depfile is set */
-    bool count;   /* only count the mesh's vertices */
-    bool result;  /* answer with the result of the job */
-    bool tells;   /* tell at once that a scan has found nothing */
+    bool records;            /* make a record (task_end) */
+    bool resume;             /* keep outputs that are up to date, replace others */
+    bool dry;                /* dry run: write nothing */
+    bool depfile;            /* make the depfile rule */
+    bool report;             /* make the report entry, */
+    bool quality;            /* with figures of quality, */
+    bool stable;             /* without times */
+    bool quiet;              /* log no warnings */
+    bool verbose;            /* log details too */
+    bool measure;            /* only measure the mesh's box, and list its files if depfile is set */
+    bool count;              /* only count the mesh's vertices */
+    bool result;             /* answer with the result of the job */
+    bool reports_empty_scan; /* tell at once that a scan has found nothing */
 } task_wishes;
 
 /* What one task asks for besides. */
@@ -59,7 +59,7 @@ typedef struct task_end {
     cache_counts counts; /* of this job */
     shown_box box;       /* of a measured mesh */
     uint64_t vertices;   /* if only vertices were counted */
-    uint64_t beside;     /* after a scan: number of files beside the output */
+    uint64_t sidecars;   /* after a scan: number of files beside the output */
     bool has_record, has_drawn, has_state;
     bool dry_run_done; /* dry run: everything except writing was done */
     bool has_picture;  /* it exists and shows this job */

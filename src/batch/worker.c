@@ -381,7 +381,7 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const cha
         status = ffd_job_scan(&worker->hashes, task, desc, &worker->rule, answer, &result->error);
     if (status || answer->scanned)
         return status;
-    if (task->order.scans && task->wishes.tells)
+    if (task->order.scans && task->wishes.reports_empty_scan)
         status = send_nothing_found(&result->error);
     if (status)
         return status;

@@ -68,7 +68,7 @@ static bool displace(const ffd_lattice *lattice, const double uvw[3], bool inver
         return displace_rational(lattice, uvw, delta, by_uvw, jacobian);
     ffd_displacement_wrap(lattice, uvw, inside);
     for (int a = 0; a < 3; a++)
-        index[a] = ffd_knots_span_number(&lattice->knots[a], inside[a]);
+        index[a] = ffd_knots_span_index(&lattice->knots[a], inside[a]);
     const cell_motion motion =
         ffd_displacement_cell_points(lattice, ffd_extraction_kernel_scalar, index, use, numbers);
     if (motion.kind == CELL_STILL)

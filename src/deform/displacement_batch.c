@@ -53,7 +53,7 @@ static size_t find_cell(const ffd_lattice *lattice, const double uvw[3], displac
     const knot_vector *const knots = lattice->knots;
     for (int a = 0; a < 3; a++)
         if (!span_holds(&cell[a], uvw[a])) {
-            const size_t index = ffd_knots_span_number(&knots[a], ffd_knots_wrap(&knots[a], uvw[a]));
+            const size_t index = ffd_knots_span_index(&knots[a], ffd_knots_wrap(&knots[a], uvw[a]));
             const double *const span = knots[a].t + knots[a].spans[index];
             cell[a] = (span_range){index, span[0], span[1]};
         }

@@ -330,56 +330,61 @@ static bool warns_if_still(const deform_job *job)
     return !job->check || job->details;
 }
 
-ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error *error)
+/* From the open mesh to figures that are judged. stored is freed as soon as it is not needed. */
+static ffd_status pass_and_judge(deform_job *job, figure_arrays *arrays, figure_arrays *stored,
+                                 ffd_job_result *result, ffd_error *error)
 {
-    figure_arrays arrays = {0}, stored = {0};
     const double start = ffd_clock_seconds();
-    ffd_status status = prepare(job, &arrays, &stored, error);
+    const ffd_status ready = prepare(job, arrays, stored, error);
     const double prepared = ffd_clock_seconds();
     result->seconds.read += prepared - start;
-    if (!status)
-        status = ffd_deadline_check(error);
-    if (!status)
-        status = locate(job, error);
-    if (!status)
-        status = ffd_tear_figures_prepare(job, &arrays, error);
-    if (!status)
-        status = move_rig(job, error);
-    if (!status)
-        status = ffd_deform_passes(job, &arrays, &stored, error);
-    ffd_figures_free(&stored);
-    if (!status) {
-        ffd_result_fill(result, &job->totals, ffd_clock_seconds() - prepared);
-        status = find_left(job, result, error);
-    }
-    if (!status)
-        status = judge(job, &arrays, result, error);
-    if (!status)
-        status = ffd_deadline_check(error);
-    status = ffd_mapping_judge(job->losses, status, error);
-    if (!status)
-        ffd_flaws_warn(&job->document->flaws, NULL, &job->file_log);
-    if (!status)
-        status = ffd_overlaps_warn(&job->chain, &job->log, error);
-    if (!status)
-        ffd_result_warn(&job->totals, &job->chain, true, &job->log);
-    if (!status && warns_if_still(job))
+    TRY(ready);
+    TRY(ffd_deadline_check(error));
+    TRY(locate(job, error));
+    TRY(ffd_tear_figures_prepare(job, arrays, error));
+    TRY(move_rig(job, error));
+    const ffd_status passed = ffd_deform_passes(job, arrays, stored, error);
+    ffd_figures_free(stored);
+    TRY(passed);
+    ffd_result_fill(result, &job->totals, ffd_clock_seconds() - prepared);
+    TRY(find_left(job, result, error));
+    TRY(judge(job, arrays, result, error));
+    return ffd_deadline_check(error);
+}
+
+/* Says what the figures of a job that has passed mean for its user. */
+static ffd_status warn(const deform_job *job, const ffd_job_result *result, ffd_error *error)
+{
+    ffd_flaws_warn(&job->document->flaws, NULL, &job->file_log);
+    TRY(ffd_overlaps_warn(&job->chain, &job->log, error));
+    ffd_result_warn(&job->totals, &job->chain, true, &job->log);
+    if (warns_if_still(job))
         ffd_still_warn(&job->totals, &job->chain, &result->bounds.before, job->desc->as_morph != NULL,
                        !job->check, &job->log);
-    if (!status)
-        warn_of_left(job, result);
-    if (!status && job->totals.vertices == 0)
+    warn_of_left(job, result);
+    if (job->totals.vertices == 0)
         ffd_log_line(&job->file_log, FFD_LOG_WARNING, "%s",
                      job->desc->only_count ? SPELLED("{only} selects no vertices")
                                            : "there are no vertices to deform");
-    if (!status && !job->check) {
+    if (!job->check) {
         ffd_folds_warn(result, &job->totals, job->desc->lattices, &job->log);
         ffd_tears_warn(result, job->desc->only_count > 0, &job->log);
     }
+    return FFD_OK;
+}
+
+ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error *error)
+{
+    figure_arrays arrays = {0}, stored = {0};
+    ffd_status status = pass_and_judge(job, &arrays, &stored, result, error);
+    status = ffd_mapping_judge(job->losses, status, error);
+    if (!status)
+        status = warn(job, result, error);
     if (!status)
         status = give_positions(job, error);
     if (job->details)
         keep_arrays(&arrays, job->details, &job->document->budget);
+    ffd_figures_free(&stored);
     ffd_figures_free(&arrays);
     ffd_rig_places_free(&job->rig);
     ffd_free(job->kept);

@@ -128,36 +128,36 @@ static bool is_near(const double offset[3])
     return vec_dot(offset, offset) <= 1;
 }
 
-static bool is_at(const find_slot *look, size_t place_in_order)
+static bool is_at(const find_slot *search, size_t place_in_order)
 {
-    const double *const p = look->tree->points + 3 * (size_t)look->tree->order[place_in_order];
+    const double *const p = search->tree->points + 3 * (size_t)search->tree->order[place_in_order];
     double offset[3];
     for (int c = 0; c < 3; c++)
-        offset[c] = (p[c] - look->place[c]) / look->tolerance;
+        offset[c] = (p[c] - search->place[c]) / search->tolerance;
     return is_near(offset);
 }
 
-static bool find_in(find_slot *look, size_t begin, size_t end)
+static bool find_in(find_slot *search, size_t begin, size_t end)
 {
     const size_t middle = begin + (end - begin) / 2;
     if (end - begin <= LEAF) {
         for (size_t i = begin; i < end; i++)
-            if (is_at(look, i))
+            if (is_at(search, i))
                 return true;
         return false;
     }
-    const int c = look->tree->split[middle];
+    const int c = search->tree->split[middle];
     if (c == ONE_PLACE)
-        return is_at(look, begin);
-    const double *const p = look->tree->points + 3 * (size_t)look->tree->order[middle];
-    const double from_split = (look->place[c] - p[c]) / look->tolerance, kept = look->offset[c];
+        return is_at(search, begin);
+    const double *const p = search->tree->points + 3 * (size_t)search->tree->order[middle];
+    const double from_split = (search->place[c] - p[c]) / search->tolerance, kept = search->offset[c];
     const bool before = from_split < 0;
-    if (is_at(look, middle) || (before ? find_in(look, begin, middle) : find_in(look, middle + 1, end)))
+    if (is_at(search, middle) || (before ? find_in(search, begin, middle) : find_in(search, middle + 1, end)))
         return true;
-    look->offset[c] = larger_of(kept, fabs(from_split));
-    const bool found =
-        is_near(look->offset) && (before ? find_in(look, middle + 1, end) : find_in(look, begin, middle));
-    look->offset[c] = kept;
+    search->offset[c] = larger_of(kept, fabs(from_split));
+    const bool found = is_near(search->offset) &&
+                       (before ? find_in(search, middle + 1, end) : find_in(search, begin, middle));
+    search->offset[c] = kept;
     return found;
 }
 
@@ -165,8 +165,8 @@ static bool has_image(const mirror_tree *tree, const mirror_plane *plane, size_t
 {
     double image[3];
     ffd_mirror_point(plane, tree->points + 3 * point, image);
-    find_slot look = {.tree = tree, .place = image, .tolerance = plane->tolerance};
-    return find_in(&look, 0, tree->count);
+    find_slot search = {.tree = tree, .place = image, .tolerance = plane->tolerance};
+    return find_in(&search, 0, tree->count);
 }
 
 ffd_status ffd_mirror_select(const ffd_lattice *lattice, const mirror_plane *plane, mirror_tree *all,

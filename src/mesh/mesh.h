@@ -124,7 +124,7 @@ typedef struct mesh_faces {
 } mesh_faces;
 
 /* Returns the number in the document of a vertex of faces. */
-static inline uint32_t ffd_faces_number(const mesh_faces *faces, uint32_t vertex)
+static inline uint32_t ffd_faces_document_vertex(const mesh_faces *faces, uint32_t vertex)
 {
     return faces->numbers ? faces->numbers[vertex] : vertex;
 }

@@ -103,7 +103,7 @@ ffd_status ffd_model_begin_run(mesh_model *model, const char *object, const char
     if (!find_name(model, object, &run.object) || !find_name(model, group, &run.group) ||
         !find_name(model, material, &run.material))
         return ffd_fail_memory(error);
-    run.material_number = MODEL_NONE;
+    run.material_index = MODEL_NONE;
     const model_run *last = model->run_count ? &model->runs[model->run_count - 1] : NULL;
     if (last && last->object == run.object && last->group == run.group && last->material == run.material)
         return FFD_OK;
@@ -113,9 +113,9 @@ ffd_status ffd_model_begin_run(mesh_model *model, const char *object, const char
 ffd_status ffd_model_number_material(mesh_model *model, uint32_t index, ffd_error *error)
 {
     model_run run = model->runs[model->run_count - 1];
-    if (run.material_number == index)
+    if (run.material_index == index)
         return FFD_OK;
-    run.material_number = index;
+    run.material_index = index;
     return add_run(model, run, error);
 }
 

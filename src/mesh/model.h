@@ -42,7 +42,7 @@ typedef struct model_list {
 typedef struct model_run {
     uint32_t object, group, material;
     size_t first[MODEL_KINDS];
-    uint32_t material_number; /* index in the list of the format's materials; MODEL_NONE: identified by its
+    uint32_t material_index; /* index in the list of the format's materials; MODEL_NONE: identified by its
                                  name. Only if wants_details. */
 } model_run;
 

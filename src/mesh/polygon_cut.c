@@ -15,7 +15,7 @@
 /* The budget of visited corners and nodes for finding ears, more than any reasonable polygon needs. */
 #define LOOKS_FIRST ((uint64_t)1 << 20)
 #define LOOKS_PER_CORNER 4096
-#define MOST_LOOKS ((uint64_t)1 << 29)
+#define MOST_TESTS ((uint64_t)1 << 29)
 
 /* The requirements for an ear, from strict to none. They are relaxed by one step when a whole round has found
    no ear. */
@@ -229,13 +229,13 @@ static bool is_clear_of(const polygon_cutter *cutter, const cut_node *node, cons
     return false;
 }
 
-static bool is_obstructed(const polygon_cutter *cutter, const uint32_t abc[3], int demand, uint64_t *looks)
+static bool is_obstructed(const polygon_cutter *cutter, const uint32_t abc[3], int demand, uint64_t *tests)
 {
     size_t stack[64] = {1}, depth = 1;
     while (depth > 0) {
         const size_t n = stack[--depth];
         const cut_node *const node = &cutter->nodes[n];
-        ++*looks;
+        ++*tests;
         if (node->reflex_count == 0 || (cutter->has_boxes && is_clear_of(cutter, node, abc)))
             continue;
         if (n < cutter->leaves) {
@@ -251,22 +251,22 @@ static bool is_obstructed(const polygon_cutter *cutter, const uint32_t abc[3], i
             if (obstructs(cutter, p, abc, demand))
                 return true;
             left--;
-            ++*looks;
+            ++*tests;
         }
     }
     return false;
 }
 
-static bool is_ear(const polygon_cutter *cutter, uint32_t i, int demand, uint64_t *looks)
+static bool is_ear(const polygon_cutter *cutter, uint32_t i, int demand, uint64_t *tests)
 {
     const uint32_t abc[3] = {cutter->corners[i].previous, i, cutter->corners[i].next};
-    ++*looks;
+    ++*tests;
     if (demand == EAR_ANY)
         return true;
     const double own = area(cutter, abc[0], abc[1], abc[2]);
     if (demand == EAR_FLAT ? !(own >= 0) : !(own > 0))
         return false;
-    return demand == EAR_FLAT || !is_obstructed(cutter, abc, demand, looks);
+    return demand == EAR_FLAT || !is_obstructed(cutter, abc, demand, tests);
 }
 
 static void unlink_corner(polygon_cutter *cutter, uint32_t i)
@@ -282,12 +282,12 @@ static void unlink_corner(polygon_cutter *cutter, uint32_t i)
 static void cut_ears(polygon_cutter *cutter, uint32_t count, uint32_t *triangles)
 {
     const uint64_t wanted = LOOKS_FIRST + (uint64_t)count * LOOKS_PER_CORNER;
-    const uint64_t most_scans = wanted < MOST_LOOKS ? wanted : MOST_LOOKS;
-    uint64_t looks = 0;
+    const uint64_t most_tests = wanted < MOST_TESTS ? wanted : MOST_TESTS;
+    uint64_t tests = 0;
     uint32_t i = 0, left = count, tried = 0;
     int demand = EAR_CLEAR;
     while (left > 2) {
-        if (is_ear(cutter, i, looks > most_scans ? EAR_ANY : demand, &looks)) {
+        if (is_ear(cutter, i, tests > most_tests ? EAR_ANY : demand, &tests)) {
             *triangles++ = cutter->corners[i].previous;
             *triangles++ = i;
             *triangles++ = cutter->corners[i].next;
@@ -301,7 +301,7 @@ static void cut_ears(polygon_cutter *cutter, uint32_t count, uint32_t *triangles
         }
         i = cutter->corners[i].next; /* `next` of a corner that was just cut off is still valid */
     }
-    if (looks > most_scans)
+    if (tests > most_tests)
         cutter->hurried++;
 }
 

@@ -46,7 +46,7 @@ static size_t cell_of(const ffd_lattice *lattice, const double uvw[3])
     size_t span[3];
     for (int a = 0; a < 3; a++) {
         const knot_vector *const knots = &lattice->knots[a];
-        span[a] = ffd_knots_span_number(knots, ffd_knots_wrap(knots, uvw[a]));
+        span[a] = ffd_knots_span_index(knots, ffd_knots_wrap(knots, uvw[a]));
     }
     return (span[2] * lattice->knots[1].span_count + span[1]) * lattice->knots[0].span_count + span[0];
 }

@@ -51,7 +51,7 @@ static void report_progress(point_run *run, size_t done, int worker)
 {
     if (worker != 0 || !run->run.progress)
         return;
-    run->told = true;
+    run->reported = true;
     if (!run->run.progress(run->run.user, (double)done / ((double)run->passes * (double)run->total))) {
         run->statuses[0] = run->statuses[0] ? run->statuses[0] : FFD_E_CANCELLED;
         atomic_store(&run->stopped, true);
@@ -81,7 +81,7 @@ ffd_status ffd_point_run_tiles(point_run *run, point_function function, void *co
     int first = -1;
     ffd_parallel_tiles(run->total, POINT_TILE, run->run.threads, run_tile, &work);
     /* Other threads may have done all tiles; the caller gets a chance to cancel all the same. */
-    if (run->total > 0 && !run->told && !atomic_load(&run->stopped))
+    if (run->total > 0 && !run->reported && !atomic_load(&run->stopped))
         report_progress(run, run->total, 0);
     for (int i = 0; i < run->run.threads; i++)
         if (run->statuses[i] && (first < 0 || run->tiles[i] < run->tiles[first]))

@@ -16,7 +16,7 @@ typedef struct point_run {
     size_t passes; /* over all points; default 1 */
     atomic_size_t done;
     atomic_bool stopped;  /* a failure, or the caller cancelled: skip the remaining tiles */
-    bool told;            /* progress was reported at least once */
+    bool reported;        /* progress was reported at least once */
     ffd_status *statuses; /* for each thread: its first failure */
     ffd_error *errors;    /* for each thread */
     size_t *tiles;        /* for each thread: the tile that failed */

@@ -316,7 +316,7 @@ static bool begins_up_to(const void *span, const void *place)
     return p->u >= p->t[*(const int *)span];
 }
 
-size_t ffd_knots_span_number(const knot_vector *knots, double u)
+size_t ffd_knots_span_index(const knot_vector *knots, double u)
 {
     const size_t count = knots->span_count;
     const knot_place place = {knots->t, u};
@@ -333,7 +333,7 @@ size_t ffd_knots_span_number(const knot_vector *knots, double u)
 
 int ffd_knots_span(const knot_vector *knots, double u)
 {
-    return knots->spans[ffd_knots_span_number(knots, u)];
+    return knots->spans[ffd_knots_span_index(knots, u)];
 }
 
 double ffd_knots_greville(const knot_vector *knots, size_t function)

@@ -31,7 +31,7 @@ static inline double ffd_knots_wrap(const knot_vector *knots, double u)
    (NURBS Book A2.1). */
 int ffd_knots_span(const knot_vector *knots, double u);
 /* Returns the index of that span among the non-empty ones. */
-size_t ffd_knots_span_number(const knot_vector *knots, double u);
+size_t ffd_knots_span_index(const knot_vector *knots, double u);
 
 /* Returns the Greville abscissa g_i = (t_{i+1} + ... + t_{i+d})/d of function i. */
 double ffd_knots_greville(const knot_vector *knots, size_t function);

@@ -183,24 +183,24 @@ static double condition_of(const mesh_part *part)
     return norm_of(part->linear) * norm_of(part->inverse);
 }
 
-static void check_part(const trial *of, const mesh_document *document, size_t part_number,
+static void check_part(const trial *of, const mesh_document *document, size_t part_index,
                        const double *expected)
 {
     const double quantum = of->is_quantized ? QUANTUM : 0;
-    const mesh_part *const part = &document->parts[part_number];
+    const mesh_part *const part = &document->parts[part_index];
     const double condition = condition_of(part);
     const double size = part->identity ? 1 : norm_of(part->linear);
     const double offset = part->identity ? 0 : vec_length(part->offset);
     for (size_t v = 0; v < part->vertex_count && condition < WORST_CONDITION; v++) {
         double p[3], placed[3];
-        document->format->read(document, part_number, MESH_POSITIONS, MESH_STORED, v, 1, p);
+        document->format->read(document, part_index, MESH_POSITIONS, MESH_STORED, v, 1, p);
         memcpy(placed, p, sizeof p);
-        ffd_part_transform(document, part_number, v, 1, placed);
+        ffd_part_transform(document, part_index, v, 1, placed);
         const double error =
             condition * (POSITION_ERROR * (size * vec_length(p) + offset + 1) + quantum * size);
         for (size_t a = 0; a < 3; a++)
             PROMISE(!(fabs(placed[a] - expected[3 * v + a]) > error),
-                    "vertex %zu of part %zu has %c %.17g, not %.17g", v, part_number, "xyz"[a], placed[a],
+                    "vertex %zu of part %zu has %c %.17g, not %.17g", v, part_index, "xyz"[a], placed[a],
                     expected[3 * v + a]);
     }
 }

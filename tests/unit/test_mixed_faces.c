@@ -45,7 +45,7 @@ static void assert_same_face(const mesh_faces *all, size_t face, const mesh_face
     assert_int_equal(mixed->start[found + 1] - mixed->start[found], count);
     for (size_t c = 0; c < count; c++) {
         if (is_marked(marks, a[c]))
-            assert_int_equal(ffd_faces_number(mixed, b[c]), a[c]);
+            assert_int_equal(ffd_faces_document_vertex(mixed, b[c]), a[c]);
         for (size_t i = 0; i < 3; i++)
             assert_true(mixed->positions[3 * b[c] + i] == all->positions[3 * a[c] + i]); /* also 0 and -0 */
     }

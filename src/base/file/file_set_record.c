@@ -23,7 +23,7 @@ static const char first_line[] = "ffd-set 1\n", last_line[] = "end\n";
 /* The largest record in bytes: a set has at most one file for each image of a model. */
 #define LARGEST ((size_t)1 << 26)
 /* How often a lock is tried, at intervals of a millisecond. */
-#define MOST_LOOKS 1000
+#define MOST_ATTEMPTS 1000
 
 static const char strange[] = "is not the record of a run, though it has the name of one: remove it";
 static const char busy[] = "the files beside this are being written by another run";
@@ -116,9 +116,9 @@ static ffd_status refuse(const set_record *record, const char *why, ffd_error *e
    entries. The file is then created again. */
 static ffd_status make_file(set_record *record, ffd_error *error)
 {
-    for (int look = 0;; look++) {
+    for (int attempt = 0;; attempt++) {
         record->fd = open(record->path, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
-        const bool is_there = record->fd < 0 && errno == EEXIST && look > 0;
+        const bool is_there = record->fd < 0 && errno == EEXIST && attempt > 0;
         if (record->fd < 0 && !is_there)
             return ffd_fail_errno(error, record->path, "cannot be written");
         const int locked = is_there ? 0 : ffd_lock_named(record->fd, record->path);
@@ -132,7 +132,7 @@ static ffd_status make_file(set_record *record, ffd_error *error)
         if (record->fd >= 0)
             close(record->fd);
         record->fd = -1;
-        if (look == MOST_LOOKS)
+        if (attempt == MOST_ATTEMPTS)
             return refuse(record, busy, error);
         ffd_clock_sleep(0.001);
     }
@@ -287,7 +287,7 @@ static ffd_status explain(const set_record *record, ffd_error *error)
 /* Opens and locks the record. Success without a descriptor: there is none. */
 static ffd_status open_locked(set_record *record, ffd_error *error)
 {
-    for (int look = 0;; look++) {
+    for (int attempt = 0;; attempt++) {
         record->fd = open(record->path, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
         if (record->fd < 0)
             return explain(record, error);
@@ -298,7 +298,7 @@ static ffd_status open_locked(set_record *record, ffd_error *error)
         close(record->fd);
         record->fd = -1;
         errno = reason;
-        if (locked < 0 && (errno != EBUSY || look >= MOST_LOOKS))
+        if (locked < 0 && (errno != EBUSY || attempt >= MOST_ATTEMPTS))
             return errno == EBUSY ? refuse(record, busy, error)
                                   : ffd_fail_errno(error, record->path, "cannot be locked");
         if (locked < 0)

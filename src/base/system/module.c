@@ -79,9 +79,9 @@ static ffd_status open_module(const module *of, const module_head **head, ffd_er
                         of->what, path);
     void *const handle = dlopen(path, RTLD_NOW | RTLD_LOCAL | binding_of(of->wanted.file));
     if (!handle) {
-        const char *const said = dlerror();
+        const char *const reason = dlerror();
         return ffd_fail(error, FFD_E_UNSUPPORTED, "the module for %s cannot be loaded: %s%s", of->what,
-                        said ? said : "no reason is given",
+                        reason ? reason : "no reason is given",
                         is_known ? "" : "; the folder of ffd is not known, or its path is too long");
     }
     *head = dlsym(handle, MODULE_SYMBOL);

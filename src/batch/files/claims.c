@@ -91,7 +91,7 @@ static size_t count_sidecars(const run_files *files, const job_kind *kind)
 {
     if (!kind->has_sidecars || !kind->is_kept)
         return ffd_job_count_sidecars(kind);
-    return kind->is_scanned ? files->scan.beside : 0;
+    return kind->is_scanned ? files->scan.sidecars : 0;
 }
 
 bool ffd_claims_need_survey(run_files *files, const batch_job *job, const job_kind *kind)
@@ -261,14 +261,14 @@ static ffd_status claim_sidecar(run_files *files, batch_job *job, const job_kind
 ffd_status ffd_claims_others(run_files *files, batch_job *job, const job_kind *kind, byte_buffer *passed,
                              ffd_error *error)
 {
-    const size_t beside = count_sidecars(files, kind);
+    const size_t sidecars = count_sidecars(files, kind);
     const size_t copies = kind->is_scanned && ffd_job_has_copies(job, kind) ? files->scan.copies.count : 0;
     ffd_status status = FFD_OK;
     ffd_reads_check_boxes(files, job);
     if (kind->is_scanned && !job->error.status)
         ffd_reads_check_named(files, job);
-    if (beside > 0 && !job->error.status)
-        status = claim_sidecar(files, job, kind, beside, passed, error);
+    if (sidecars > 0 && !job->error.status)
+        status = claim_sidecar(files, job, kind, sidecars, passed, error);
     for (size_t i = 0; i < copies && !status && !job->error.status; i++)
         status = claim_copy(files, job, files->scan.copies.paths[i], error);
     return status;

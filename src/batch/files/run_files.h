@@ -29,7 +29,7 @@ typedef struct mesh_scan {
     char *input; /* path of the mesh; NULL: none */
     ffd_format from, to;
     file_stamp stamp;
-    size_t beside;            /* number of files beside the output */
+    size_t sidecars;          /* number of files beside the output */
     path_list named, copies;  /* copies: those that may be copied with the output */
     read_conflicts conflicts; /* of named */
 } mesh_scan;

@@ -157,13 +157,13 @@ void ffd_reads_check_named(const run_files *files, batch_job *job)
                             &files->scan.conflicts);
 }
 
-static void begin_scan(run_files *files, const job_kind *kind, size_t beside)
+static void begin_scan(run_files *files, const job_kind *kind, size_t sidecars)
 {
     mesh_scan *const scan = &files->scan;
     ffd_free(scan->input);
     ffd_paths_free(&scan->named);
     ffd_paths_free(&scan->copies);
-    *scan = (mesh_scan){.from = kind->from, .to = kind->to, .beside = beside};
+    *scan = (mesh_scan){.from = kind->from, .to = kind->to, .sidecars = sidecars};
     if (ffd_file_stamp(kind->input, &scan->stamp))
         scan->input = ffd_text_copy(kind->input);
 }
@@ -207,14 +207,14 @@ static ffd_status take(finding *f, scan_kind kind, const char *path, ffd_error *
 }
 
 ffd_status ffd_reads_learn(run_files *files, const batch_job *job, const job_kind *kind, bool of_mesh,
-                           size_t beside, const byte_buffer *found, ffd_error *error)
+                           size_t sidecars, const byte_buffer *found, ffd_error *error)
 {
     finding f = {.files = files, .job = job};
     size_t at = 0;
     scan_kind entry;
     ffd_status status = FFD_OK;
     if (of_mesh)
-        begin_scan(files, kind, beside);
+        begin_scan(files, kind, sidecars);
     for (const char *path = ffd_scan_next(found, &at, &entry); path && !status;
          path = ffd_scan_next(found, &at, &entry))
         status = take(&f, entry, path, error);

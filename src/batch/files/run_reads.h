@@ -23,7 +23,7 @@ void ffd_reads_check_named(const run_files *files, batch_job *job);
 /* Stores what a worker has found for a job (scan.h). of_mesh: it has scanned the mesh; beside: the number
    of files beside the output. Errors: FFD_E_MEMORY. */
 ffd_status ffd_reads_learn(run_files *files, const batch_job *job, const job_kind *kind, bool of_mesh,
-                           size_t beside, const byte_buffer *found, ffd_error *error);
+                           size_t sidecars, const byte_buffer *found, ffd_error *error);
 /* Stores that a worker has found nothing: the mesh names no files, its output has none beside it, and no
    lattice has a box round meshes. Errors: FFD_E_MEMORY. */
 ffd_status ffd_reads_learn_nothing(run_files *files, const batch_job *job, bool of_mesh, ffd_error *error);

@@ -224,11 +224,11 @@ static bool seems_empty(point_search *search, const cell_region *region, const d
    another point is within the tolerance in all three. */
 static bool find_sidecar(point_search *search, const cell_region *region, const double t[3])
 {
-    double beside[3] = {t[0], t[1], t[2]};
+    double neighbour[3] = {t[0], t[1], t[2]};
     sample at;
-    if (!ffd_tolerance_find(search, region, beside, &at))
+    if (!ffd_tolerance_find(search, region, neighbour, &at))
         return false;
-    ffd_search_record(search, region, beside, &at, false);
+    ffd_search_record(search, region, neighbour, &at, false);
     return true;
 }
 

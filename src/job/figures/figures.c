@@ -181,7 +181,7 @@ const figure ffd_figures[] = {
     {FROM(rounding.box, JOIN_NONE)},
     {FROM(outside_all, JOIN_SUM)},
     {FROM(misses.count, JOIN_SUM)},
-    {FROM(misses.looked_at, JOIN_SUM)},
+    {FROM(misses.examined, JOIN_SUM)},
     {FROM(misses.largest, JOIN_LARGEST)},
     {FROM(misses.is_least, JOIN_ANY)},
     {FROM(multiple_any, JOIN_SUM)},

@@ -21,9 +21,9 @@ typedef struct rounding_loss {
 /* Vertices that are left outside although they miss the lattice by next to nothing. */
 typedef struct near_misses {
     uint64_t count;
-    uint64_t looked_at; /* of the vertices outside */
-    double largest;     /* miss, world units */
-    bool is_least;      /* there may be more: not all were looked at */
+    uint64_t examined; /* of the vertices outside */
+    double largest;    /* miss, world units */
+    bool is_least;     /* there may be more: not all were looked at */
 } near_misses;
 
 typedef struct pass_totals {

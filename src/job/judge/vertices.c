@@ -75,7 +75,7 @@ static void write_misses(const pass_totals *totals, char *text, size_t capacity)
     const uint64_t outside = totals->counts[FFD_VERTEX_OUTSIDE];
     char who[60] = "it misses", by[ROUNDED];
     *text = 0;
-    if (misses->count == 0 || WORTH_A_WORD * misses->count < misses->looked_at)
+    if (misses->count == 0 || WORTH_A_WORD * misses->count < misses->examined)
         return;
     if (misses->count < outside)
         snprintf(who, sizeof who, "%s%" PRIu64 " of them %s", misses->is_least ? "at least " : "",

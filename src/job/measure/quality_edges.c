@@ -94,7 +94,7 @@ static double *cells_of(const edge_work *work, edge_scratch *scratch, size_t edg
 /* Returns u as the number of its non-empty span plus the fraction within it. */
 static double cell_coordinate(const knot_vector *knots, double u)
 {
-    const size_t index = ffd_knots_span_number(knots, u);
+    const size_t index = ffd_knots_span_index(knots, u);
     const double from = knots->t[knots->spans[index]], to = knots->t[knots->spans[index] + 1];
     return (double)index + (u - from) / (to - from);
 }

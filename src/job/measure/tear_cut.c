@@ -20,7 +20,7 @@
 #define NARROWEST 1e-12
 /* A place farther from a border than this many eps of the coordinates is on one side of it, whatever the
    rounding. */
-#define BESIDE 256
+#define MARGIN 256
 /* An edge is cut into so many pieces first where it is in the bounds of a volume that is no box. */
 #define PIECES 4
 /* The most parts of an edge that wait while another one is cut; of more those with the smallest defects are
@@ -48,7 +48,7 @@ typedef struct cut_edge {
                          that moves, if that goes on */
     bool moves_last;  /* what goes on is that of the place t = 1, not of t = 0 */
     double start[3], along[3], length;
-    double beside; /* of t: farther from a border than the rounding of places on it */
+    double margin; /* of t: farther from a border than the rounding of places on it */
     cut_part part; /* what is being cut, */
     bool is_cut;   /* if something is */
     cut_part waiting[PARTS];
@@ -229,7 +229,7 @@ static void begin_edge(const cut_work *work, uint64_t key, cut_edge *edge)
     double size = work->size;
     for (int c = 0; c < 3; c++)
         size = larger_of(size, larger_of(fabs(a[c]), fabs(b[c])));
-    edge->beside = lesser_of(BESIDE * DBL_EPSILON * size / edge->length, 1.0 / 16);
+    edge->margin = lesser_of(MARGIN * DBL_EPSILON * size / edge->length, 1.0 / 16);
 }
 
 static void add_place(place_list *list, double t)
@@ -246,7 +246,7 @@ static void add_place(place_list *list, double t)
    volumes are somewhere within their bounds. way: the edge as the links before leave it. */
 static void add_crossings(const chain_link *link, const cut_edge *edge, const edge_way *way, place_list *list)
 {
-    const double beside = larger_of(4 * edge->beside, NARROWEST / 2);
+    const double margin = larger_of(4 * edge->margin, NARROWEST / 2);
     const int pieces = link->is_convex ? 1 : PIECES;
     double from, to, along[3];
     for (int a = 0; a < 3; a++)
@@ -257,8 +257,8 @@ static void add_crossings(const chain_link *link, const cut_edge *edge, const ed
         add_place(list, from + (piece + FIRST_CUT) / pieces * (to - from));
     for (int end = 0; end < 2 && link->is_convex; end++)
         if (end ? to < 1 : from > 0) {
-            add_place(list, (end ? to : from) - beside);
-            add_place(list, (end ? to : from) + beside);
+            add_place(list, (end ? to : from) - margin);
+            add_place(list, (end ? to : from) + margin);
         }
 }
 
@@ -395,7 +395,7 @@ static bool is_narrow(const cut_part *part)
    slopes lead. *settled: there is none, or it is exact. */
 static ffd_status measure(const cut_work *work, const cut_edge *edge, cut_part *part, bool *settled)
 {
-    const double from = part->low.t - edge->beside, to = part->high.t + edge->beside;
+    const double from = part->low.t - edge->margin, to = part->high.t + edge->margin;
     const double t[2] = {from > 0 ? from : 0, to < 1 ? to : 1};
     field_place pair[2];
     cut_place place[2];

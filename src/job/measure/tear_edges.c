@@ -47,7 +47,7 @@ static bool ends_before(const void *range, const void *vertex)
 bool ffd_tear_is_hidden(const tear_mesh *mesh, uint32_t of_faces)
 {
     const vertex_range *const hidden = mesh->hidden;
-    const uint32_t vertex = ffd_faces_number(mesh->faces, of_faces);
+    const uint32_t vertex = ffd_faces_document_vertex(mesh->faces, of_faces);
     const size_t count = mesh->hidden_count,
                  at = lower_bound(&vertex, hidden, count, sizeof *hidden, ends_before);
     return at < count && hidden[at].first <= vertex;
@@ -64,7 +64,7 @@ static bool may_jump(const list_work *work, uint32_t a, uint32_t b)
     if (!mesh->deformed || !mesh->gradients)
         return true;
     for (int end = 0; end < 2; end++) {
-        const size_t index = ffd_faces_number(mesh->faces, ends[end]);
+        const size_t index = ffd_faces_document_vertex(mesh->faces, ends[end]);
         for (int c = 0; c < 3; c++)
             delta[end][c] = mesh->deformed[3 * index + (size_t)c] - position_of(work, ends[end])[c];
         gradients[end] = mesh->gradients + 9 * index;
@@ -105,7 +105,7 @@ static bool visit_block(void *context, uint32_t block)
 
 static const double *deformed_of(const list_work *work, uint32_t vertex)
 {
-    return work->mesh->deformed + 3 * (size_t)ffd_faces_number(work->mesh->faces, vertex);
+    return work->mesh->deformed + 3 * (size_t)ffd_faces_document_vertex(work->mesh->faces, vertex);
 }
 
 /* Whether a link of a chain may move places of the edges, but not their ends. The ends are where the links

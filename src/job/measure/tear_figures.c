@@ -170,7 +170,7 @@ static void fill_result(const deform_job *job, const mesh_faces *faces, const te
     result->tear.is_known = has_all;
     result->tear.edges = count->edges;
     result->tear.largest = count->largest;
-    result->tear.vertex = torn ? ffd_faces_number(faces, count->vertex) : count->vertex;
+    result->tear.vertex = torn ? ffd_faces_document_vertex(faces, count->vertex) : count->vertex;
     result->tear.cause = count->cause;
     if (torn)
         name_part(job, result);

@@ -137,8 +137,8 @@ static ffd_status judge_edge(const tear_work *work, uint64_t key, const tear_ste
         count->cause = step->cause;
     }
     count->edges++;
-    return torn ? ffd_torn_edges_add(torn, ffd_faces_number(faces, first), ffd_faces_number(faces, second),
-                                     step->length, error)
+    return torn ? ffd_torn_edges_add(torn, ffd_faces_document_vertex(faces, first),
+                                     ffd_faces_document_vertex(faces, second), step->length, error)
                 : FFD_OK;
 }
 

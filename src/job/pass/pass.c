@@ -22,7 +22,7 @@ static void place_points(const pass_tile *tile)
     if (tile->part->skinned)
         ffd_points_transform(tile->scratch->transforms.transforms, tile->count, base->position);
     else
-        ffd_part_transform(tile->pass->document, tile->part_number, tile->first, tile->count, base->position);
+        ffd_part_transform(tile->pass->document, tile->part_index, tile->first, tile->count, base->position);
 }
 
 static void fill_nan(double *values, size_t count)
@@ -75,7 +75,7 @@ static void note_determinants(const pass_tile *tile)
         double f[9];
         mat_add_identity(base->gradient + 9 * i, f);
         const double det = mat_determinant(f);
-        const size_t index = (size_t)tile->first_number + i;
+        const size_t index = (size_t)tile->first_index + i;
         if (!has_gradient(tile, outcome, i))
             continue;
         note_range(det, outcome->extended, index, tile->totals);
@@ -96,7 +96,7 @@ static void note_turns(const pass_tile *tile)
         mat_add_identity(base->gradient + 9 * i, f);
         const double det = mat_determinant(f);
         if (!outcome->extended && turns_over(f, det) && has_gradient(tile, outcome, v))
-            note_inversion(det, (size_t)tile->first_number + v, tile->totals);
+            note_inversion(det, (size_t)tile->first_index + v, tile->totals);
     }
 }
 
@@ -108,7 +108,7 @@ static void fill_arrays(const pass_tile *tile)
     if (!pass->statuses && !pass->deformed && !pass->gradients)
         return;
     for (size_t i = 0; i < tile->count; i++) {
-        const size_t index = (size_t)tile->first_number + i;
+        const size_t index = (size_t)tile->first_index + i;
         const bool singular = ffd_vertex_transform_of(&tile->scratch->transforms, i).singular;
         const double *gradient = base->gradient + 9 * i;
         if (pass->statuses)
@@ -154,9 +154,9 @@ static void finish_positions(const pass_tile *tile)
     for (size_t i = 0; i < tile->count && !tile->part->carried; i++)
         totals->moved += changed[i];
     if (unfit < tile->count)
-        totals->first_overflow = tile->first_number + unfit;
+        totals->first_overflow = tile->first_index + unfit;
     if (ffd_pass_stores(pass))
-        pass->document->format->write(pass->document, tile->part_number, MESH_POSITIONS, tile->first,
+        pass->document->format->write(pass->document, tile->part_index, MESH_POSITIONS, tile->first,
                                       tile->count, base->stored, changed);
 }
 
@@ -183,7 +183,7 @@ static void deform_normals(const pass_tile *tile, size_t from, size_t to)
                                    .directions = s->normals,
                                    .step = 3,
                                    .outcomes = s->outcomes};
-    document->format->read(document, tile->part_number, MESH_NORMALS, tile->pass->state, from, batch.count,
+    document->format->read(document, tile->part_index, MESH_NORMALS, tile->pass->state, from, batch.count,
                            s->normals);
     ffd_deform_normals(tile->pass->chain->isa, &batch);
     if (tile->pass->only_offsets)
@@ -194,7 +194,7 @@ static void deform_normals(const pass_tile *tile, size_t from, size_t to)
         tile->totals->normals_collapsed += selected && s->outcomes[i] == FFD_DIRECTION_COLLAPSED;
     }
     if (ffd_pass_stores(tile->pass))
-        document->format->write(document, tile->part_number, MESH_NORMALS, from, batch.count, s->normals,
+        document->format->write(document, tile->part_index, MESH_NORMALS, from, batch.count, s->normals,
                                 s->normals_changed);
 }
 
@@ -223,14 +223,14 @@ static void deform_tangents(const pass_tile *tile)
                                    .step = 4,
                                    .normals = tile->part->normal_count ? s->normals : NULL,
                                    .outcomes = s->outcomes};
-    document->format->read(document, tile->part_number, MESH_TANGENTS, tile->pass->state, tile->first,
+    document->format->read(document, tile->part_index, MESH_TANGENTS, tile->pass->state, tile->first,
                            tile->count, s->tangents);
     ffd_deform_tangents(tile->pass->chain->isa, &batch);
     for (size_t i = 0; i < tile->count; i++)
         s->tangents_changed[i] = s->outcomes[i] == FFD_DIRECTION_CARRIED;
     if (tile->pass->only_offsets || !ffd_pass_stores(tile->pass))
         return;
-    document->format->write(document, tile->part_number, MESH_TANGENTS, tile->first, tile->count, s->tangents,
+    document->format->write(document, tile->part_index, MESH_TANGENTS, tile->first, tile->count, s->tangents,
                             s->tangents_changed);
 }
 
@@ -267,7 +267,7 @@ static bool recall(const pass_tile *tile, const chain_run *run)
     if (tile->part->repeats_positions || (!pass->embedding && !pass->is_located))
         return false;
     for (size_t i = 0; i < run->count; i++) {
-        const size_t vertex = (size_t)tile->first_number + ffd_tile_vertex(&tile->scratch->base, i);
+        const size_t vertex = (size_t)tile->first_index + ffd_tile_vertex(&tile->scratch->base, i);
         if (pass->is_located)
             run->scratch->locations[i] = pass->locations[vertex];
         else
@@ -282,7 +282,7 @@ static void keep_locations(const pass_tile *tile)
     const mesh_pass *const pass = tile->pass;
     const tile_points *const base = &tile->scratch->base;
     const ffd_location *const locations = tile->scratch->chain.locations;
-    const size_t before = (size_t)tile->first_number;
+    const size_t before = (size_t)tile->first_index;
     if (tile->part->repeats_positions)
         return;
     for (size_t i = 0; i < base->count && pass->locations && !pass->is_located; i++)
@@ -321,7 +321,7 @@ static void add_bits(const pass_tile *tile)
     const mesh_pass *const pass = tile->pass;
     const tile_points *const base = &tile->scratch->base;
     for (size_t i = 0; i < base->count; i++) {
-        const size_t vertex = (size_t)tile->first_number + ffd_tile_vertex(base, i);
+        const size_t vertex = (size_t)tile->first_index + ffd_tile_vertex(base, i);
         unsigned any = 0;
         for (size_t p = 0; p < pass->chain->marks.kept; p++) {
             uint8_t *const mark = &tile->scratch->kept[p * CHAIN_RUN + i];
@@ -338,7 +338,7 @@ static void copy_plane(const pass_tile *tile, size_t plane)
 {
     const tile_points *const base = &tile->scratch->base;
     const uint8_t *const from = tile->scratch->kept + plane * CHAIN_RUN;
-    uint8_t *const to = tile->pass->kept + plane * tile->pass->kept_stride + tile->first_number;
+    uint8_t *const to = tile->pass->kept + plane * tile->pass->kept_stride + tile->first_index;
     if (base->are_all)
         memcpy(to, from, base->count);
     for (size_t i = 0; i < base->count && !base->are_all; i++)
@@ -350,7 +350,7 @@ static void copy_plane(const pass_tile *tile, size_t plane)
 static void mark_kept(const pass_tile *tile, bool keeps)
 {
     const mesh_pass *const pass = tile->pass;
-    const size_t before = (size_t)tile->first_number;
+    const size_t before = (size_t)tile->first_index;
     if (tile->part->singular || tile->part->skinned)
         for (size_t i = 0; i < tile->count; i++)
             if (ffd_vertex_transform_of(&tile->scratch->transforms, i).singular)
@@ -391,9 +391,9 @@ static void take_points(const pass_tile *tile)
     const bool counts = !tile->part->repeats_positions;
     tile_points *const base = &tile->scratch->base;
     ffd_tile_points_begin(tile, NULL, 0, base);
-    document->format->read(document, tile->part_number, MESH_POSITIONS, tile->pass->state, tile->first,
+    document->format->read(document, tile->part_index, MESH_POSITIONS, tile->pass->state, tile->first,
                            tile->count, base->stored);
-    ffd_vertex_transforms_read(document, tile->part_number, tile->first, tile->count,
+    ffd_vertex_transforms_read(document, tile->part_index, tile->first, tile->count,
                                &tile->scratch->transforms,
                                counts && !tile->part->skipped ? &tile->totals->weights : NULL);
     place_points(tile);
@@ -509,7 +509,7 @@ static pass_tile make_tile(const part_work *work, size_t index, size_t first, si
     pass_tile tile = work->whole;
     tile.first = first;
     tile.count = last - first;
-    tile.first_number += first;
+    tile.first_index += first;
     tile.totals = &work->tiles[index];
     return tile;
 }
@@ -659,14 +659,14 @@ ffd_status ffd_pass_over_mesh(const mesh_pass *pass, pass_totals *totals, ffd_er
     for (size_t i = 0; i < pass->document->part_count && !status; i++) {
         const mesh_part *const part = &pass->document->parts[i];
         work.whole.part = part;
-        work.whole.part_number = i;
+        work.whole.part_index = i;
         work.whole.count = part->vertex_count;
         const uint64_t moved = totals->moved;
         status = pass_over_part(&work, totals, error);
         if (part->splats && !ffd_pass_takes_splats(pass, part))
             ffd_totals_note_splats(totals, i, totals->moved - moved);
         if (!part->repeats_positions)
-            work.whole.first_number += part->vertex_count;
+            work.whole.first_index += part->vertex_count;
     }
     free_scratch(work.scratch, work.workers);
     return status;

@@ -20,7 +20,7 @@ static void read_offsets(shape_scratch *s, mesh_stream stream)
     const pass_tile *const tile = s->moved.tile;
     const mesh_document *document = tile->pass->document;
     if (has(s, stream))
-        document->format->morphs->read_offsets(document, tile->part_number, s->moved.shape, stream,
+        document->format->morphs->read_offsets(document, tile->part_index, s->moved.shape, stream,
                                                tile->first, tile->count, s->offsets);
     else
         memset(s->offsets, 0, 3 * tile->count * sizeof *s->offsets);
@@ -30,7 +30,7 @@ static void write_offsets(shape_scratch *s, mesh_stream stream)
 {
     const pass_tile *const tile = s->moved.tile;
     mesh_document *document = tile->pass->document;
-    document->format->morphs->write_offsets(document, tile->part_number, s->moved.shape, stream, tile->first,
+    document->format->morphs->write_offsets(document, tile->part_index, s->moved.shape, stream, tile->first,
                                             tile->count, s->offsets, s->changed);
 }
 
@@ -49,7 +49,7 @@ static void read_position_offsets(shape_scratch *s)
         const double weight = tile->part->shapes[k].weight;
         if (weight == 0 || !tile->part->shapes[k].has[MESH_POSITIONS])
             continue;
-        document->format->morphs->read_offsets(document, tile->part_number, k, MESH_POSITIONS, tile->first,
+        document->format->morphs->read_offsets(document, tile->part_index, k, MESH_POSITIONS, tile->first,
                                                tile->count, one);
         for (size_t i = 0; i < 3 * tile->count; i++)
             sum[i] += weight * one[i];
@@ -82,7 +82,7 @@ static void count_outside(const tile_points *moved)
         if (!moved->outcomes[i].outside || !ffd_part_shows(tile->part, tile->first + v))
             continue;
         tile->totals->shapes_outside++;
-        ffd_note_first(&tile->totals->first_shape_outside, tile->first_number + v);
+        ffd_note_first(&tile->totals->first_shape_outside, tile->first_index + v);
     }
 }
 
@@ -93,7 +93,7 @@ static ffd_status send_moved(shape_scratch *s, bool gradients, ffd_error *error)
     const pass_tile *const tile = moved->tile;
     const mesh_document *const document = tile->pass->document;
     read_position_offsets(s);
-    document->format->read(document, tile->part_number, MESH_POSITIONS, MESH_STORED, tile->first, tile->count,
+    document->format->read(document, tile->part_index, MESH_POSITIONS, MESH_STORED, tile->first, tile->count,
                            moved->stored);
     moved->are_all = false;
     moved->count = 0;
@@ -143,7 +143,7 @@ static void deform_positions(shape_scratch *s)
         for (int a = 0; a < 3; a++)
             take(m[a] + (moved[a] - base[a]), &m[a], &s->changed[v]);
         if (s->changed[v] && !fits(m, largest))
-            ffd_note_first(&tile->totals->first_overflow, tile->first_number + v);
+            ffd_note_first(&tile->totals->first_overflow, tile->first_index + v);
     }
     if (has(s, MESH_POSITIONS))
         write_offsets(s, MESH_POSITIONS);
@@ -187,7 +187,7 @@ static void deform_normals(shape_scratch *s)
                                    .step = 3,
                                    .outcomes = tile->scratch->outcomes};
     read_offsets(s, MESH_NORMALS);
-    document->format->read(document, tile->part_number, MESH_NORMALS, MESH_STORED, tile->first, tile->count,
+    document->format->read(document, tile->part_index, MESH_NORMALS, MESH_STORED, tile->first, tile->count,
                            s->before);
     memset(s->changed, 0, tile->count);
     for (size_t k = 0; k < 3 * tile->count; k++)
@@ -213,7 +213,7 @@ static void deform_tangents(shape_scratch *s)
                                    .normals = tile->part->normal_count ? s->normals : NULL,
                                    .outcomes = tile->scratch->outcomes};
     read_offsets(s, MESH_TANGENTS);
-    document->format->read(document, tile->part_number, MESH_TANGENTS, MESH_STORED, tile->first, tile->count,
+    document->format->read(document, tile->part_index, MESH_TANGENTS, MESH_STORED, tile->first, tile->count,
                            s->tangents);
     memset(s->changed, 0, tile->count);
     for (size_t v = 0; v < tile->count; v++)

@@ -17,7 +17,7 @@ void ffd_tile_splats(const pass_tile *tile)
 {
     mesh_document *const document = tile->pass->document;
     splat_scratch *const s = tile->scratch->splat;
-    document->format->splats->read(document, tile->part_number, tile->first, tile->count, s->splats);
+    document->format->splats->read(document, tile->part_index, tile->first, tile->count, s->splats);
     ffd_splats_deform(tile->pass->chain->isa, tile->scratch->base.gradient, s->turns, &tile->part->form,
                       tile->count, s->splats, s->outcomes);
     for (size_t i = 0; i < tile->count; i++) {
@@ -30,6 +30,6 @@ void ffd_tile_splats(const pass_tile *tile)
         tile->totals->splats_broken += outcome == SPLAT_BROKEN && tile->scratch->changed[i];
     }
     if (ffd_pass_stores(tile->pass))
-        document->format->splats->write(document, tile->part_number, tile->first, tile->count, s->splats,
+        document->format->splats->write(document, tile->part_index, tile->first, tile->count, s->splats,
                                         s->turns, s->changed);
 }

@@ -29,7 +29,7 @@ ffd_status ffd_tile_find_misses(const pass_tile *tile, ffd_error *error)
             !ffd_part_shows(tile->part, tile->first + ffd_tile_vertex(base, i)))
             continue;
         status = ffd_link_miss(link, base->position + 3 * i, reach, &miss, &searched, error);
-        misses->looked_at++;
+        misses->examined++;
         misses->count += miss > 0 && isfinite(miss);
         if (isfinite(miss))
             misses->largest = larger_of(misses->largest, miss);

@@ -57,7 +57,7 @@ static void find_rounding(const void *context, size_t point, bool is_first, cons
     memcpy(position, points->stored + 3 * v, sizeof position);
     if (!is_first)
         ffd_vertex_in_file(&transform, x, position);
-    ffd_vertex_cell(tile->pass->document, tile->pass->state, tile->part_number, tile->first + v, position,
+    ffd_vertex_cell(tile->pass->document, tile->pass->state, tile->part_index, tile->first + v, position,
                     half);
     if (points->offsets)
         add_offset_rounding(points, points->offsets + 3 * v, half);

@@ -12,7 +12,7 @@ void ffd_totals_count_rest(const pass_tile *tile)
         return;
     for (size_t i = 0; i < base->count; i++)
         if (!vec_is_finite(base->position + 3 * i))
-            ffd_note_first(&totals->first_invalid, tile->first_number + ffd_tile_vertex(base, i));
+            ffd_note_first(&totals->first_invalid, tile->first_index + ffd_tile_vertex(base, i));
 }
 
 /* Flags of a vertex that is not simply inside: its ffd_vertex_status in the low bits, and these. */
@@ -81,7 +81,7 @@ void ffd_totals_count_others(const pass_tile *tile)
 {
     pass_totals *const totals = tile->totals;
     for (size_t i = 0; i < tile->count && totals->others; i++) {
-        const uint64_t number = tile->first_number + i;
+        const uint64_t number = tile->first_index + i;
         if (totals->others[i] && counts(tile->part, tile->first + i, totals->others[i]))
             count_other(tile->part, totals->others[i], number, totals);
         else if (totals->others[i])

@@ -78,8 +78,8 @@ static uint32_t material_of_run(const mesh_taker *t, const model_run *run)
 {
     const mesh_materials *const materials = &t->scene->materials;
     const char *const name = model_name(t->model, run->material);
-    if (run->material_number != MODEL_NONE)
-        return run->material_number < materials->count ? run->material_number : VIEW_NONE;
+    if (run->material_index != MODEL_NONE)
+        return run->material_index < materials->count ? run->material_index : VIEW_NONE;
     for (size_t i = 0; name && i < materials->count; i++)
         if (strcmp(materials->list[i].name, name) == 0)
             return (uint32_t)i;

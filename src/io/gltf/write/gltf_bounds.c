@@ -71,7 +71,7 @@ static stored_bounds find_bounds(const gltf_document *d, size_t a, const gltf_ve
 
 /* Whether the file's number, rounded to the accessor's type, equals the wanted one, or JSON cannot represent
    the wanted one (infinity or NaN from normals of an invalid input). */
-static bool says(double number, double wanted, int component)
+static bool is_bound(double number, double wanted, int component)
 {
     if (!isfinite(wanted))
         return true;
@@ -85,7 +85,7 @@ static void write_bound(const char *key, const double bound[3], byte_buffer *tex
     ffd_buffer_format(text, ",\"%s\":[", key);
     for (size_t c = 0; c < 3; c++) {
         char number[FFD_NUMBER_CAPACITY];
-        const size_t size = ffd_number_format(says(0, bound[c], GLTF_FLOAT) ? 0 : bound[c], number);
+        const size_t size = ffd_number_format(is_bound(0, bound[c], GLTF_FLOAT) ? 0 : bound[c], number);
         ffd_buffer_text(text, c > 0 ? "," : "");
         ffd_buffer_append(text, number, size);
     }
@@ -109,7 +109,7 @@ static void edit_bound(const gltf_saver *saver, uint32_t array, const double bou
     for (uint32_t v = ffd_json_tree_first(tree, array); v != JSON_NONE && c < 16;
          v = ffd_json_tree_after(tree, v), c++) {
         double old;
-        if (ffd_json_tree_number(tree, v, &old) && says(old, bound[c], component))
+        if (ffd_json_tree_number(tree, v, &old) && is_bound(old, bound[c], component))
             continue;
         char text[FFD_NUMBER_CAPACITY];
         const size_t size = ffd_number_format(bound[c], text);

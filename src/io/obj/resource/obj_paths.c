@@ -12,16 +12,16 @@ static bool is_absolute(const char *name)
 ffd_status ffd_obj_find_path(const file_folder *folder, const char *base, const char *name, char **path,
                              ffd_error *error)
 {
-    char *beside = NULL;
+    char *sibling = NULL;
     *path = NULL;
     if (is_absolute(name))
         return FFD_OK;
-    beside = ffd_path_sibling(base, name);
-    if (beside) {
-        ffd_folder_turn_slashes(folder, beside);
-        *path = ffd_path_normalize(beside);
+    sibling = ffd_path_sibling(base, name);
+    if (sibling) {
+        ffd_folder_turn_slashes(folder, sibling);
+        *path = ffd_path_normalize(sibling);
     }
-    ffd_free(beside);
+    ffd_free(sibling);
     if (!*path)
         return ffd_fail_memory(error);
     if (**path == 0) {
