@@ -13,7 +13,8 @@ static bool wants_determinants(const deform_job *job)
            (job->desc->fail_on & FFD_GATE_FOLDS && job->desc->outside == FFD_OUTSIDE_EXTEND);
 }
 
-/* Hashes all that determines the locations of a mesh's vertices in a link. */
+/* Hashes all that determines the locations of a mesh's vertices in a link: also each setting that changes
+   them, since the next job may have another value. */
 static hash128 located_in(const chain_link *link)
 {
     const hash128 parts[] = {link->rest, ffd_hash_doubles(&link->snap, 1)};

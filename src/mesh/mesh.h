@@ -112,7 +112,7 @@ static inline bool ffd_part_shows(const mesh_part *part, size_t vertex)
 typedef struct mesh_faces {
     size_t vertex_count, face_count;
     double *positions; /* 3*vertex_count, in the space of the lattice */
-    size_t *start;     /* face_count+1 */
+    size_t *start;     /* face_count+1 offsets into corners, the first 0 even if there are no faces */
     uint32_t *corners; /* start[face_count] vertex numbers */
     /* vertex_count entries, ascending: if the corners refer only to the vertices of faces, the numbers of
        these vertices in the document. NULL: corners refer to all vertices of the document. */

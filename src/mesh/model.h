@@ -54,8 +54,8 @@ typedef enum model_feature {
     MODEL_HAS_TEXCOORDS = 1 << 3,
     MODEL_HAS_CORNER_TEXCOORDS = 1 << 4, /* several at a position */
     MODEL_HAS_COLOURS = 1 << 5,
-    MODEL_HAS_ALPHA = 1 << 6, /* in colours */
-    MODEL_HAS_POLYGONS = 1 << 7,
+    MODEL_HAS_ALPHA = 1 << 6,    /* in colours */
+    MODEL_HAS_POLYGONS = 1 << 7, /* faces of more than three corners */
     MODEL_HAS_LINES = 1 << 8,
     MODEL_HAS_POINTS = 1 << 9,
     MODEL_HAS_LOOSE = 1 << 10, /* positions that nothing uses */

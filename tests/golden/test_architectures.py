@@ -92,7 +92,7 @@ def link(machine, folder):
     core = objects("libffd_core.a", "libffd_kernels_scalar.a")
     program, archive = os.path.join(folder, "ffd"), os.path.join(folder, "core.a")
     libraries = ["-lm", "-lpthread", "-ldl"]
-    subprocess.run([machine + "-gcc", "-o", program, *core, *objects("libffd_loading.a", "libffd_batch.a", "libffd_cli.a", "ffd"),
+    subprocess.run([machine + "-gcc", "-o", program, *core, *objects("libffd_loading.a", "libffd_cli.a", "ffd"),
                     *libraries], check=True)
     subprocess.run([machine + "-ar", "rcs", archive, *core], check=True)
     subprocess.run([machine + "-g++", "-shared", "-o", os.path.join(folder, "ffd-tinygltf.so"),

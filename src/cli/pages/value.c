@@ -1,19 +1,17 @@
 #include "cli/pages/value.h"
 #include "cli/member.h"
 #include <ctype.h>
+#include <ffd/job.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Names for kinds of files, with their endings. */
+/* Names for kinds of files, with their endings, as "a, b or c". */
 static const struct {
     const char *name, *endings;
 } kinds[] = {
-    {"MESH", "obj|gltf|glb|vrm|ply|off|stl"},
-    {"LATTICE", "json"},
-    {"REPORT", "json"},
-    {"MANIFEST", "jsonl"},
-    {"TABLE", "csv"},
+    {"MESH", FFD_FORMAT_NAMES}, {"LATTICE", "json"}, {"REPORT", "json"},
+    {"MANIFEST", "jsonl"},      {"TABLE", "csv"},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
@@ -33,6 +31,17 @@ static bool is(const char *part, size_t length, const char *name)
     return strlen(name) == length && memcmp(part, name, length) == 0;
 }
 
+/* Appends each word of "a, b or c". */
+static void append_list(char text[200], const char *separator, const char *list)
+{
+    while (*list) {
+        const size_t length = strcspn(list, ", ");
+        if (length > 0 && !is(list, length, "or"))
+            append(text, separator, list, length);
+        list += length > 0 ? length : 1;
+    }
+}
+
 static bool is_word(const char *part, size_t length)
 {
     for (size_t i = 0; i < length; i++)
@@ -46,7 +55,7 @@ static void take(pages_value *value, const char *part, size_t length)
 {
     static const char file[] = "FILE";
     if (is(part, length, "FORMAT"))
-        append(value->words, " ", "obj gltf glb vrm ply off stl", 28);
+        append_list(value->words, " ", FFD_FORMAT_NAMES);
     else if (is_word(part, length))
         append(value->words, " ", part, length);
     else if (is(part, length, "DIR"))
@@ -59,7 +68,7 @@ static void take(pages_value *value, const char *part, size_t length)
     for (int i = 0; i < KINDS; i++)
         if (is(part, length, kinds[i].name)) {
             value->files = true;
-            append(value->endings, "|", kinds[i].endings, strlen(kinds[i].endings));
+            append_list(value->endings, "|", kinds[i].endings);
         }
 }
 

@@ -11,7 +11,7 @@ typedef struct figure_text {
     const char *lattice; /* name of the lattice of the folds' witness */
     byte_buffer *out;
 } figure_text;
-/* Writes lines such as "  torn edges     3\n". */
+/* Writes lines such as "  torn edges     3\n"; of a single number that is not finite, none. */
 typedef void figure_lines(const figure_text *text);
 
 figure_lines ffd_lines_of_statuses, ffd_lines_of_moved, ffd_lines_of_folds, ffd_lines_of_flipped,

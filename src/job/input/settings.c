@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* In the order of the enums. */
+/* In the order of the enums, all of each: a number behind the last word is refused as out of range. */
 static const char *const outside_words[] = {"keep", "extend", "error", NULL};
 static const char *const normals_words[] = {"transform", "keep", "recompute", NULL};
 static const char *const space_words[] = {"scene", "mesh", NULL};
