@@ -267,13 +267,12 @@ static void show(const char *what, long cases, const found *f)
 }
 
 /* data/promises.md names what may be missed; a step may be that of another of two jumps, and what is thinner
-   than the plain way sees is none of its jumps. Of 22,000 torn edges of all kinds 0.03 % were missed, of
-   those of the ring 1.1 %: bounds are for kinds together, as one kind of bars has some 20 of them. */
+   than the plain way sees is none of its jumps. */
 static void judge(const found *f)
 {
-    assert_true(f->missed <= 2 + f->torn / 50);
-    assert_true(f->invented <= 1 + f->torn / 100);
-    assert_true(f->wrong <= 2 + f->torn / 50);
+    assert_true(f->missed <= 1 + f->torn / 50);
+    assert_true(f->invented <= f->torn / 100);
+    assert_true(f->wrong <= 1 + f->torn / 50);
 }
 
 static void add(const found *more, found *all)
@@ -297,6 +296,9 @@ static const bar bars[] = {
     {"spiral", 2.2, 1.6, 0.75, 3, 20}, {"overlap", 1.25, 1.2, 0, 2, 14},
 };
 
+/* Cases of each bar, so that all together have some 150 torn edges, of which a share can be judged. */
+#define FEWEST 12
+
 static void bars_that_extend(void **state)
 {
     static const double low[3] = {-2.5, -2.5, -1.2}, high[3] = {2.5, 2.5, 1.2};
@@ -307,7 +309,7 @@ static void bars_that_extend(void **state)
         found f = {0};
         double began = 0;
         long made = 0;
-        for (; another_case(made, &began, is_memory_checked() ? 1 : 4, 200, 0.5); made++) {
+        for (; another_case(made, &began, is_memory_checked() ? 1 : FEWEST, 200, 0.5); made++) {
             const double falloff = draw_unit(&d) < 0.3 ? draw_between(&d, 0.3, 2) : 0;
             scene s = begin_scene(true, false, falloff);
             bent_bar(&t, &d, bars[k].turns, bars[k].inner, bars[k].pitch, bars[k].degree, bars[k].count);
