@@ -1,0 +1,34 @@
+# The Python package with all that it needs, for CPython 3.11 and later; by zig, which compiles for older systems. Read by
+# release.sh.
+set -eu
+case $name in
+wheel)
+    target=x86_64-linux-gnu.2.28
+    platform=manylinux_2_28_x86_64
+    ;;
+wheel-musl)
+    target=x86_64-linux-musl
+    platform=musllinux_1_2_x86_64
+    ;;
+esac
+zig=$("$tools/bin/python3" -c 'import os, ziglang; print(os.path.join(os.path.dirname(ziglang.__file__), "zig"))')
+mkdir -p "$work/zig/$target"
+# Meson asks by --fatal-warnings what the linker knows; zig refuses what it does not know, and that word too.
+for language in cc c++; do
+    cat >"$work/zig/$target/$language" <<EOF
+#!/bin/sh
+for argument; do
+    shift
+    [ "\$argument" = -Wl,--fatal-warnings ] || set -- "\$@" "\$argument"
+done
+exec '$zig' $language -target $target "\$@"
+EOF
+    chmod +x "$work/zig/$target/$language"
+done
+export CCACHE_COMPILERTYPE=clang CCACHE_COMPILERCHECK="string:$("$zig" version) $target"
+export ZIG_GLOBAL_CACHE_DIR="$root/.build-release/zig" ZIG_LOCAL_CACHE_DIR="$root/.build-release/zig"
+# What is installed is told by this name of the system.
+export _PYTHON_HOST_PLATFORM="$platform"
+PATH=$tools/bin:$PATH CC="$ccache$work/zig/$target/cc" CXX="$ccache$work/zig/$target/c++" "$tools/bin/python3" -m pip wheel \
+    --disable-pip-version-check --no-index --no-build-isolation --no-deps --wheel-dir "$made" \
+    -Csetup-args=--wrap-mode=forcefallback -Csetup-args=-Dc_link_args=-s -Csetup-args=-Dcpp_link_args=-s "$source"
