@@ -27,7 +27,7 @@ is_one_of() {
 # The tools of an artefact, beside git, python3 and xz; @ before what is in the venv.
 tools_of() {
     case $1 in
-    wheel | wheel-musl) echo 'ninja @mesonpy @pycparser @pip @ziglang' ;;
+    wheel | wheel-musl) echo 'ninja @mesonpy @pycparser @ziglang' ;;
     static) echo 'meson ninja pkg-config gcc g++ strip' ;;
     npm) echo 'meson ninja emcc node' ;;
     source) ;;

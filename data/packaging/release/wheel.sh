@@ -29,6 +29,7 @@ export CCACHE_COMPILERTYPE=clang CCACHE_COMPILERCHECK="string:$("$zig" version) 
 export ZIG_GLOBAL_CACHE_DIR="$root/.build-release/zig" ZIG_LOCAL_CACHE_DIR="$root/.build-release/zig"
 # What is installed is told by this name of the system.
 export _PYTHON_HOST_PLATFORM="$platform"
-PATH=$tools/bin:$PATH CC="$ccache$work/zig/$target/cc" CXX="$ccache$work/zig/$target/c++" "$tools/bin/python3" -m pip wheel \
-    --disable-pip-version-check --no-index --no-build-isolation --no-deps --wheel-dir "$made" \
-    -Csetup-args=--wrap-mode=forcefallback -Csetup-args=-Dc_link_args=-s -Csetup-args=-Dcpp_link_args=-s "$source"
+cd "$source"
+PATH=$tools/bin:$PATH CC="$ccache$work/zig/$target/cc" CXX="$ccache$work/zig/$target/c++" "$tools/bin/python3" -c "
+import sys, mesonpy
+mesonpy.build_wheel(sys.argv[1], {'setup-args': ['--wrap-mode=forcefallback', '-Dc_link_args=-s', '-Dcpp_link_args=-s']})" "$made"
