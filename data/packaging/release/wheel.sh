@@ -27,9 +27,12 @@ EOF
 done
 export CCACHE_COMPILERTYPE=clang CCACHE_COMPILERCHECK="string:$("$zig" version) $target"
 export ZIG_GLOBAL_CACHE_DIR="$root/.build-release/zig" ZIG_LOCAL_CACHE_DIR="$root/.build-release/zig"
+# Debian's Python.h includes a header of the processor's folder, which zig does not search.
+mkdir -p "$work/python"
+ln -sf /usr/include/x86_64-linux-gnu "$work/python/"
 # What is installed is told by this name of the system.
 export _PYTHON_HOST_PLATFORM="$platform"
 cd "$source"
 PATH=$tools/bin:$PATH CC="$ccache$work/zig/$target/cc" CXX="$ccache$work/zig/$target/c++" "$tools/bin/python3" -c "
 import sys, mesonpy
-mesonpy.build_wheel(sys.argv[1], {'setup-args': ['--wrap-mode=forcefallback', '-Dc_link_args=-s', '-Dcpp_link_args=-s']})" "$made"
+mesonpy.build_wheel(sys.argv[1], {'setup-args': ['--wrap-mode=forcefallback', '-Dc_args=-I$work/python', '-Dc_link_args=-s', '-Dcpp_link_args=-s']})" "$made"
