@@ -1,6 +1,8 @@
 #include "base/vector/isa.h"
-#if defined(__has_include) && defined(FFD_X86)
-#if __has_include(<sys/platform/x86.h>)
+/* <stdlib.h> tells which C library it is. glibc has the header below since 2.33. */
+#include <stdlib.h>
+#if defined(FFD_X86) && defined(__GLIBC__)
+#if __GLIBC_PREREQ(2, 33)
 #include <sys/platform/x86.h>
 #endif
 #endif
