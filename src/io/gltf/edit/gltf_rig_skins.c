@@ -102,11 +102,12 @@ static void mark_skins(const gltf_document *d, bool *shown, bool *staying)
             staying[d->model.nodes[n].skin] = true;
     for (size_t i = 0; i < d->instance_count; i++) {
         const gltf_instance *const instance = &d->instances[i];
-        const int skin = instance->node == GLTF_NONE ? -1 : d->model.nodes[instance->node].skin;
-        if (skin < 0)
+        const gltf_skin *const skin = ffd_gltf_skin_of(d, instance);
+        if (!skin)
             continue;
-        shown[skin] = true;
-        staying[skin] = staying[skin] || (ffd_gltf_is_skinned(instance->primitive) && !instance->selected);
+        shown[skin - d->skins] = true;
+        if (ffd_gltf_is_skinned(instance->primitive) && !instance->selected)
+            staying[skin - d->skins] = true;
     }
 }
 

@@ -51,15 +51,13 @@ static drawing count_drawing(const gltf_document *d, const gltf_primitive *primi
     return counted;
 }
 
-void ffd_gltf_count_drawing(const gltf_document *d, size_t mesh, size_t *triangles, size_t *lines,
-                            size_t *points)
+void ffd_gltf_count_drawing(const gltf_document *d, const gltf_primitive *primitive, size_t *triangles,
+                            size_t *lines, size_t *points)
 {
-    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh, p));) {
-        const drawing counted = count_drawing(d, p);
-        *triangles += counted.triangles;
-        *lines += counted.lines;
-        *points += counted.points;
-    }
+    const drawing counted = count_drawing(d, primitive);
+    *triangles += counted.triangles;
+    *lines += counted.lines;
+    *points += counted.points;
 }
 
 size_t ffd_gltf_count_triangles(const gltf_document *d, const gltf_primitive *primitive)

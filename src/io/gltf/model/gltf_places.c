@@ -75,10 +75,10 @@ static void choose_instance(const survey *s, const gltf_instance *instance)
     s->nodes[instance->node] |= instance->selected ? HAS_SELECTED : HAS_OTHERS;
     if (!instance->selected)
         return;
-    const int skin = d->model.nodes[instance->node].skin;
+    const gltf_skin *const skin = ffd_gltf_skin_of(d, instance);
     choose_below(s, instance->node);
-    for (size_t j = 0; skin >= 0 && j < d->skins[skin].joint_count; j++)
-        choose_below(s, d->skins[skin].joints[j]);
+    for (size_t j = 0; skin && j < skin->joint_count; j++)
+        choose_below(s, skin->joints[j]);
 }
 
 static void mark_chosen(const survey *s)

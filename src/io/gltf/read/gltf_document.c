@@ -122,11 +122,3 @@ ffd_status ffd_gltf_flaw(gltf_document *d, uint32_t value, ffd_error *error, con
     va_end(arguments);
     return status;
 }
-
-bool ffd_gltf_has_skin(const gltf_document *d, const gltf_mesh_uses *uses)
-{
-    for (size_t n = 0; uses->nodes && n < uses->node_count; n++)
-        if (d->model.nodes[uses->nodes[n]].skin >= 0)
-            return true;
-    return false;
-}

@@ -295,6 +295,13 @@ static inline gltf_instance *ffd_gltf_instances(const gltf_document *document,
     return document->instances + uses->first_instance + primitive->number * uses->node_count;
 }
 
+/* Returns the skin of an instance's node; NULL: it has none, or in mesh space. */
+static inline gltf_skin *ffd_gltf_skin_of(const gltf_document *document, const gltf_instance *instance)
+{
+    const int skin = instance->node == GLTF_NONE ? -1 : document->model.nodes[instance->node].skin;
+    return skin < 0 ? NULL : &document->skins[skin];
+}
+
 /* Whether viewers hide a node (GLTF_NONE: none) of the scene. */
 static inline bool ffd_gltf_is_hidden(const gltf_document *document, size_t node)
 {
@@ -338,8 +345,5 @@ void ffd_gltf_splat_name(size_t attribute, char name[GLTF_SPLAT_NAME]);
 
 /* The names of the deformed attributes: "POSITION" and so on. */
 extern const char *const ffd_gltf_semantic_names[GLTF_DEFORMED];
-
-/* Whether one of the nodes that show a mesh has a skin. */
-bool ffd_gltf_has_skin(const gltf_document *document, const gltf_mesh_uses *uses);
 
 #endif
