@@ -310,7 +310,7 @@ static ffd_status add_clip(clip_writer *w, const morph_clip *clip, uint32_t *nam
    for one per target of a mesh. */
 static void find_replaced(clip_writer *w, uint32_t *names, uint32_t animations)
 {
-    const gltf_document *const d = w->file->document;
+    gltf_document *const d = w->file->document;
     for (size_t c = 0; c < d->clip_count; c++) {
         bool any = false;
         w->clip = &d->clips[c];
@@ -320,7 +320,7 @@ static void find_replaced(clip_writer *w, uint32_t *names, uint32_t animations)
             any = mesh >= 0 && find_driven(w, (size_t)mesh, names, d->mesh_uses[mesh].target_count);
         }
         if (any)
-            w->file->replaced.values[w->file->replaced.count++] = old;
+            d->replaced.values[d->replaced.count++] = old;
     }
 }
 
@@ -329,8 +329,7 @@ static ffd_status add_all(clip_writer *w, uint32_t *names)
     gltf_document *const d = w->file->document;
     const uint32_t animations = ffd_json_tree_member(&d->tree, 0, "animations");
     find_replaced(w, names, animations);
-    d->replaced = &w->file->replaced;
-    w->replaced.values = w->file->replaced.values;
+    w->replaced.values = d->replaced.values;
     ffd_gltf_extend_weights(w->file);
     for (size_t c = 0; c < d->clip_count; c++)
         TRY(add_clip(w, &d->clips[c], names, animations));
@@ -350,9 +349,9 @@ ffd_status ffd_gltf_animate_weights(gltf_edit *edit, ffd_error *error)
         most = d->mesh_uses[m].target_count > most ? d->mesh_uses[m].target_count : most;
     uint32_t *const names = ffd_alloc(most, sizeof *names);
     w.samplers = ffd_alloc(d->model.mesh_count, sizeof *w.samplers);
-    edit->replaced.values = ffd_alloc(d->clip_count, sizeof *edit->replaced.values);
+    d->replaced.values = ffd_alloc(d->clip_count, sizeof *d->replaced.values);
     const ffd_status status =
-        names && w.samplers && edit->replaced.values ? add_all(&w, names) : ffd_fail_memory(error);
+        names && w.samplers && d->replaced.values ? add_all(&w, names) : ffd_fail_memory(error);
     ffd_free(names);
     ffd_free(w.samplers);
     ffd_buffer_free(&w.sampler_text);

@@ -4,7 +4,7 @@
 #include "base/spelling.h"
 #include "base/text/words.h"
 #include "base/vector/vec.h"
-#include "io/gltf/edit/gltf_rig.h"
+#include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/read/gltf_elements.h"
 #include <inttypes.h>
@@ -324,21 +324,19 @@ ffd_status ffd_gltf_follow(mesh_document *document, const mesh_places *places, m
                            const mesh_log *log, mesh_following *following, ffd_error *error)
 {
     gltf_document *const d = (gltf_document *)document;
-    ffd_gltf_free_rig(d);
+    gltf_rig *const rig = &d->edit->rig;
+    ffd_gltf_clear_edit(d);
     *following = (mesh_following){0};
     TRY(check_memory(d, error));
-    d->rig = ffd_alloc_zero(1, sizeof *d->rig);
-    if (!d->rig)
-        return ffd_fail_memory(error);
-    d->rig->budget = &d->base.budget;
-    ffd_status status = ffd_gltf_follow_nodes(d, places, moves, d->rig, following, error);
+    ffd_status status = ffd_gltf_follow_nodes(d, places, moves, following, error);
     if (!status)
-        status = ffd_gltf_follow_skins(d, places, moves, d->rig, error);
+        status = ffd_gltf_follow_skins(d, places, moves, error);
     if (!status)
-        status = ffd_gltf_follow_animations(d, d->rig, error);
+        status = ffd_gltf_follow_animations(d, error);
     if (!status)
-        status = warn_of_rig(d, places, d->rig, log, following, error);
+        status = warn_of_rig(d, places, rig, log, following, error);
+    d->edit->any = rig->node_count > 0;
     if (status)
-        ffd_gltf_free_rig(d);
+        ffd_gltf_clear_edit(d);
     return status;
 }

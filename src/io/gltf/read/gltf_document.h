@@ -212,10 +212,8 @@ typedef struct gltf_document {
     /* The reason if the transforms of instances are unknown: the document can then only be described. */
     ffd_status instancing_status;
     ffd_error instancing_error;
-    /* Lent: what saving changes and adds beside results (io/gltf/edit); NULL: nothing. */
-    struct gltf_edit *edit;
-    const gltf_values *replaced; /* lent: animations that the edit replaces; NULL: none */
-    struct gltf_rig *rig;        /* how nodes follow the deformation (io/gltf/edit); NULL: they do not */
+    struct gltf_edit *edit; /* what saving changes and adds beside results (io/gltf/edit) */
+    gltf_values replaced;   /* animations that it replaces */
     /* Per morph target of an instance: the part that holds its offsets; GLTF_NONE: not deformed. */
     size_t *targets;
 } gltf_document;
@@ -274,7 +272,7 @@ static inline bool ffd_gltf_is_among(const gltf_values *list, uint32_t value)
 /* Whether an animation is replaced in the output: what it names does not count. */
 static inline bool ffd_gltf_is_replaced(const gltf_document *document, uint32_t animation)
 {
-    return ffd_gltf_is_among(document->replaced, animation);
+    return ffd_gltf_is_among(&document->replaced, animation);
 }
 
 /* Returns the primitive of a mesh after `primitive`, or the first one if that is NULL; NULL: there is none.

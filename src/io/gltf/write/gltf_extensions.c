@@ -2,7 +2,7 @@
    longer needs, and finds bounds of meshes. */
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
-#include "io/gltf/edit/gltf_rig.h"
+#include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/write/gltf_plan.h"
 #include "io/gltf/write/gltf_saver.h"
 #include <string.h>
@@ -204,8 +204,8 @@ static void mark_all(stale_search *s, const gltf_saver *saver)
     for (size_t n = 0; n < d->model.node_count && d->space != FFD_SPACE_SCENE; n++)
         if (d->model.nodes[n].mesh >= 0 && s->meshes[d->model.nodes[n].mesh])
             mark_node(s, n);
-    for (size_t i = 0; d->rig && i < d->rig->node_count; i++)
-        mark_node(s, d->rig->nodes[i].node);
+    for (size_t i = 0; i < d->edit->rig.node_count; i++)
+        mark_node(s, d->edit->rig.nodes[i].node);
 }
 
 static bool is_named_as_bounds(const json_tree *tree, const json_value *value)

@@ -122,7 +122,7 @@ static void write_name(const gltf_index_place *place, size_t mesh, const char *r
 /* Appends a range of the file's JSON as the document's edit changes it: a channel may get another sampler. */
 static void copy_edited(const gltf_document *d, uint32_t begin, uint32_t end, byte_buffer *text)
 {
-    ffd_edits_apply(d->edit ? &d->edit->edits : &(json_edits){0}, d->tree.text, begin, end, text);
+    ffd_edits_apply(&d->edit->edits, d->tree.text, begin, end, text);
 }
 
 /* Repeats an element of a list, for a copy of the mesh that it refers to. */

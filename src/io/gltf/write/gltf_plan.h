@@ -9,7 +9,7 @@
 /* A new content of an accessor. As the number of a version, GLTF_NONE means the original content. */
 typedef struct gltf_version {
     size_t accessor; /* GLTF_NONE: a new accessor of MAT4 */
-    /* Owned by a part: components * count floats, the first components of each element. Owned by the rig:
+    /* Owned by a part: components * count floats, the first components of each element. Owned by the edit:
        count elements of width numbers, all numbers of each element, stored as floats. */
     const float *values;
     size_t width, count; /* width is 0 if a part owns the values */
@@ -41,9 +41,9 @@ typedef struct gltf_plan {
     size_t copy_count;
     gltf_node_change *changes;
     size_t change_count;
-    size_t *rig_versions; /* per content of the document's rig */
-    size_t *in_place;     /* per accessor: the version that overwrites it, or GLTF_NONE */
-    size_t *appended;     /* versions with new bufferViews, in order */
+    size_t *content_versions; /* per content of the document's edit */
+    size_t *in_place;         /* per accessor: the version that overwrites it, or GLTF_NONE */
+    size_t *appended;         /* versions with new bufferViews, in order */
     size_t appended_count;
 } gltf_plan;
 
