@@ -12,7 +12,7 @@ typedef struct anchor_work {
     mesh_state state;
     bool after;
     mesh_anchors *anchors;
-    size_t *first; /* per part: the number of its first vertex */
+    size_t *first; /* per part: the index of its first vertex */
     bool *driven;  /* per node: whether a loaded animation drives its weights */
     bool *is_done; /* per part: whether its targets are done */
     ffd_error *error;

@@ -177,11 +177,11 @@ static bool put_weights(clip_writer *w, const uint32_t *names, size_t count, uin
 /* Adds a sampler for the nodes of a mesh. */
 static ffd_status add_sampler(clip_writer *w, const uint32_t *names, size_t count, uint32_t default_value)
 {
-    const uint64_t numbers = (uint64_t)w->clip->key_count * count;
-    TRY(ffd_budget_take(&w->budget, numbers, sizeof(float), w->error));
+    const uint64_t value_count = (uint64_t)w->clip->key_count * count;
+    TRY(ffd_budget_take(&w->budget, value_count, sizeof(float), w->error));
     if (w->input == GLTF_NONE)
         add_times(w);
-    const size_t output = add_accessor(w, (size_t)numbers, "");
+    const size_t output = add_accessor(w, (size_t)value_count, "");
     ffd_buffer_format(&w->sampler_text, "%s{\"input\":%zu,\"interpolation\":\"LINEAR\",\"output\":%zu}",
                       w->sampler_count++ > 0 ? "," : "", w->input, output);
     return put_weights(w, names, count, default_value) ? FFD_OK : ffd_fail_memory(w->error);

@@ -55,7 +55,7 @@ static inline size_t ffd_gltf_view_end(const gltf_document *document)
 size_t ffd_gltf_added_buffer(const gltf_document *document);
 
 /* Adds an accessor of zeros, vectors of three floats, to the model. bounded: whether it states bounds.
-   Returns its number; GLTF_NONE, with edits.failed set, if memory runs out. */
+   Returns its index; GLTF_NONE, with edits.failed set, if memory runs out. */
 size_t ffd_gltf_add_zeros(gltf_edit *edit, uint64_t count, bool bounded);
 
 /* Allocates content->values, from the memory budget. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */

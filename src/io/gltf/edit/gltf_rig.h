@@ -44,7 +44,7 @@ typedef struct gltf_rig_animation {
     /* Per sampler: index of its output in the edit's contents, GLTF_NONE: unchanged; NULL: the whole
        animation is unchanged. */
     size_t *contents;
-    /* Per channel: the number of its sampler; the copies come after the original samplers. */
+    /* Per channel: the index of its sampler; the copies come after the original samplers. */
     size_t *channels;
     gltf_sampler_copy *copies;
     size_t copy_count, copy_capacity;

@@ -118,21 +118,21 @@ static ffd_status fill_values(const channel_work *w, const change_key *key,
 }
 
 static ffd_status make_content(const channel_work *w, const change_key *key,
-                               const gltf_animation_sampler *sampler, size_t *number)
+                               const gltf_animation_sampler *sampler, size_t *index)
 {
     gltf_content content = {.accessor = sampler->output,
                             .count = sampler->key_count * (key->cubic ? 3 : 1),
                             .width = key->path == GLTF_ROTATION ? 4 : 3};
     bool changes;
-    *number = GLTF_NONE;
+    *index = GLTF_NONE;
     TRY(ffd_gltf_make_elements(w->document->edit, &content, w->error));
     ffd_status status = fill_values(w, key, sampler, &content, &changes);
     if (status || !changes) {
         ffd_gltf_free_elements(w->document->edit, &content);
         return status;
     }
-    *number = ffd_gltf_add_content(w->document->edit, &content);
-    return *number == GLTF_NONE ? ffd_fail_memory(w->error) : FFD_OK;
+    *index = ffd_gltf_add_content(w->document->edit, &content);
+    return *index == GLTF_NONE ? ffd_fail_memory(w->error) : FFD_OK;
 }
 
 /* Finds the content that a channel needs as its sampler's output; GLTF_NONE: the original output. */

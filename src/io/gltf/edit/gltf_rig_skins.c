@@ -60,7 +60,7 @@ static bool is_of_node_before(const void *place, const void *node)
     return ((const mesh_place *)place)->number < *(const size_t *)node;
 }
 
-/* Finds a node among the places, which are sorted by node number. */
+/* Finds a node among the places, which are sorted by node. */
 static size_t find_place(const mesh_places *places, size_t node)
 {
     const size_t at =

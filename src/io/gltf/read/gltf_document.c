@@ -11,10 +11,10 @@ void ffd_gltf_splat_name(size_t attribute, char name[GLTF_SPLAT_NAME])
                  attribute == GLTF_SPLAT_ROTATION ? "ROTATION" : "SCALE");
         return;
     }
-    size_t degree = 1, number = attribute - GLTF_SPLAT_HARMONICS;
-    for (; number > 2 * degree; degree++)
-        number -= 2 * degree + 1;
-    snprintf(name, GLTF_SPLAT_NAME, "%s:SH_DEGREE_%zu_COEF_%zu", prefix, degree, number);
+    size_t degree = 1, coefficient = attribute - GLTF_SPLAT_HARMONICS;
+    for (; coefficient > 2 * degree; degree++)
+        coefficient -= 2 * degree + 1;
+    snprintf(name, GLTF_SPLAT_NAME, "%s:SH_DEGREE_%zu_COEF_%zu", prefix, degree, coefficient);
 }
 
 const char *const ffd_gltf_semantic_names[GLTF_DEFORMED] = {"POSITION", "NORMAL", "TANGENT"};

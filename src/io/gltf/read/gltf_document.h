@@ -63,7 +63,7 @@ typedef struct gltf_stream {
 } gltf_stream;
 
 typedef struct gltf_skin {
-    size_t *joints; /* node numbers */
+    size_t *joints; /* indices of nodes */
     size_t joint_count;
     int inverse_bind; /* accessor; -1: none */
     double *matrices; /* 12 per joint: world matrix * inverse bind matrix; NULL: not needed */
@@ -281,7 +281,7 @@ static inline const gltf_primitive *ffd_gltf_next_primitive(const gltf_document 
                                                             const gltf_primitive *primitive)
 {
     const gltf_mesh *const of = &document->model.meshes[mesh];
-    const size_t next = primitive ? primitive->number + 1 : 0;
+    const size_t next = primitive ? primitive->index + 1 : 0;
     return next < of->primitive_count ? &of->primitives[next] : NULL;
 }
 
@@ -290,7 +290,7 @@ static inline gltf_instance *ffd_gltf_instances(const gltf_document *document,
                                                 const gltf_primitive *primitive)
 {
     const gltf_mesh_uses *const uses = &document->mesh_uses[primitive->mesh];
-    return document->instances + uses->first_instance + primitive->number * uses->node_count;
+    return document->instances + uses->first_instance + primitive->index * uses->node_count;
 }
 
 /* Returns the skin of an instance's node; NULL: it has none, or in mesh space. */
@@ -329,7 +329,7 @@ bool ffd_gltf_has_extension(const gltf_document *document, uint32_t value, const
 /* Returns a JSON value as a whole number below count; GLTF_NONE if it is not one. */
 size_t ffd_gltf_index(const gltf_document *document, uint32_t value, size_t count);
 
-/* Returns a JSON value as the number of a node; GLTF_NONE if it is not one. */
+/* Returns a JSON value as the index of a node; GLTF_NONE if it is not one. */
 size_t ffd_gltf_node(const gltf_document *document, uint32_t value);
 
 /* Returns the first element of the array that is a member of an object; JSON_NONE if absent or empty. */

@@ -143,7 +143,7 @@ static void list_overwrites(gltf_saver *saver)
 
 static size_t element_size(const gltf_document *d, const gltf_version *version)
 {
-    return ffd_gltf_version_numbers(d, version) * ffd_gltf_component_size(version->component);
+    return ffd_gltf_version_width(d, version) * ffd_gltf_component_size(version->component);
 }
 
 static ffd_status add_append(const gltf_saver *saver, size_t b, gltf_append append, ffd_error *error)
@@ -248,7 +248,7 @@ static void put_vectors(const float *xyz, size_t count, unsigned char *bytes)
 /* Whether a version's bytes are those of its values: vectors of three floats, contiguous. */
 static bool has_vectors(const gltf_document *d, const gltf_version *version)
 {
-    return version->component == GLTF_FLOAT && ffd_gltf_version_numbers(d, version) == 3;
+    return version->component == GLTF_FLOAT && ffd_gltf_version_width(d, version) == 3;
 }
 
 static void apply_overwrite(const gltf_document *d, const gltf_overwrite *overwrite, size_t offset,

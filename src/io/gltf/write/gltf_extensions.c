@@ -240,8 +240,8 @@ static bool is_value_before(const void *element, const void *value)
     return *(const uint32_t *)element < *(const uint32_t *)value;
 }
 
-/* Returns the number of an element of a list; GLTF_NONE if the list does not have it. */
-static size_t number_in(const gltf_values *list, uint32_t element)
+/* Returns the index of an element of a list; GLTF_NONE if the list does not have it. */
+static size_t index_in(const gltf_values *list, uint32_t element)
 {
     const size_t i = lower_bound(&element, list->values, list->count, sizeof *list->values, is_value_before);
     return i < list->count && list->values[i] == element ? i : GLTF_NONE;
@@ -255,8 +255,8 @@ static bool is_of_changed(const stale_search *s, uint32_t value)
     uint32_t element = value, list = tree->values[value].parent;
     for (; list != 0 && tree->values[list].parent != 0; list = tree->values[list].parent)
         element = list;
-    const size_t node = number_in(&s->document->node_values, element);
-    const size_t mesh = number_in(&s->document->mesh_values, element);
+    const size_t node = index_in(&s->document->node_values, element);
+    const size_t mesh = index_in(&s->document->mesh_values, element);
     if (node != GLTF_NONE)
         return s->nodes[node];
     if (mesh != GLTF_NONE)

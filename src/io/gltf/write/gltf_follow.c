@@ -101,7 +101,7 @@ static size_t first_copy(const gltf_plan *plan, size_t mesh)
     return lower_bound(&mesh, plan->copies, plan->copy_count, sizeof *plan->copies, is_of_mesh_before);
 }
 
-/* Writes a reference to a mesh: its number, or a pointer that ends with `rest`. */
+/* Writes a reference to a mesh: its index, or a pointer that ends with `rest`. */
 static void write_name(const gltf_index_place *place, size_t mesh, const char *rest, byte_buffer *text)
 {
     byte_buffer pointer = {0};

@@ -141,12 +141,12 @@ static ffd_status make_versions(const gltf_document *d, gltf_plan *plan, ffd_err
     const size_t most = ffd_gltf_part_count(d) * GLTF_DEFORMED;
     const size_t contents = d->edit->content_count;
     candidate *candidates = ffd_alloc(most, sizeof *candidates);
-    size_t *numbers = ffd_alloc(most, sizeof *numbers);
+    size_t *indices = ffd_alloc(most, sizeof *indices);
     plan->versions = ffd_alloc(most + contents, sizeof *plan->versions);
     plan->content_versions = ffd_alloc(contents, sizeof *plan->content_versions);
     plan->part_versions = ffd_alloc(most, sizeof *plan->part_versions);
     ffd_status status = FFD_OK;
-    if (!candidates || !numbers || !plan->versions || !plan->part_versions || !plan->content_versions) {
+    if (!candidates || !indices || !plan->versions || !plan->part_versions || !plan->content_versions) {
         status = ffd_fail_memory(error);
         goto done;
     }
@@ -156,16 +156,16 @@ static ffd_status make_versions(const gltf_document *d, gltf_plan *plan, ffd_err
     if (plan->version_count > 0)
         qsort(plan->versions, plan->version_count, sizeof *plan->versions, compare_versions);
     for (size_t i = 0; i < plan->version_count; i++) {
-        numbers[plan->versions[i].order] = i;
+        indices[plan->versions[i].order] = i;
         choose_component(d, &plan->versions[i]);
     }
     for (size_t i = 0; i < most; i++)
         if (plan->part_versions[i] != GLTF_NONE)
-            plan->part_versions[i] = numbers[plan->part_versions[i]];
+            plan->part_versions[i] = indices[plan->part_versions[i]];
     add_contents(d->edit, plan);
 done:
     ffd_free(candidates);
-    ffd_free(numbers);
+    ffd_free(indices);
     return status;
 }
 

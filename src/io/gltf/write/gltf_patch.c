@@ -108,7 +108,7 @@ static void write_view(const gltf_saver *saver, const gltf_append *append, size_
 {
     const gltf_version *version = &saver->plan.versions[append->version];
     const size_t element =
-        ffd_gltf_version_numbers(saver->document, version) * ffd_gltf_component_size(version->component);
+        ffd_gltf_version_width(saver->document, version) * ffd_gltf_component_size(version->component);
     ffd_buffer_format(text, "%s{\"buffer\":%zu,\"byteOffset\":%zu,\"byteLength\":%zu",
                       text->size > 0 ? "," : "", buffer, append->offset, append->size);
     if (append->stride > element && !append->bytes)
