@@ -250,9 +250,9 @@ static void colors_numbers_and_cages_are_there(void **state)
     scene.colors = hand_array(4, 4 * sizeof(double));
     const double colors[4] = {1, 0.5, -3, NAN};
     memcpy(scene.colors, colors, sizeof colors);
-    scene.numbers = hand_array(4, sizeof *scene.numbers);
+    scene.indices = hand_array(4, sizeof *scene.indices);
     for (size_t v = 0; v < 4; v++)
-        scene.numbers[v] = 10 + v;
+        scene.indices[v] = 10 + v;
     hand_cage(&scene, "cage", 3, 2, 2, low, high, wave);
     char *page = page_of(&scene, false);
     unsigned char *bytes = bytes_of(page, "data-color", 16);
@@ -269,7 +269,7 @@ static void colors_numbers_and_cages_are_there(void **state)
     }
     ffd_free(bytes);
     ffd_free(page);
-    scene.numbers[3] = (uint64_t)1 << 40;
+    scene.indices[3] = (uint64_t)1 << 40;
     page = page_of(&scene, false);
     ffd_free(bytes_of(page, "data-number", 32));
     ffd_free(page);

@@ -160,7 +160,7 @@ static ffd_status make_anchors(anchor_work *w)
     if (!w->driven || !w->is_done)
         return ffd_fail_memory(w->error);
     TRY(ffd_gltf_skeleton_take((gltf_skeleton *)w->rig, count, 3 * sizeof(double), w->error));
-    TRY(ffd_parts_number(&d->base, &w->first, w->error));
+    TRY(ffd_first_vertices(&d->base, &w->first, w->error));
     w->anchors->points = ffd_alloc(count, 3 * sizeof(double));
     if (!w->anchors->points)
         return ffd_fail_memory(w->error);

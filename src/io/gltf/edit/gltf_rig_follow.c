@@ -138,14 +138,14 @@ static ffd_status list_staying(const gltf_document *d, const mesh_places *places
     for (size_t i = 0; i < places->count && !status; i++) {
         const mesh_place *const place = &places->list[i];
         const bool has_shape = place->kinds & PLACE_BIT(FFD_BEHIND_PHYSICS_SHAPE);
-        const size_t moved = rig->motions[place->number].moved;
-        const size_t at = 12 * place->number;
+        const size_t moved = rig->motions[place->index].moved;
+        const size_t at = 12 * place->index;
         const bool moves =
             !place->stays && memcmp(rig->world + at, d->world + at, 12 * sizeof *d->world) != 0;
         const struct {
             bool is_one;
             place_group *group;
-        } groups[] = {{has_splats[place->number], &found->splats},
+        } groups[] = {{has_splats[place->index], &found->splats},
                       {moves && has_shape, &found->shapes},
                       {moves && place->holds & PLACE_HOLDS_SPRING, &found->springs},
                       {moves && place->holds & PLACE_HOLDS_EYES, &found->eyes},
@@ -154,7 +154,7 @@ static ffd_status list_staying(const gltf_document *d, const mesh_places *places
                       {is_old && moved != GLTF_NONE && is_turned(d, &rig->nodes[moved]), &found->turned}};
         for (size_t g = 0; g < sizeof groups / sizeof *groups && !status; g++)
             if (groups[g].is_one)
-                status = add_place(d, place->number, groups[g].group, error);
+                status = add_place(d, place->index, groups[g].group, error);
         following->unscaled += groups[0].is_one || groups[1].is_one || groups[2].is_one || groups[3].is_one;
     }
     end_group(&found->splats);

@@ -317,8 +317,8 @@ ffd_status ffd_gltf_follow_nodes(const gltf_document *d, const mesh_places *plac
     const bool allocated = allocate(&w, count);
     rig->left = rig->left_below = GLTF_NONE;
     for (size_t i = 0; i < places->count && allocated; i++) {
-        w.places[places->list[i].number] = &places->list[i];
-        w.moves[places->list[i].number] = &moves[i];
+        w.places[places->list[i].index] = &places->list[i];
+        w.moves[places->list[i].index] = &moves[i];
     }
     for (size_t n = 0; n < count && allocated; n++)
         rig->motions[n].moved = GLTF_NONE;

@@ -57,7 +57,7 @@ static void pin(const double from[3], const double to[3], affine *map)
 
 static bool is_of_node_before(const void *place, const void *node)
 {
-    return ((const mesh_place *)place)->number < *(const size_t *)node;
+    return ((const mesh_place *)place)->index < *(const size_t *)node;
 }
 
 /* Finds a node among the places, which are sorted by node. */
@@ -65,7 +65,7 @@ static size_t find_place(const mesh_places *places, size_t node)
 {
     const size_t at =
         lower_bound(&node, places->list, places->count, sizeof *places->list, is_of_node_before);
-    return at < places->count && places->list[at].number == node ? at : SIZE_MAX;
+    return at < places->count && places->list[at].index == node ? at : SIZE_MAX;
 }
 
 /* Finds the similarity nearest to the motion of a skin's first joint, and its inverse. If one similarity

@@ -64,7 +64,7 @@ uint64_t ffd_gltf_name_part(const mesh_document *document, uint64_t vertex, uint
     const gltf_document *d = ffd_gltf_of(document);
     size_t *first, part = 0;
     *name = 0;
-    if (ffd_parts_number(document, &first, NULL))
+    if (ffd_first_vertices(document, &first, NULL))
         return 0; /* without memory the result has no name, which is not worth a failure */
     while (d->mesh_parts[part].repeats_positions || vertex >= first[part] + d->mesh_parts[part].vertex_count)
         part++;

@@ -162,7 +162,7 @@ typedef struct stale_search {
 } stale_search;
 
 /* Whether the positions of an instance change, as default weights show them. */
-static bool is_moved(const gltf_saver *saver, const gltf_instance *instance, size_t use)
+static bool is_instance_moved(const gltf_saver *saver, const gltf_instance *instance, size_t use)
 {
     const gltf_document *const d = saver->document;
     const gltf_primitive *const primitive = instance->primitive;
@@ -193,7 +193,7 @@ static void mark_all(stale_search *s, const gltf_saver *saver)
         const gltf_instance *const instance = &d->instances[i];
         const size_t mesh = instance->primitive->mesh;
         const size_t use = (size_t)(instance - ffd_gltf_instances(d, instance->primitive));
-        if (!is_moved(saver, instance, use))
+        if (!is_instance_moved(saver, instance, use))
             continue;
         if (use == saver->plan.base_uses[mesh])
             s->meshes[mesh] = s->any = true;
