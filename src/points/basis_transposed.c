@@ -51,26 +51,27 @@ static void add_group(transposed_work *work, size_t points, int threads, double 
             dfdq[c] += work->sums[b * work->width + c];
 }
 
-static ffd_status add_all(transposed_work *work, const ffd_run_options *run, double *dfdq, ffd_error *error)
+static ffd_status add_all(transposed_work *work, const ffd_run_options *options, double *dfdq,
+                          ffd_error *error)
 {
-    const size_t count = work->embedding->count, group = group_size(work, run->threads);
+    const size_t count = work->embedding->count, group = group_size(work, options->threads);
     memset(dfdq, 0, work->width * sizeof *dfdq);
     work->sums = ffd_alloc(group, work->width * sizeof *work->sums);
-    work->rows = ffd_alloc((size_t)run->threads, sizeof *work->rows);
+    work->rows = ffd_alloc((size_t)options->threads, sizeof *work->rows);
     if (!work->sums || !work->rows)
         return ffd_fail_memory(error);
     for (size_t first = 0; first < count; first += group * POINT_TILE) {
         const size_t left = count - first, points = left < group * POINT_TILE ? left : group * POINT_TILE;
         work->first_block = first / POINT_TILE;
-        add_group(work, points, run->threads, dfdq);
-        if (run->progress && !run->progress(run->user, (double)(first + points) / (double)count))
+        add_group(work, points, options->threads, dfdq);
+        if (options->progress && !options->progress(options->user, (double)(first + points) / (double)count))
             return ffd_fail(error, FFD_E_CANCELLED, "cancelled by the progress function");
     }
     return FFD_OK;
 }
 
 ffd_status ffd_embedding_basis_transposed(const ffd_embedding *embedding, const double *weights,
-                                          const double *dfdx, double *dfdq, const ffd_run_options *callers,
+                                          const double *dfdx, double *dfdq, const ffd_run_options *options,
                                           ffd_error *error)
 {
     point_run run = {.total = 0};
@@ -78,9 +79,9 @@ ffd_status ffd_embedding_basis_transposed(const ffd_embedding *embedding, const 
         .embedding = embedding, .weights = weights, .dfdx = dfdx, .width = 3 * embedding->rest->count};
     ffd_status status = ffd_basis_weights(embedding, &work.weights, error);
     if (!status)
-        status = ffd_point_run_begin(callers, embedding->count, &run, error);
+        status = ffd_point_run_begin(options, embedding->count, &run, error);
     if (!status)
-        status = add_all(&work, &run.run, dfdq, error);
+        status = add_all(&work, &run.options, dfdq, error);
     ffd_free(work.sums);
     ffd_free(work.rows);
     ffd_point_run_end(&run);

@@ -150,16 +150,16 @@ class Run:
         if progress is not None and not callable(progress):
             raise TypeError(f"progress must be a function, not {type(progress).__name__}")
         self._said: list[Any] = [progress]
-        self.run = filled("ffd_run_options")
-        self.run.threads = integer(threads, "threads")
-        self.run.isa = number_of("ffd_isa", isa, "isa")
-        self.run.progress = _native.progress
-        self.run.user = id(self._said)
+        self.options = filled("ffd_run_options")
+        self.options.threads = integer(threads, "threads")
+        self.options.isa = number_of("ffd_isa", isa, "isa")
+        self.options.progress = _native.progress
+        self.options.user = id(self._said)
 
     def __call__(self, function: Any, *arguments: Any, last: tuple[Any, ...] = ()) -> None:
         """Calls a function with arguments, an ffd_run_options, the arguments in last, and an ffd_error."""
         try:
-            call(function, *arguments, ctypes.byref(self.run), *last)
+            call(function, *arguments, ctypes.byref(self.options), *last)
         except Cancelled:
             if len(self._said) > 1:
                 raise self._said[1] from None
