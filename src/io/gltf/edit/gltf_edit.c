@@ -96,7 +96,7 @@ ffd_status ffd_gltf_make_edit(gltf_document *d, ffd_error *error)
 void ffd_gltf_clear_edit(gltf_document *d)
 {
     gltf_edit *const edit = d->edit;
-    ffd_gltf_free_rig(d);
+    ffd_gltf_free_rig(d, &edit->rig);
     for (size_t i = 0; i < edit->content_count; i++)
         ffd_gltf_free_elements(edit, &edit->contents[i]);
     ffd_intern_free(&edit->known);

@@ -1,6 +1,5 @@
 #include "io/gltf/edit/gltf_rig.h"
 #include "base/memory/memory.h"
-#include "io/gltf/edit/gltf_edit.h"
 
 static void mark(size_t accessor, bool *used)
 {
@@ -20,9 +19,8 @@ static void mark_animation(const gltf_animation *animation, const gltf_rig_anima
             mark(animation->samplers[change->copies[i].sampler].output, used);
 }
 
-void ffd_gltf_mark_rig_originals(const gltf_document *d, bool *used)
+void ffd_gltf_mark_rig_originals(const gltf_document *d, const gltf_rig *rig, bool *used)
 {
-    const gltf_rig *const rig = &d->edit->rig;
     for (size_t s = 0; s < d->skin_values.count; s++)
         if (d->skins[s].inverse_bind >= 0 && rig->skin_contents[s] == GLTF_NONE)
             used[d->skins[s].inverse_bind] = true;
@@ -30,9 +28,8 @@ void ffd_gltf_mark_rig_originals(const gltf_document *d, bool *used)
         mark_animation(&rig->animations.list[a], &rig->changes[a], used);
 }
 
-void ffd_gltf_free_rig(gltf_document *d)
+void ffd_gltf_free_rig(gltf_document *d, gltf_rig *rig)
 {
-    gltf_rig *const rig = &d->edit->rig;
     for (size_t a = 0; rig->changes && a < rig->animations.count; a++) {
         ffd_free(rig->changes[a].contents);
         ffd_free(rig->changes[a].channels);

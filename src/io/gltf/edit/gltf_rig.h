@@ -68,11 +68,11 @@ typedef struct gltf_rig {
     size_t *skin_contents;
 } gltf_rig;
 
-/* Frees the rig of the document's edit, a part of clearing it. */
-void ffd_gltf_free_rig(gltf_document *document);
+/* Frees a rig. Nothing follows the deformation then, and no part is carried. */
+void ffd_gltf_free_rig(gltf_document *document, gltf_rig *rig);
 
 /* Sets used[a] for each accessor a whose original content a skin or an animation has in the output. */
-void ffd_gltf_mark_rig_originals(const gltf_document *document, bool *used);
+void ffd_gltf_mark_rig_originals(const gltf_document *document, const gltf_rig *rig, bool *used);
 
 /* Fills the rig's world, motions and nodes, and `became` of the moves (one per place). Errors:
    FFD_E_MEMORY. */

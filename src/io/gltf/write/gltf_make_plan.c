@@ -316,7 +316,7 @@ static ffd_status choose_in_place(const gltf_document *d, gltf_plan *plan, ffd_e
         mark_mesh(d, plan, plan->copies[i].mesh, plan->copies[i].use, original);
     ffd_gltf_mark_other_users(d, original);
     if (ffd_gltf_follows(d))
-        ffd_gltf_mark_rig_originals(d, original);
+        ffd_gltf_mark_rig_originals(d, &d->edit->rig, original);
     else
         ffd_gltf_mark_rig_users(d, &d->replaced, original);
     for (size_t a = 0; a < d->model.accessor_count; a++)
