@@ -70,6 +70,20 @@ def snapshot(folder):
     return found
 
 
+def remove_copies(folder, files, jobs):
+    """Removes what no command of the list names, nor a file with the same stem: copies of materials and images, which the next job
+    copies again, whichever jobs ran before it. Returns the other files."""
+    named = {stem(word) for _, command in jobs for word in words(command)}
+    for name in [name for name in files if stem(name) not in named]:
+        os.remove(os.path.join(folder, name))
+        del files[name]
+    return files
+
+
+def stem(path):
+    return os.path.basename(path).split(".")[0]
+
+
 def run(program, command, folder, version, before):
     """The sum of what a command does, and what it did as text."""
     done = subprocess.run([*program, *words(command)], cwd=folder, capture_output=True, stdin=subprocess.DEVNULL, timeout=SECONDS,
@@ -108,6 +122,7 @@ def main():
         for i in indices:
             wanted, command = jobs[i]
             found, files, did = run(options.program, command, folder, version, files)
+            files = remove_copies(folder, files, jobs)
             if options.verbose:
                 print(f"{found} {command}\n    {did}")
             if options.write:
