@@ -73,7 +73,7 @@ def snapshot(folder):
 def remove_copies(folder, files, jobs):
     """Removes what no command of the list names, nor a file with the same stem: copies of materials and images, which the next job
     copies again, whichever jobs ran before it. Returns the other files."""
-    named = {stem(word) for _, command in jobs for word in words(command)}
+    named = {stem(word) for _, command in jobs for word in words(command) if "/" not in word}
     for name in [name for name in files if stem(name) not in named]:
         os.remove(os.path.join(folder, name))
         del files[name]
