@@ -57,14 +57,13 @@ static ffd_status read_faces(const deform_job *job, mesh_state state, figure_arr
     ffd_error own;
     char line[1024];
     memory_budget budget = arrays->budget;
-    ffd_status status = job->document->format->faces(job->document, state, &arrays->faces, &own);
-    if (!status)
-        status = take_memory(job, &arrays->faces, &budget, &own);
-    arrays->has_faces = status == FFD_OK;
-    if (!status) {
-        arrays->budget = budget;
-        return FFD_OK;
-    }
+    ffd_status status;
+    TRY_END(job->document->format->faces(job->document, state, &arrays->faces, &own));
+    TRY_END(take_memory(job, &arrays->faces, &budget, &own));
+    arrays->has_faces = true;
+    arrays->budget = budget;
+    return FFD_OK;
+end:
     ffd_mesh_faces_free(&arrays->faces);
     if (job->check || job->recomputes || status == FFD_E_MEMORY || job->desc->fail_on & NEED_FACES) {
         if (error)

@@ -257,9 +257,10 @@ static ffd_status read_and_count(deform_job *job, size_t planes, const figure_ar
     const bool all = some_may_not_move(job) || (is_asked_for(job) && job->chain.count > 1);
     TRY(all ? format->faces(job->document, ffd_job_judged(job), &faces, error)
             : format->mixed_faces(job->document, ffd_job_judged(job), &marks, &faces, error));
-    ffd_status status = ffd_mesh_faces_take(&faces, faces.start[faces.face_count], &budget, error);
-    if (!status)
-        status = count_torn(job, &faces, arrays, &budget, result, error);
+    ffd_status status;
+    TRY_END(ffd_mesh_faces_take(&faces, faces.start[faces.face_count], &budget, error));
+    TRY_END(count_torn(job, &faces, arrays, &budget, result, error));
+end:
     ffd_mesh_faces_free(&faces);
     return status;
 }
