@@ -83,9 +83,10 @@ ffd_status ffd_shape_cylinder(const ffd_lattice *lattice, const lattice_spec *sp
     if (!ring)
         return ffd_fail_memory(error);
     double radius[2] = {0, 0};
-    const ffd_status status = place_ring(lattice, spec, ring, radius, error);
-    if (!status)
-        fill_cylinder(lattice, spec, ring, radius, points);
+    ffd_status status;
+    TRY_END(place_ring(lattice, spec, ring, radius, error));
+    fill_cylinder(lattice, spec, ring, radius, points);
+end:
     ffd_free(ring);
     return status;
 }

@@ -348,8 +348,9 @@ ffd_status ffd_moves_apply(const lattice_spec *spec, const rest_region *region, 
     if (!work.selected)
         return ffd_fail_memory(error);
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < spec->move_count && !status; i++)
-        status = apply_move(&work, spec, i);
+    for (size_t i = 0; i < spec->move_count; i++)
+        TRY_END(apply_move(&work, spec, i));
+end:
     ffd_mirror_tree_free(&work.rest);
     ffd_free(work.selected);
     return status;

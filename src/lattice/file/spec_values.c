@@ -61,16 +61,14 @@ ffd_status ffd_spec_read_object(json_cursor cursor, const char *const *known, si
 
 ffd_status ffd_spec_read_points(json_cursor cursor, size_t count, double **points)
 {
-    ffd_status status = ffd_json_read_array(cursor, count, "points");
-    if (status)
-        return status;
+    TRY(ffd_json_read_array(cursor, count, "points"));
     *points = ffd_alloc(count, 3 * sizeof **points);
     if (!*points)
         return ffd_fail_memory(cursor.file->error);
     json_cursor point = ffd_cursor_first(cursor);
-    for (size_t i = 0; i < count && !status; i++, point = ffd_cursor_next(point))
-        status = ffd_json_read_doubles(point, 3, *points + 3 * i);
-    return status;
+    for (size_t i = 0; i < count; i++, point = ffd_cursor_next(point))
+        TRY(ffd_json_read_doubles(point, 3, *points + 3 * i));
+    return FFD_OK;
 }
 
 ffd_status ffd_spec_read_path(json_cursor cursor, char **path)
