@@ -147,16 +147,16 @@ ffd_status ffd_face_lists_narrow(const mesh_document *document, const face_list 
                                  mesh_faces *faces, ffd_error *error)
 {
     vertex_set set;
-    ffd_status status =
-        make_set(document, lists, count, faces->vertex_count, &set, &faces->vertex_count, error);
-    faces->numbers = status ? NULL : ffd_alloc(faces->vertex_count, sizeof *faces->numbers);
-    if (!status && !faces->numbers)
-        status = ffd_fail_memory(error);
-    if (!status)
-        status = ffd_face_lists_join(document, lists, count, faces, error);
-    if (!status)
-        number_corners(&set, faces);
-    else
+    ffd_status status;
+    faces->numbers = NULL;
+    TRY_END(make_set(document, lists, count, faces->vertex_count, &set, &faces->vertex_count, error));
+    faces->numbers = ffd_alloc(faces->vertex_count, sizeof *faces->numbers);
+    if (!faces->numbers)
+        TRY_END(ffd_fail_memory(error));
+    TRY_END(ffd_face_lists_join(document, lists, count, faces, error));
+    number_corners(&set, faces);
+end:
+    if (status)
         ffd_mesh_faces_free(faces);
     free_set(&set);
     return status;

@@ -61,9 +61,11 @@ static ffd_status note_old(const sidecar_names *names, const char *target, path_
     sidecar_file file = {0};
     if (ffd_file_same(names->old, target))
         return FFD_OK;
-    ffd_status status = inspect(names, names->old, &file, error);
-    if (!status && file.others > 0)
-        status = note_users(names->old, "was", &file, passed, error);
+    ffd_status status;
+    TRY_END(inspect(names, names->old, &file, error));
+    if (file.others > 0)
+        TRY_END(note_users(names->old, "was", &file, passed, error));
+end:
     ffd_paths_free(&file.names);
     return status;
 }
