@@ -14,12 +14,8 @@ ffd_status ffd_point_run_begin(const ffd_run_options *callers, size_t total, poi
     *run = (point_run){.total = total, .passes = 1};
     ffd_run_options_init(&run->run, sizeof run->run);
     const size_t tiles = total / POINT_TILE + 1;
-    ffd_status status =
-        callers ? ffd_struct_take(&run->run, sizeof run->run, callers, "ffd_run_options", error) : FFD_OK;
-    if (!status)
-        status = ffd_threads_choose(run->run.threads, &run->run.threads, error);
-    if (status)
-        return status;
+    TRY(callers ? ffd_struct_take(&run->run, sizeof run->run, callers, "ffd_run_options", error) : FFD_OK);
+    TRY(ffd_threads_choose(run->run.threads, &run->run.threads, error));
     if (run->run.isa != FFD_ISA_AUTO && !ffd_isa_available(run->run.isa))
         return ffd_fail(error, FFD_E_ARGUMENT, "instruction set %d is not available here", (int)run->run.isa);
     if (tiles < (size_t)run->run.threads)
