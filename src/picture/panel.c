@@ -81,11 +81,13 @@ ffd_status ffd_panel_make(const layout *by, size_t index, const ffd_bounds *seen
     const projection to =
         ffd_camera_fit(&by->of->camera, seen, floor((result->left + result->right) / 2.0),
                        result->top + (by->top + by->bottom) / 2, width, by->bottom - by->top);
-    ffd_status status = result->meshes && result->cages ? FFD_OK : ffd_fail_memory(error);
-    for (size_t i = 0; !status && i < of->mesh_count; i++)
-        status = make_mesh(&of->meshes[i], &to, by->of, means, &result->meshes[i], error);
-    for (size_t i = 0; !status && i < of->cage_count; i++)
-        status = make_cage(&of->cages[i], &to, by, means, &result->cages[i], error);
+    ffd_status status;
+    TRY_END(result->meshes && result->cages ? FFD_OK : ffd_fail_memory(error));
+    for (size_t i = 0; i < of->mesh_count; i++)
+        TRY_END(make_mesh(&of->meshes[i], &to, by->of, means, &result->meshes[i], error));
+    for (size_t i = 0; i < of->cage_count; i++)
+        TRY_END(make_cage(&of->cages[i], &to, by, means, &result->cages[i], error));
+end:
     if (status)
         ffd_panel_free(result);
     return status;

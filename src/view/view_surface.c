@@ -17,11 +17,11 @@ static const double grey[3] = {0.47, 0.49, 0.52}, paper[3] = {0.72, 0.72, 0.73};
 static ffd_status decode(const mesh_image *from, memory_budget *budget, texture *to, ffd_error *error)
 {
     image decoded = {0};
-    ffd_status status = ffd_image_decode(from->bytes, from->size, budget, &decoded, error);
-    if (!status)
-        status = ffd_budget_take(budget, ffd_texture_size(decoded.width, decoded.height), 1, error);
-    if (!status)
-        status = ffd_texture_make(&decoded, to, error);
+    ffd_status status;
+    TRY_END(ffd_image_decode(from->bytes, from->size, budget, &decoded, error));
+    TRY_END(ffd_budget_take(budget, ffd_texture_size(decoded.width, decoded.height), 1, error));
+    TRY_END(ffd_texture_make(&decoded, to, error));
+end:
     if (status)
         ffd_free(decoded.pixels);
     return status;
