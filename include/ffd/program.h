@@ -13,6 +13,11 @@
 extern "C" {
 #endif
 
+/* Takes the descriptors of standard streams that are closed: else the next file that is opened would get one
+   of them, and messages be written into it. Writing to them remains an error. To be called first of all when
+   the program starts. */
+FFD_API void ffd_occupy_closed_streams(void);
+
 /* Installs handlers for those of SIGHUP, SIGINT, SIGPIPE, SIGQUIT and SIGTERM that would end the program:
    they remove the temporary files of unfinished outputs before it ends. To be called once when the program
    starts. */

@@ -343,14 +343,15 @@ void ffd_journal_close(job_journal **journal)
     *journal = NULL;
 }
 
-/* Returns the user's cache folder, extended by ours; freed with ffd_free. */
+/* Returns the user's cache folder, extended by ours; freed with ffd_free. NULL: there is none, as without a
+   home folder, which is not made. */
 static char *cache_folder(void)
 {
     const char *const caches = getenv("XDG_CACHE_HOME"), *const home = getenv("HOME"),
                       *const local = getenv("LOCALAPPDATA");
     if (caches && ffd_path_is_absolute(caches))
         return ffd_path_join(caches, "ffd");
-    if (home && *home)
+    if (home && *home && ffd_file_exists(home))
         return ffd_path_join(home, ".cache/ffd");
     return local && *local ? ffd_path_join(local, "ffd") : NULL;
 }

@@ -145,19 +145,6 @@ static int run(int count, char **arguments)
                    : unknown_command(count, arguments);
 }
 
-/* If a standard stream is closed, the next file opened would get its descriptor and receive messages. So
-   these descriptors are taken first by files that are open for reading only and never closed: writing to them
-   remains an error. */
-static void occupy_closed_streams(void)
-{
-    FILE *file;
-    do
-        file = fopen("/dev/null", "r");
-    while (file && fileno(file) < 3);
-    if (file)
-        fclose(file);
-}
-
 /* Beyond a limit on file sizes, a write must fail with a message instead of ending the program. */
 static void ignore_size_signal(void)
 {
@@ -168,7 +155,7 @@ static void ignore_size_signal(void)
 
 int main(int argc, char **argv)
 {
-    occupy_closed_streams();
+    ffd_occupy_closed_streams();
     ignore_size_signal();
     ffd_cleanup_on_signals();
     ffd_spell_members(cli_spell);

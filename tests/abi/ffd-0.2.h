@@ -749,6 +749,7 @@ ffd_status ffd_tangents_deform(const double *gradients, ffd_span normals, ffd_sp
 ffd_status ffd_lattice_evaluate_many(const ffd_lattice *lattice, ffd_volume volume, const double *uvw,
                                      size_t count, double *xyz, double *jacobians, const ffd_run_options *run,
                                      ffd_error *error);
+void ffd_occupy_closed_streams(void);
 void ffd_cleanup_on_signals(void);
 void ffd_guard_inputs(void);
 typedef void (*ffd_spell_function)(const char *member, const char *value, char *text, size_t capacity);

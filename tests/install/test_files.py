@@ -23,6 +23,9 @@ def expected(installed):
         paths.append(f"{options['includedir']}/ffd/{os.path.basename(header)}")
     for schema in glob.glob(os.path.join(stage.ROOT, "data/**/*.schema.json"), recursive=True):
         paths.append(f"{options['datadir']}/ffd/{os.path.basename(schema)}")
+    notices = glob.glob(os.path.join(stage.ROOT, "data/packaging/licenses/*.txt"))
+    paths += [f"{options['datadir']}/doc/ffd/{name}" for name in
+              ("LICENSE", "THIRD-PARTY.md", *(f"licenses/{os.path.basename(notice)}" for notice in notices))]
     paths.append(f"{options['bindir']}/ffd")
     if options["default_library"] != "shared":
         paths.append(f"{library}/libffd.a")

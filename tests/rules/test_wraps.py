@@ -11,7 +11,7 @@ import tree
 MESHOPTIMIZER = {"meshopt_simplify": "simplifier.cpp", "meshopt_decodeFilter": "vertexfilter.cpp", "meshopt_encodeFilter": "vertexfilter.cpp",
                  "meshopt_decodeVertex": "vertexcodec.cpp", "meshopt_encodeVertex": "vertexcodec.cpp",
                  "meshopt_decodeIndex": "indexcodec.cpp", "meshopt_encodeIndex": "indexcodec.cpp"}
-KEYS = {"directory": r"[\w.-]+", "revision": r"\S+", "patch_directory": r"\w+", "# debian": r"pool/main/\S+\.orig\.tar\.[gx]z",
+KEYS = {"directory": r"[\w.-]+", "revision": r"\S+", "patch_directory": r"\w+", "# debian": r"pool/main/\S+\.orig\.tar\.(?:bz2|[gx]z)",
         "# debian_hash": r"[0-9a-f]{64}"}
 
 

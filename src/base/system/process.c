@@ -2,6 +2,7 @@
 #include "base/system/process.h"
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"
+#include "base/system/null_device.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -56,7 +57,8 @@ static bool make_channel(int ends[2])
     return false;
 }
 
-static int spawn(const char *program, const char *name, const char *build, int channel, pid_t *id)
+/* null: what the worker has in place of standard input and output. */
+static int spawn(const char *program, const char *name, const char *build, int channel, int null, pid_t *id)
 {
     char *arguments[] = {(char *)(uintptr_t)name, (char *)(uintptr_t)build, NULL};
     posix_spawn_file_actions_t actions;
@@ -73,11 +75,12 @@ static int spawn(const char *program, const char *name, const char *build, int c
         return failed;
     failed = posix_spawnattr_init(&attributes);
     if (!failed) {
-        failed = posix_spawn_file_actions_adddup2(&actions, channel, CHANNEL);
+        failed = posix_spawn_file_actions_adddup2(&actions, null, STDIN_FILENO);
         if (!failed)
-            failed = posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+            failed = posix_spawn_file_actions_adddup2(&actions, null, STDOUT_FILENO);
+        /* The last one: null may have the number CHANNEL. */
         if (!failed)
-            failed = posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+            failed = posix_spawn_file_actions_adddup2(&actions, channel, CHANNEL);
         if (!failed)
             failed = posix_spawnattr_setsigmask(&attributes, &wishes);
         if (!failed)
@@ -107,7 +110,10 @@ ffd_status ffd_process_start(const char *program, const char *name, const char *
         return ffd_fail_memory(error);
     int failed = make_channel(ends) ? 0 : errno;
     if (!failed) {
-        failed = spawn(program, name, build, ends[1], &made->id);
+        const int null = ffd_null_open(true);
+        failed = null < 0 ? errno : spawn(program, name, build, ends[1], null, &made->id);
+        if (null >= 0)
+            close(null);
         close(ends[1]);
         if (failed)
             close(ends[0]);
