@@ -198,9 +198,8 @@ static ffd_status scan_bytes(hash_cache *cache, const char *path, const file_sta
     const mesh_format *const table = ffd_format_table(from);
     file_input bytes;
     forget_scan(scan);
-    ffd_status status = load_and_hash(cache, path, stamp, &bytes, error);
-    if (status)
-        return status;
+    TRY(load_and_hash(cache, path, stamp, &bytes, error));
+    ffd_status status = FFD_OK;
     if (table->sidecars)
         scan->sidecars = table->sidecars->count(&bytes, from, to);
     /* A GLB that is made of a .gltf holds its images. */

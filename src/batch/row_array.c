@@ -299,11 +299,10 @@ static bool hash_bytes(const row_array *array, uint64_t row, const update_file *
 ffd_status ffd_row_hash(const row_array *array, uint64_t row, hash128 *hash, ffd_error *error)
 {
     update_file *file;
-    ffd_status status = open_array(array, &file, error);
-    if (status)
-        return status;
+    TRY(open_array(array, &file, error));
     unsigned char *const piece = ffd_alloc(PIECE, 1);
     hash_stream *const stream = ffd_hash_stream_create();
+    ffd_status status = FFD_OK;
     if (!piece || !stream)
         status = ffd_fail_memory(error);
     else if (!hash_bytes(array, row, file, piece, stream))

@@ -200,9 +200,8 @@ static ffd_status plan(const ffd_deform_desc *desc, ffd_error *error)
                                .set = desc->set,
                                .set_count = desc->set_count,
                                .mesh = &desc->input};
-    const ffd_status status =
-        desc->output ? ffd_output_check(desc->output, desc->force || desc->if_changed, error) : FFD_OK;
-    return status ? status : ffd_chain_check(&files, error);
+    TRY(desc->output ? ffd_output_check(desc->output, desc->force || desc->if_changed, error) : FFD_OK);
+    return ffd_chain_check(&files, error);
 }
 
 /* Draws the picture of a job that was done or refused by a gate. result: of the job; replaced if only the
@@ -425,9 +424,7 @@ static ffd_status take_texts(batch_worker *worker, ffd_error *error)
 {
     const char *at = worker->text.data;
     ffd_deform_desc *const desc = &worker->desc;
-    const ffd_status status = ffd_settings_take(&at, desc, error);
-    if (status)
-        return status;
+    TRY(ffd_settings_take(&at, desc, error));
     desc->input.path = at;
     task_texts *const texts = &worker->texts;
     texts->origin = next_text(at);

@@ -182,9 +182,8 @@ ffd_status ffd_locator_find_near(const ffd_locator *locator, const double *xyz, 
                                  const ffd_border_allowance *allowance, ffd_location *locations,
                                  ffd_error *error)
 {
-    const ffd_status status = ffd_locator_find(locator, xyz, count, locations, error);
-    return status || !allowance ? status
-                                : ffd_near_border_find(locator, xyz, count, allowance, locations, error);
+    TRY(ffd_locator_find(locator, xyz, count, locations, error));
+    return allowance ? ffd_near_border_find(locator, xyz, count, allowance, locations, error) : FFD_OK;
 }
 
 bool ffd_locator_has_seam(const ffd_locator *locator, int direction)

@@ -242,9 +242,9 @@ static ffd_status move_rig(deform_job *job, ffd_error *error)
     const mesh_format *const format = job->document->format;
     if (!has_rig(job))
         return FFD_OK;
-    const ffd_status status = ffd_rig_places_find(job->document, &job->chain, follows, &job->rig, error);
-    return status || !follows || job->rig.places.count == 0
-               ? status
+    TRY(ffd_rig_places_find(job->document, &job->chain, follows, &job->rig, error));
+    return !follows || job->rig.places.count == 0
+               ? FFD_OK
                : format->places->follow(job->document, &job->rig.places, job->rig.moves, &job->log,
                                         &job->following, error);
 }
@@ -252,11 +252,10 @@ static ffd_status move_rig(deform_job *job, ffd_error *error)
 /* Finds what is left behind, and how far joints, pivots and sockets lag. */
 static ffd_status find_left(deform_job *job, ffd_job_result *result, ffd_error *error)
 {
-    const ffd_status status = ffd_behind_find(job, result, error);
-    return status ? status
-                  : ffd_rig_figures_find(job->document, &job->rig, &job->following,
-                                         job->desc->as_morph ? RIG_KINDS_OF_MORPHS : RIG_KINDS,
-                                         ffd_rig_diagonal(&result->bounds.before), &result->rig, error);
+    TRY(ffd_behind_find(job, result, error));
+    return ffd_rig_figures_find(job->document, &job->rig, &job->following,
+                                job->desc->as_morph ? RIG_KINDS_OF_MORPHS : RIG_KINDS,
+                                ffd_rig_diagonal(&result->bounds.before), &result->rig, error);
 }
 
 static void warn_of_left(const deform_job *job, const ffd_job_result *result)

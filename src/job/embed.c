@@ -196,10 +196,7 @@ static ffd_status embed(const ffd_embed_desc *desc, embedding *made, double star
     TRY(open_mesh(desc, made, threads, error));
     const double opened = ffd_clock_seconds();
     result->seconds.read = opened - start;
-    ffd_status status = make(desc, made, threads, &log, &totals, error);
-    status = ffd_mapping_judge(made->losses, status, error);
-    if (status)
-        return status;
+    TRY(ffd_mapping_judge(made->losses, make(desc, made, threads, &log, &totals, error), error));
     const double embedded = ffd_clock_seconds();
     ffd_result_fill(result, &totals, embedded - opened);
     ffd_result_note_flaws(result, &made->document->flaws);
@@ -207,7 +204,7 @@ static ffd_status embed(const ffd_embed_desc *desc, embedding *made, double star
     ffd_result_warn(&totals, &made->chain, false, &log);
     if (totals.vertices == 0)
         ffd_log_line(&log, FFD_LOG_WARNING, "there are no vertices");
-    status = write(desc, made, threads, error);
+    const ffd_status status = write(desc, made, threads, error);
     result->seconds.write = ffd_clock_seconds() - embedded;
     return status;
 }

@@ -87,8 +87,7 @@ static ffd_status make_set(const mesh_document *document, const face_list *lists
         ffd_budget_check(&document->budget, words, sizeof *set->words + sizeof *set->before, error);
     *set = (vertex_set){.word_count = words};
     *count = 0;
-    if (status)
-        return status;
+    TRY(status);
     set->words = ffd_alloc_zero(words, sizeof *set->words);
     set->before = ffd_alloc(words, sizeof *set->before);
     if (!set->words || !set->before)

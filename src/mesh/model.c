@@ -81,15 +81,12 @@ static bool find_name(mesh_model *model, const char *text, uint32_t *name)
 static ffd_status add_run(mesh_model *model, model_run run, ffd_error *error)
 {
     const model_run *const last = model->run_count ? &model->runs[model->run_count - 1] : NULL;
-    ffd_status status = FFD_OK;
     for (int k = 0; k < MODEL_KINDS; k++)
         run.first[k] = model->lists[k].count;
     if (last && memcmp(last->first, run.first, sizeof run.first) == 0)
         model->run_count--; /* the last run is empty */
     else
-        status = ffd_model_take(model, 1, RUN_BYTES, error);
-    if (status)
-        return status;
+        TRY(ffd_model_take(model, 1, RUN_BYTES, error));
     if (!ffd_grow((void **)&model->runs, &model->run_capacity, model->run_count + 1, sizeof *model->runs))
         return ffd_fail_memory(error);
     model->runs[model->run_count++] = run;

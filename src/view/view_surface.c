@@ -119,10 +119,7 @@ ffd_status ffd_view_surface_make(const view_scene *scene, bool textured, memory_
     const size_t count = scene->triangle_count;
     const bool has_texcoords = textured && scene->texcoords;
     *s = (view_surface){0};
-    ffd_status status =
-        ffd_budget_take(budget, count, TRIANGLE_BYTES + (has_texcoords ? TEXCOORD_BYTES : 0), error);
-    if (status)
-        return status;
+    TRY(ffd_budget_take(budget, count, TRIANGLE_BYTES + (has_texcoords ? TEXCOORD_BYTES : 0), error));
     count_triangles(scene, s);
     s->triangles = ffd_alloc(count, 3 * sizeof *s->triangles);
     s->materials = ffd_alloc(count, sizeof *s->materials);
@@ -133,10 +130,10 @@ ffd_status ffd_view_surface_make(const view_scene *scene, bool textured, memory_
     if (textured) {
         memory_budget rest = *budget;
         rest.taken += reserve; /* more than there is: then no texture fits */
-        status = decode_all(&scene->materials, &rest, log, s, error);
+        TRY(decode_all(&scene->materials, &rest, log, s, error));
         budget->taken = rest.taken - reserve;
     }
-    return status ? status : fill_materials(scene, s, error);
+    return fill_materials(scene, s, error);
 }
 
 void ffd_view_surface_free(view_surface *s)

@@ -226,8 +226,7 @@ static ffd_status parse(set_record *record, const char *bytes, size_t size, bool
             target ? ffd_record_add(record, target, entry.was_there, entry.size, entry.time, error)
                    : ffd_fail_memory(error);
         ffd_free(target);
-        if (status)
-            return status;
+        TRY(status);
     }
     return FFD_OK;
 }

@@ -325,8 +325,8 @@ static ffd_status check_first(const job_source *source, ffd_error *error)
 /* Likewise; checks the first line. */
 static ffd_status advance(job_source *source, line_state *state, bool *valid, ffd_error *error)
 {
-    const ffd_status status = find_next(source, state, valid, error);
-    return status || *state != LINE_READ || source->count > 0 ? status : check_first(source, error);
+    TRY(find_next(source, state, valid, error));
+    return *state != LINE_READ || source->count > 0 ? FFD_OK : check_first(source, error);
 }
 
 ffd_status ffd_jobs_next(job_source *source, batch_job *job, line_state *state, ffd_error *error)

@@ -247,10 +247,9 @@ static ffd_status pass_separator(csv_table *table, line_state *state, bool *vali
     if (!named)
         return FFD_OK;
     table->separator = named;
-    const ffd_status status =
-        ffd_flaw_line(&table->flaws, table->name, (size_t)table->line, error,
-                      "the line names the separator: the columns are named in the next one");
-    return status ? status : first_row(table, state, valid, error);
+    TRY(ffd_flaw_line(&table->flaws, table->name, (size_t)table->line, error,
+                      "the line names the separator: the columns are named in the next one"));
+    return first_row(table, state, valid, error);
 }
 
 ffd_status ffd_table_begin(csv_table *table, ffd_error *error)

@@ -233,9 +233,7 @@ ffd_status ffd_cells_brick(const ffd_locator *locator, uint32_t index, own_brick
         *brick = own->brick[slot];
     if (*brick)
         return FFD_OK;
-    const ffd_status status = check_heavy(cells, error); /* once the limit is exceeded, no more are made */
-    if (status)
-        return status;
+    TRY(check_heavy(cells, error)); /* once the limit is exceeded, no more are made */
     cell_brick *mine = ffd_alloc_zero(1, sizeof *mine);
     if (!mine || !cut_brick(locator, index, mine) || !index_leaves(mine)) {
         brick_free(mine);

@@ -62,8 +62,8 @@ static ffd_status make_values(const extractor *e)
     const ply_document *d = e->document;
     const size_t corners = e->faces.start[e->faces.face_count];
     const size_t texcoords = e->face_texcoords ? corners : e->roles[ROLE_U] ? d->file.part.vertex_count : 0;
-    const ffd_status status = ffd_file_document_model(&d->file, texcoords, e->model, e->error);
-    return status || !e->roles[ROLE_RED] ? status : ffd_model_make_colours(e->model, e->error);
+    TRY(ffd_file_document_model(&d->file, texcoords, e->model, e->error));
+    return !e->roles[ROLE_RED] ? FFD_OK : ffd_model_make_colours(e->model, e->error);
 }
 
 /* Returns the value of an integer type that stands for 1: the largest. */

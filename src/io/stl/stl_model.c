@@ -114,10 +114,7 @@ static void copy_results(extractor *e)
 static ffd_status number_positions(extractor *e)
 {
     const model_list *const faces = &e->model->lists[MODEL_FACES];
-    const ffd_status status =
-        ffd_model_take(e->model, e->positions.count, sizeof *e->model->numbers, e->error);
-    if (status)
-        return status;
+    TRY(ffd_model_take(e->model, e->positions.count, sizeof *e->model->numbers, e->error));
     e->model->numbers = ffd_alloc(e->positions.count, sizeof *e->model->numbers);
     if (!e->model->numbers)
         return ffd_fail_memory(e->error);

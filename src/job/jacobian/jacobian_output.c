@@ -266,9 +266,8 @@ static ffd_status write_npy(const jacobian *j, file_output *output, ffd_error *e
     rows_pass pass = {.j = j, .output = output, .put = put_dense};
     char shape[80], header[NPY_HEADER_CAPACITY];
     snprintf(shape, sizeof shape, "(%zu, 3, %zu)", j->count, j->columns);
-    const ffd_status status =
-        ffd_output_write(output, header, ffd_npy_header_of("<f8", shape, header), error);
-    return status ? status : run_pass(&pass, error);
+    TRY(ffd_output_write(output, header, ffd_npy_header_of("<f8", shape, header), error));
+    return run_pass(&pass, error);
 }
 
 /* Writes the names of the columns, one a line. */

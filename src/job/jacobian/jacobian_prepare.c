@@ -98,8 +98,8 @@ static ffd_status fill_embedding(jacobian *j, jacobian_link *link, pass_totals *
     pass.pace = &j->pace;
     pass.uvw = link->embedding->uvw;
     pass.statuses = link->embedding->status;
-    ffd_status status = ffd_pass_over_mesh(&pass, totals, error);
-    return status || !of->border ? status : extend(j, link->number, link->embedding, error);
+    TRY(ffd_pass_over_mesh(&pass, totals, error));
+    return of->border ? extend(j, link->number, link->embedding, error) : FFD_OK;
 }
 
 /* Scratch memory for a run of points through the later links. */

@@ -127,7 +127,6 @@ ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_j
                              ffd_error *error)
 {
     edge_quality edges;
-    ffd_status status = FFD_OK;
     result->det.is_known = job->totals.det_min <= job->totals.det_max;
     result->det.min = job->totals.det_min;
     result->det.max = job->totals.det_max;
@@ -135,9 +134,7 @@ ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_j
         return FFD_OK;
     measure_extent(job, arrays, result);
     if (!ffd_selection_is_all(job->document))
-        status = ffd_selection_reduce(job->document, &arrays->faces, error);
-    if (status)
-        return status;
+        TRY(ffd_selection_reduce(job->document, &arrays->faces, error));
     result->has_flipped = true;
     result->faces = arrays->faces.face_count;
     result->flipped_faces = ffd_quality_flipped(&arrays->faces, arrays->deformed, arrays->gradients);

@@ -248,10 +248,7 @@ static ffd_status add_key(list_work *work, uint64_t key, ffd_error *error)
 {
     edge_list *const edges = work->edges;
     if (edges->count == work->capacity) {
-        const ffd_status status =
-            ffd_budget_check(work->mesh->budget, edges->count + 1, EDGE_BYTES + work->spare, error);
-        if (status)
-            return status;
+        TRY(ffd_budget_check(work->mesh->budget, edges->count + 1, EDGE_BYTES + work->spare, error));
         if (!ffd_grow((void **)&edges->keys, &work->capacity, edges->count + 1, sizeof *edges->keys))
             return ffd_fail_memory(error);
     }

@@ -205,11 +205,9 @@ static ffd_status count_marked(const deform_job *job, const mesh_faces *faces, u
                               .torn = job->details ? &job->details->tears : NULL,
                               .threads = job->threads,
                               .most = most_evaluations(job)};
-    ffd_status status = list_hidden(job, &hidden, &question.mesh.hidden_count, error);
+    TRY(list_hidden(job, &hidden, &question.mesh.hidden_count, error));
     question.mesh.hidden = hidden;
-    if (status)
-        return status;
-    status = ffd_tears_count(&question, &count, error);
+    const ffd_status status = ffd_tears_count(&question, &count, error);
     if (!status || status == FFD_E_LIMIT)
         fill_result(job, faces, &count, !status, result);
     ffd_free(hidden);

@@ -452,8 +452,7 @@ end:
         tile->totals->disagreeing = run.disagreeing;
         tile->totals->disagreement = run.disagreement;
     }
-    if (status)
-        return status;
+    TRY(status);
     keep_locations(tile);
     if (run.kept)
         mark_kept(tile, run.keeps);
@@ -585,8 +584,7 @@ static ffd_status pass_over_part(part_work *work, pass_totals *totals, ffd_error
         ffd_totals_join(&work->tiles[i], totals);
     ffd_totals_judge_rounding(work->tiles, tiles, ffd_part_tolerance(work->whole.pass->document), totals);
     ffd_free(work->tiles);
-    if (status)
-        return status;
+    TRY(status);
     for (int i = 0; i < work->workers; i++)
         if (work->scratch[i].status) {
             if (error)

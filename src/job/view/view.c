@@ -168,9 +168,8 @@ static ffd_status take_findings(view_work *work, const ffd_job_result *result, f
 static ffd_status check_mesh(const view_work *work, const ffd_source *source, mesh_document *document,
                              ffd_error *error)
 {
-    const ffd_status status = ffd_mesh_check(document, error);
-    return status || work->desc->sink ? status
-                                      : ffd_view_check_files(source, document, work->desc->output, error);
+    TRY(ffd_mesh_check(document, error));
+    return work->desc->sink ? FFD_OK : ffd_view_check_files(source, document, work->desc->output, error);
 }
 
 /* Deforms the mesh in memory. A shape that a gate refuses is shown too; result then has the refusal. */

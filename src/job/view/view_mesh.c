@@ -157,11 +157,8 @@ ffd_status ffd_view_place_after(const mesh_model *model, const double *deformed,
                                 ffd_error *error)
 {
     const size_t vertex = 3 * sizeof *scene->after;
-    ffd_status status = FFD_OK;
     if (model->budget)
-        status = ffd_budget_take(model->budget, scene->vertex_count, vertex, error);
-    if (status)
-        return status;
+        TRY(ffd_budget_take(model->budget, scene->vertex_count, vertex, error));
     scene->after = ffd_alloc(scene->vertex_count, vertex);
     if (!scene->after)
         return ffd_fail_memory(error);

@@ -147,19 +147,17 @@ static ffd_status read_any_box(json_cursor rest, lattice_spec *spec)
     static const char *const names[] = {"mesh"};
     const json_cursor box = ffd_cursor_member(rest, "box"), margin = ffd_cursor_member(rest, "margin");
     size_t index;
-    ffd_status status = refuse_misplaced(box);
-    if (status)
-        return status;
+    TRY(refuse_misplaced(box));
     if (ffd_cursor_is(box, JSON_STRING)) {
         spec->rest = SPEC_BOX_MESH;
-        status = ffd_json_read_word(box, names, COUNT_OF(names), &index);
+        TRY(ffd_json_read_word(box, names, COUNT_OF(names), &index));
     } else if (ffd_cursor_exists(ffd_cursor_member(box, "meshes"))) {
-        status = read_meshes(box, spec);
+        TRY(read_meshes(box, spec));
     } else {
-        status = read_box(box, spec);
+        TRY(read_box(box, spec));
     }
-    if (status || !ffd_cursor_exists(margin))
-        return status;
+    if (!ffd_cursor_exists(margin))
+        return FFD_OK;
     return spec->rest == SPEC_BOX_MESH ? read_margin(margin, spec->margin) : refuse_margin(margin);
 }
 

@@ -119,16 +119,14 @@ ffd_status ffd_spec_read_axis(json_cursor object, const char *key, double axis[3
 {
     static const char *const names[] = {"x", "y", "z"};
     json_cursor cursor;
-    ffd_status status = ffd_json_require(object, key, &cursor);
-    if (status)
-        return status;
+    TRY(ffd_json_require(object, key, &cursor));
     if (ffd_cursor_is(cursor, JSON_STRING)) {
         size_t index;
         TRY(refuse_sign(cursor));
-        status = ffd_json_read_word(cursor, names, COUNT_OF(names), &index);
+        TRY(ffd_json_read_word(cursor, names, COUNT_OF(names), &index));
         for (size_t c = 0; c < 3; c++)
             axis[c] = c == index;
-        return status;
+        return FFD_OK;
     }
     TRY(ffd_json_read_doubles(cursor, 3, axis));
     return ffd_direction_unit(axis) ? FFD_OK

@@ -77,8 +77,7 @@ static ffd_status read_name(clip_parser *p, const char *ends)
         p->at += p->length;
     }
     p->word[p->length] = 0;
-    if (status)
-        return status;
+    TRY(status);
     if (p->length == 0) {
         p->at = begin;
         return refuse(p, "is where a name is missing");

@@ -36,9 +36,8 @@ static ffd_status add_words(intern_table *names, const name_words *name, const f
     const char *end = name->last_word;
     while (ffd_text_is_blank(end[-1]))
         end--;
-    const ffd_status status =
-        ffd_obj_add_name(names, name->first, (size_t)(end - name->first), mesh->file, error);
-    return status ? status : ffd_obj_add_name(names, name->last_word, last, mesh->file, error);
+    TRY(ffd_obj_add_name(names, name->first, (size_t)(end - name->first), mesh->file, error));
+    return ffd_obj_add_name(names, name->last_word, last, mesh->file, error);
 }
 
 static bool ends_library(text_word word)

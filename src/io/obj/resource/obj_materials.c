@@ -180,9 +180,8 @@ static ffd_status read_library(reader *r, const char *name)
         ffd_left_add(&r->left, name, "is a file, and standard input has no folder");
         return FFD_OK;
     }
-    ffd_status status = ffd_obj_find_path(&r->images.mesh, "", name, &path, r->error);
-    if (status)
-        return status;
+    TRY(ffd_obj_find_path(&r->images.mesh, "", name, &path, r->error));
+    ffd_status status = FFD_OK;
     if (path)
         status = read_file(r, path);
     else

@@ -18,8 +18,8 @@ static ffd_status add_file(const file_folder *mesh, resource_list *list, const c
                            const char *name, ffd_error *error)
 {
     char *path;
-    const ffd_status status = ffd_obj_find_map(mesh, library, name, &path, error);
-    return status || !path ? status : ffd_resources_add(list, &ffd_resource_image, list->count, path, error);
+    TRY(ffd_obj_find_map(mesh, library, name, &path, error));
+    return path ? ffd_resources_add(list, &ffd_resource_image, list->count, path, error) : FFD_OK;
 }
 
 /* Adds those tiles of a map that exist. */
