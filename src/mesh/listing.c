@@ -21,7 +21,7 @@ ffd_status ffd_listing_begin(const mesh_document *document, mesh_listing *listin
     const uint64_t count = ffd_mesh_vertex_count(document);
     *listing = (mesh_listing){0};
     TRY(ffd_budget_take(&budget, count, 3 * sizeof *listing->xyz + sizeof *listing->seen, error));
-    TRY(ffd_parts_number(document, &listing->first, error));
+    TRY(ffd_first_vertices(document, &listing->first, error));
     listing->xyz = ffd_alloc((size_t)count, 3 * sizeof *listing->xyz);
     listing->seen = ffd_alloc_zero((size_t)count, sizeof *listing->seen);
     if (!listing->xyz || !listing->seen)
@@ -55,7 +55,7 @@ ffd_status ffd_listing_add(mesh_listing *listing, selector_kind kind, const char
         copy[size] = 0;
     }
     listing->things[listing->count++] =
-        (mesh_thing){.kind = kind, .name = copy, .number = index, .bounds = ffd_bounds_empty()};
+        (mesh_thing){.kind = kind, .name = copy, .index = index, .bounds = ffd_bounds_empty()};
     return FFD_OK;
 }
 

@@ -104,7 +104,7 @@ static ffd_status make_set(const mesh_document *document, const face_list *lists
 }
 
 /* Renumbers the corners by the set, and lists the vertices of the set. */
-static void number_corners(const vertex_set *set, mesh_faces *faces)
+static void index_corners(const vertex_set *set, mesh_faces *faces)
 {
     size_t count = 0;
     for (size_t c = 0; c < faces->start[faces->face_count]; c++)
@@ -112,7 +112,7 @@ static void number_corners(const vertex_set *set, mesh_faces *faces)
     for (size_t w = 0; w < set->word_count; w++)
         for (unsigned bit = 0; bit < 64 && set->words[w] >> bit; bit++)
             if (set->words[w] >> bit & 1)
-                faces->numbers[count++] = (uint32_t)(64 * w + bit);
+                faces->vertices[count++] = (uint32_t)(64 * w + bit);
 }
 
 static void fill_faces(const face_list *lists, size_t count, mesh_faces *faces)
@@ -147,13 +147,13 @@ ffd_status ffd_face_lists_narrow(const mesh_document *document, const face_list 
 {
     vertex_set set;
     ffd_status status;
-    faces->numbers = NULL;
+    faces->vertices = NULL;
     TRY_END(make_set(document, lists, count, faces->vertex_count, &set, &faces->vertex_count, error));
-    faces->numbers = ffd_alloc(faces->vertex_count, sizeof *faces->numbers);
-    if (!faces->numbers)
+    faces->vertices = ffd_alloc(faces->vertex_count, sizeof *faces->vertices);
+    if (!faces->vertices)
         TRY_END(ffd_fail_memory(error));
     TRY_END(ffd_face_lists_join(document, lists, count, faces, error));
-    number_corners(&set, faces);
+    index_corners(&set, faces);
 end:
     if (status)
         ffd_mesh_faces_free(faces);

@@ -61,16 +61,16 @@ static ffd_status check(direction_work *work, ffd_error *error)
     return FFD_OK;
 }
 
-static ffd_status carry(direction_work *work, size_t *collapsed, const ffd_run_options *callers,
+static ffd_status carry(direction_work *work, size_t *collapsed, const ffd_run_options *options,
                         ffd_error *error)
 {
     point_run run = {.total = 0};
     atomic_init(&work->collapsed, 0);
     ffd_status status;
     TRY_END(check(work, error));
-    TRY_END(ffd_point_run_begin(callers, work->in.count, &run, error));
-    work->isa = run.run.isa;
-    work->scratch = ffd_alloc((size_t)run.run.threads, sizeof *work->scratch);
+    TRY_END(ffd_point_run_begin(options, work->in.count, &run, error));
+    work->isa = run.options.isa;
+    work->scratch = ffd_alloc((size_t)run.options.threads, sizeof *work->scratch);
     TRY_END(work->scratch ? ffd_point_run_tiles(&run, carry_tile, work, error) : ffd_fail_memory(error));
 end:
     if (collapsed)
@@ -81,16 +81,16 @@ end:
 }
 
 ffd_status ffd_normals_deform(const double *gradients, ffd_span in, ffd_span out, size_t *collapsed,
-                              const ffd_run_options *run, ffd_error *error)
+                              const ffd_run_options *options, ffd_error *error)
 {
     direction_work work = {.gradients = gradients, .in = in, .out = out};
-    return carry(&work, collapsed, run, error);
+    return carry(&work, collapsed, options, error);
 }
 
 ffd_status ffd_tangents_deform(const double *gradients, ffd_span normals, ffd_span in, ffd_span out,
-                               size_t *collapsed, const ffd_run_options *run, ffd_error *error)
+                               size_t *collapsed, const ffd_run_options *options, ffd_error *error)
 {
     direction_work work = {
         .gradients = gradients, .normals = normals, .in = in, .out = out, .tangents = true};
-    return carry(&work, collapsed, run, error);
+    return carry(&work, collapsed, options, error);
 }

@@ -104,7 +104,7 @@ static ffd_status prepare(page_work *work, ffd_error *error)
     const size_t used = ffd_page_mesh_mark(&work->mesh);
     if (!work->options->full)
         TRY(ffd_page_reduce(&work->mesh, VIEW_PAGE_VERTICES, error));
-    TRY(ffd_page_mesh_number(&work->mesh, error));
+    TRY(ffd_page_mesh_index(&work->mesh, error));
     ffd_page_data_measure(&work->mesh, &work->data);
     log_omissions(work, used);
     TRY(make_rig(work, error));

@@ -11,7 +11,7 @@ import sys
 
 from harness import (CUBE, CUBE_CORNERS, FFD, LIMIT, OK, SANITIZED, SECONDS, UNSUPPORTED, case, check, copy_program, equal,
                      glb, gltf_json, lattice, main)
-from said import anything
+from messages import anything
 
 PACKED_GLB = os.path.abspath(sys.argv.pop(1))
 MOVED = lattice(moves=[{"at": [1, 1, 1], "by": [0.5, 0, 0]}])

@@ -151,7 +151,7 @@ ffd_status ffd_rig_figures_find(const mesh_document *document, const rig_places 
         figures->is_there || figures->moved || figures->sheared || figures->singular || figures->partial;
     ffd_status status = FFD_OK;
     if (worst != SIZE_MAX) {
-        TRY_END(name_worst(document, rig->places.list[worst].number, figures, error));
+        TRY_END(name_worst(document, rig->places.list[worst].index, figures, error));
         TRY_END(document->format->places->count_skins(
             document, &rig->places, lagging, &figures->lagging_skins, &figures->lagging_joints, error));
     }

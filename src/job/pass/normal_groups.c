@@ -231,7 +231,7 @@ static ffd_status make(grouping *g, ffd_error *error)
     size_t *first_vertices = NULL;
     TRY(count_normals(g, error));
     TRY(allocate(g, error));
-    TRY(ffd_parts_number(g->document, &first_vertices, error));
+    TRY(ffd_first_vertices(g->document, &first_vertices, error));
     ffd_status status;
     TRY_END(read_corners(g, error));
     read_normals(g, first_vertices);

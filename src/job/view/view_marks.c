@@ -12,7 +12,7 @@
 
 static uint64_t number_of(const view_scene *scene, size_t vertex)
 {
-    return scene->numbers ? scene->numbers[vertex] : vertex;
+    return scene->indices ? scene->indices[vertex] : vertex;
 }
 
 static ffd_status add_statuses(const job_details *details, const mesh_model *model, view_scene *scene,

@@ -87,7 +87,7 @@ ffd_status ffd_sidecar_next(sidecar_names *names, sidecar_own_function *own, con
     ffd_status status = FFD_OK;
     *target = NULL;
     while (!*target) {
-        path = ffd_sidecar_name(names->options->path, names->number++);
+        path = ffd_sidecar_name(names->options->path, names->index++);
         TRY_END(path ? inspect(names, path, &file, error) : ffd_fail_memory(error));
         if (file.others > 0) {
             TRY_END(note_users(path, "is", &file, &passed, error));
