@@ -404,8 +404,7 @@ static ffd_status run_and_report(batch_run *run, ffd_error *error)
         ffd_pool_stop(run->pool);
     ffd_report *const reports[] = {run->report, run->rows.report};
     for (int i = 0; i < 2; i++) {
-        const ffd_status reported =
-            reports[i] ? ffd_report_write(reports[i], status ? NULL : error) : FFD_OK;
+        const ffd_status reported = reports[i] ? ffd_report_write(reports[i], status ? NULL : error) : FFD_OK;
         status = status ? status : reported;
     }
     const ffd_status shown = run->view ? ffd_run_view_write(run->view, status ? NULL : error) : FFD_OK;

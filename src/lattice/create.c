@@ -212,7 +212,7 @@ static ffd_status fill_cylinder(const ffd_lattice_desc *desc, const double *xyz,
     ffd_direction_unit(axis);
     ffd_direction_default_zero(axis, zero);
     vec_cross(axis, zero, side);
-    return find_bounds_or_fail(xyz, count, frame, min, max, error);
+    TRY(find_bounds_or_fail(xyz, count, frame, min, max, error));
     /* Without margin: only to widen flat sides and to refuse bounds that are too large. */
     TRY(ffd_shape_grow_box(min, max, none, grown_min, grown_max, error));
     for (int a = 0; a < 3; a++)
