@@ -337,8 +337,8 @@ ffd_status ffd_ply_mixed_faces(const mesh_document *document, mesh_state state, 
     face_reader r = {.document = d, .mixed = &list, .marks = marks, .error = error};
     (void)state;
     *faces = (mesh_faces){.vertex_count = marks->vertices};
-    TRY(visit_faces(&r));
     ffd_status status;
+    TRY_END(visit_faces(&r));
     TRY_END(ffd_face_lists_narrow(document, &list, 1, faces, error));
     ffd_file_document_fill_positions(&d->file, faces);
 end:
