@@ -169,7 +169,7 @@ static ffd_status complete_entry(const batch_run *run, pool_task *task, ffd_erro
 static ffd_status report_task(const batch_run *run, ffd_report *report, pool_task *task, ffd_error *error)
 {
     TRY(complete_entry(run, task, error));
-    return ffd_report_add_text(report, task->number, task->entry.data, task->entry.size, error);
+    return ffd_report_add_text(report, task->index, task->entry.data, task->entry.size, error);
 }
 
 static ffd_status show_task(batch_run *run, pool_task *task, ffd_error *error)

@@ -182,19 +182,19 @@ bool ffd_report_is_ordered(const ffd_report *report)
 }
 
 /* Records the position of the next entry. */
-static ffd_status note_place(ffd_report *report, uint64_t number, uint64_t begin, uint64_t size,
+static ffd_status note_place(ffd_report *report, uint64_t index, uint64_t begin, uint64_t size,
                              ffd_error *error)
 {
-    report->is_mixed = report->is_mixed || number < report->place_count;
-    if (number >= report->place_count) {
-        if (!ffd_grow((void **)&report->places, &report->place_capacity, (size_t)number + 1,
+    report->is_mixed = report->is_mixed || index < report->place_count;
+    if (index >= report->place_count) {
+        if (!ffd_grow((void **)&report->places, &report->place_capacity, (size_t)index + 1,
                       sizeof *report->places))
             return ffd_fail_memory(error);
         memset(report->places + report->place_count, 0,
-               ((size_t)number - report->place_count) * sizeof *report->places);
-        report->place_count = (size_t)number + 1;
+               ((size_t)index - report->place_count) * sizeof *report->places);
+        report->place_count = (size_t)index + 1;
     }
-    report->places[number] = (entry_place){begin, size};
+    report->places[index] = (entry_place){begin, size};
     return FFD_OK;
 }
 
@@ -220,18 +220,18 @@ static ffd_status grow_file(ffd_report *report, ffd_error *error)
 }
 
 /* Adds the entry in the buffer, which begins there after a lead. */
-static ffd_status add_to_file(ffd_report *report, uint64_t number, size_t lead, ffd_error *error)
+static ffd_status add_to_file(ffd_report *report, uint64_t index, size_t lead, ffd_error *error)
 {
     ffd_status status;
-    TRY_END(note_place(report, number, report->end + lead, report->buffer.size - lead, error));
+    TRY_END(note_place(report, index, report->end + lead, report->buffer.size - lead, error));
     TRY_END(grow_file(report, error));
 end:
-    if (status && number < report->place_count)
-        report->places[number].size = 0;
+    if (status && index < report->place_count)
+        report->places[index].size = 0;
     return status;
 }
 
-ffd_status ffd_report_add_text(ffd_report *report, uint64_t number, const char *text, size_t size,
+ffd_status ffd_report_add_text(ffd_report *report, uint64_t index, const char *text, size_t size,
                                ffd_error *error)
 {
     byte_buffer *const buffer = &report->buffer;
@@ -240,7 +240,7 @@ ffd_status ffd_report_add_text(ffd_report *report, uint64_t number, const char *
     if (buffer->failed)
         return ffd_fail_memory(error);
     TRY(report->stream ? ffd_output_write(report->stream, buffer->data, buffer->size, error)
-                       : add_to_file(report, number, report->lines ? 0 : buffer->size - size, error));
+                       : add_to_file(report, index, report->lines ? 0 : buffer->size - size, error));
     report->count++;
     return FFD_OK;
 }
