@@ -1,6 +1,6 @@
-/* caller.c - a program that was written with the headers of 0.2, as they are kept. It links the library of
+/* caller.c - a program that was written with the headers of 0.3, as they are kept. It links the library of
    today, which must take its structs as they were, and write nothing behind them. */
-#include "ffd-0.2.h"
+#include "ffd-0.3.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

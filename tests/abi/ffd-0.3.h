@@ -1,4 +1,4 @@
-/* ffd-0.2.h - the public headers that programs of this ABI were built with (test_abi.py --keep). */
+/* ffd-0.3.h - the public headers that programs of this ABI were built with (test_abi.py --keep). */
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
