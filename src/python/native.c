@@ -1,5 +1,5 @@
-/* native.c - the Python extension that contains the library and its callbacks. All other calls go through
-   ctypes.
+/* native.c - the Python extension, which holds the callbacks that the library is given. All calls of the
+   library go through ctypes.
 
    The callbacks are in C because a KeyboardInterrupt inside a Python callback of ctypes could not be caught
    by the caller. Each callback acquires the GIL and stores its results, or an exception, in a list. */
@@ -214,7 +214,6 @@ static int add_address(PyObject *module, const char *name, uintptr_t address)
     return failed;
 }
 
-/* The module's attributes are the addresses of the functions above. */
 /* Arguments of Python that are not called as the members are, or take no keyword. */
 static const char *const others[][2] = {
     {"input.format", "input_format="},
@@ -241,13 +240,14 @@ static void spell(const char *member, const char *value, char *text, size_t capa
     snprintf(text, capacity, value ? "%s='%s'" : "%s=", dot ? dot + 1 : member, value);
 }
 
+/* The module's attributes are the addresses of the functions above. */
 PyMODINIT_FUNC PyInit__native(void);
 PyMODINIT_FUNC PyInit__native(void)
 {
-    static PyModuleDef definition = {PyModuleDef_HEAD_INIT, .m_name = "_native", .m_doc = "The library ffd."};
+    static PyModuleDef definition = {PyModuleDef_HEAD_INIT, .m_name = "_native", .m_doc = "Callbacks of the library ffd."};
     PyObject *const module = PyModule_Create(&definition);
-    ffd_spell_members(spell);
     if (!module || (add_address(module, "progress", (uintptr_t)progress) == 0 &&
+                    add_address(module, "spell", (uintptr_t)spell) == 0 &&
                     add_address(module, "log", (uintptr_t)take_line) == 0 &&
                     add_address(module, "resolve", (uintptr_t)resolve) == 0 &&
                     add_address(module, "sink", (uintptr_t)take_file) == 0 &&

@@ -32,9 +32,7 @@ mkdir -p "$work/python"
 ln -sf /usr/include/x86_64-linux-gnu "$work/python/"
 # What is installed is told by this name of the system.
 export _PYTHON_HOST_PLATFORM="$platform"
-# What is not a kernel is small rather than fast: the program and the module for Python both hold it. No exception passes through C.
 cd "$source"
 PATH=$tools/bin:$PATH CC="$ccache$work/zig/$target/cc" CXX="$ccache$work/zig/$target/c++" "$tools/bin/python3" -c "
 import sys, mesonpy
-mesonpy.build_wheel(sys.argv[1], {'setup-args': ['--wrap-mode=forcefallback',
-    '-Dc_args=-O2 -fno-asynchronous-unwind-tables -I$work/python', '-Dcpp_args=-O2', '-Dc_link_args=-s', '-Dcpp_link_args=-s']})" "$made"
+mesonpy.build_wheel(sys.argv[1], {'setup-args': ['--wrap-mode=forcefallback', '-Dc_args=-I$work/python', '-Dc_link_args=-s', '-Dcpp_link_args=-s']})" "$made"
