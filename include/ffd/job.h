@@ -303,6 +303,9 @@ typedef struct ffd_deform_desc {
     /* A job that takes longer than so many seconds fails with FFD_E_LIMIT and writes nothing; 0: no limit.
        The job looks at the time at least between its steps. */
     double timeout;
+    /* Make the folder of output, and those above it, just before the output is written. A job that fails
+       leaves none that it made and that is empty. false: a missing folder is FFD_E_IO. */
+    bool make_folders;
 } ffd_deform_desc;
 
 /* Sets desc to defaults: all members 0, NULL or false. size: sizeof(ffd_deform_desc) in the caller's

@@ -1,4 +1,5 @@
 #include "batch/batch_run.h"
+#include "base/file/folder.h"
 #include "base/file/input.h"
 #include "base/file/output.h"
 #include "base/memory/memory.h"
@@ -174,6 +175,17 @@ static ffd_status run_jobs(batch_run *run, ffd_error *error)
     return first ? first : status;
 }
 
+static ffd_status open_default_journal(const char *path, job_journal **journal, ffd_error *error)
+{
+    size_t made;
+    char *const folder = ffd_path_folder(path);
+    ffd_status status = folder ? ffd_folder_make(folder, &made, error) : ffd_fail_memory(error);
+    if (!status)
+        status = ffd_journal_open(path, journal, error);
+    ffd_free(folder);
+    return status;
+}
+
 static ffd_status open_journal(batch_run *run, ffd_error *error)
 {
     const batch_desc *const desc = run->desc;
@@ -189,9 +201,13 @@ static ffd_status open_journal(batch_run *run, ffd_error *error)
         ffd_free(path); /* a dry run writes nothing, not even a journal */
         return FFD_OK;
     }
-    ffd_status status =
-        path ? ffd_journal_open(path, &run->journal, &reason)
-             : ffd_fail(&reason, FFD_E_IO, "there is no folder for the journal ({journal} names one)");
+    ffd_status status = FFD_OK;
+    if (!path)
+        status = ffd_fail(&reason, FFD_E_IO, "there is no folder for the journal ({journal} names one)");
+    else if (desc->given->journal)
+        status = ffd_journal_open(path, &run->journal, &reason);
+    else
+        status = open_default_journal(path, &run->journal, &reason);
     ffd_free(path);
     if (!status)
         return FFD_OK;

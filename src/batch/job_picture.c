@@ -14,7 +14,7 @@
 
 ffd_status ffd_job_picture_check(const char *path, bool force, ffd_error *error)
 {
-    return ffd_file_exists(path) ? ffd_output_check(path, force, error) : FFD_OK;
+    return ffd_output_check_with_folder(path, force, error);
 }
 
 static bool is_older(const file_stamp *a, const file_stamp *b)

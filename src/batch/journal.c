@@ -8,7 +8,6 @@
    SQLite's authors advise against. Linking SQLite makes an empty program start 1.34 times as slowly (shared
    library), or 1.11 times (static). */
 #include "batch/journal.h"
-#include "base/file/folder.h"
 #include "base/file/path.h"
 #include "base/file/place.h"
 #include "base/file/update.h"
@@ -243,17 +242,12 @@ static ffd_status open_table(job_journal *journal, ffd_error *error)
 
 ffd_status ffd_journal_open(const char *path, job_journal **journal, ffd_error *error)
 {
-    size_t made;
-    char *const folder = ffd_path_folder(path);
     *journal = ffd_alloc_zero(1, sizeof **journal);
     if (*journal)
         (*journal)->path = ffd_text_copy(path);
-    ffd_status status = folder && *journal && (*journal)->path ? FFD_OK : ffd_fail_memory(error);
-    if (!status)
-        status = ffd_folder_make(folder, &made, error);
+    ffd_status status = *journal && (*journal)->path ? FFD_OK : ffd_fail_memory(error);
     if (!status)
         status = open_table(*journal, error);
-    ffd_free(folder);
     if (status)
         ffd_journal_close(journal);
     return status;

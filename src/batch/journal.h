@@ -11,8 +11,8 @@
 
 typedef struct job_journal job_journal;
 
-/* Opens a journal; creates it and its folder if missing. Refuses a file that is not a journal. Errors:
-   FFD_E_IO, FFD_E_INVALID, FFD_E_MEMORY. */
+/* Opens a journal; creates it if missing, in a folder that is there. Refuses a file that is not a journal.
+   Errors: FFD_E_IO, FFD_E_INVALID, FFD_E_MEMORY. */
 ffd_status ffd_journal_open(const char *path, job_journal **journal, ffd_error *error);
 /* Looks up the record of an output (target: ffd_file_identity). figures: NULL, or replaced by the stored
    text. Returns false if there is none. */
@@ -25,7 +25,7 @@ void ffd_journal_close(job_journal **journal);
 
 /* Returns the default path of a batch's journal, named by the manifest and the shard, in the user's cache
    folder (XDG_CACHE_HOME or ~/.cache; LOCALAPPDATA). Freed with ffd_free; NULL: no such folder, or out of
-   memory. */
+   memory. ffd_folder_make makes its folder. */
 char *ffd_journal_default_path(const char *jobs, uint64_t shard, uint64_t shards);
 
 #endif

@@ -1,6 +1,7 @@
 #include "batch/run_rows.h"
 #include "base/file/input.h"
 #include "base/file/output.h"
+#include "base/file/path.h"
 #include "base/file/place.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
@@ -53,10 +54,23 @@ static ffd_status make_array(run_rows *rows, const batch_desc *desc, ffd_error *
     const bool force = desc->force || is_shared;
     status = is_there && rows->replaces ? ffd_rows_check_replaced(&rows->array, error) : FFD_OK;
     if (!status && (is_there || desc->pool.wishes.dry)) /* report all refusals before any work */
-        status = ffd_output_check(rows->array.path, force, error);
+        status = ffd_output_check_with_folder(rows->array.path, force, error);
     if (status || desc->pool.wishes.dry)
         return status;
     return ffd_rows_make(&rows->array, rows->replaces, &rows->made, error);
+}
+
+/* The folder of the array and its list. */
+static ffd_status make_folder(run_rows *rows, const batch_desc *desc, ffd_error *error)
+{
+    if (desc->pool.wishes.dry)
+        return FFD_OK;
+    TRY(ffd_output_create(&rows->folder, error));
+    char *const folder = ffd_path_folder(rows->list);
+    const ffd_status status =
+        folder ? ffd_output_folder(rows->folder, folder, error) : ffd_fail_memory(error);
+    ffd_free(folder);
+    return status;
 }
 
 ffd_status ffd_run_rows_open(run_rows *rows, const batch_desc *desc, ffd_error *error)
@@ -65,6 +79,8 @@ ffd_status ffd_run_rows_open(run_rows *rows, const batch_desc *desc, ffd_error *
     ffd_status status = rows->list ? FFD_OK : ffd_fail_memory(error);
     if (!status)
         status = measure(rows, desc, error);
+    if (!status)
+        status = make_folder(rows, desc, error);
     if (!status && rows->is_there)
         status = make_array(rows, desc, error);
     rows->file = ffd_place_of(NULL, desc->given->positions);
@@ -93,6 +109,7 @@ hash128 ffd_run_rows_target(const run_rows *rows, uint64_t row, const hash128 *o
 void ffd_run_rows_close(run_rows *rows)
 {
     ffd_output_destroy(&rows->made);
+    ffd_output_destroy(&rows->folder);
     ffd_report_destroy(&rows->report);
     ffd_free(rows->list);
     *rows = (run_rows){0};

@@ -50,8 +50,8 @@ static ffd_status open_view(run_view *view, ffd_error *error)
         return ffd_fail_memory(error);
     if (!desc->dry)
         status = begin_page(view, error);
-    else if (ffd_file_exists(view->page))
-        status = ffd_output_check(view->page, desc->force, error);
+    else
+        status = ffd_output_check_with_folder(view->page, desc->force, error);
     if (status)
         return status;
     view->resolved = ffd_path_resolve(desc->folder);

@@ -199,7 +199,8 @@ static ffd_status plan(const ffd_deform_desc *desc, ffd_error *error)
                                .set_count = desc->set_count,
                                .mesh = &desc->input};
     const ffd_status status =
-        desc->output ? ffd_output_check(desc->output, desc->force || desc->if_changed, error) : FFD_OK;
+        desc->output ? ffd_output_check_with_folder(desc->output, desc->force || desc->if_changed, error)
+                     : FFD_OK;
     return status ? status : ffd_chain_check(&files, error);
 }
 
@@ -455,6 +456,7 @@ static ffd_status run_task(batch_worker *worker, const wire_task *task, wire_ans
     desc->log = log_line;
     desc->log_user = &log;
     desc->quality = task->wishes.quality;
+    desc->make_folders = true;
     desc->positions = task->has_row ? take_positions : NULL;
     desc->positions_user = &row;
     desc->cache = worker->cache;

@@ -86,7 +86,19 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is a lattice of this command");
     if (!ffd_output_is_stream(desc->output) && ffd_job_reads_embedding(desc, desc->output))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the embedding that is to be reused");
-    return ffd_output_check(desc->output, options->force, error);
+    return desc->make_folders ? ffd_output_check_with_folder(desc->output, options->force, error)
+                              : ffd_output_check(desc->output, options->force, error);
+}
+
+/* Makes the folder of the output where the caller wants that. */
+static ffd_status make_folder(const ffd_deform_desc *desc, file_output *output, ffd_error *error)
+{
+    if (!desc->make_folders || !desc->output || ffd_output_is_stream(desc->output))
+        return FFD_OK;
+    char *const folder = ffd_path_folder(desc->output);
+    const ffd_status status = folder ? ffd_output_folder(output, folder, error) : ffd_fail_memory(error);
+    ffd_free(folder);
+    return status;
 }
 
 static ffd_status write_mesh(deform_job *job, const mesh_save_options *options, file_output *output,
@@ -194,7 +206,9 @@ static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_er
         ffd_output_keep_equal(output);
     if (hashed)
         ffd_output_hash(output);
-    ffd_status status = write_all(job, options, output, &rule, error);
+    ffd_status status = make_folder(job->desc, output, error);
+    if (!status)
+        status = write_all(job, options, output, &rule, error);
     status = ffd_mapping_judge(job->losses, status, error);
     if (!status) /* a missing resource may be the fault of a resolve callback */
         status = ffd_in_memory_judge(&job->desc->input, status, error);
@@ -223,7 +237,7 @@ static ffd_status dry_run_conversion(deform_job *job, const mesh_save_options *o
         char *path;
         status = ffd_sidecar_next(&names, NULL, NULL, &path, error);
         if (!status)
-            status = ffd_output_check(path, options->force, error);
+            status = ffd_output_check_with_folder(path, options->force, error);
         ffd_free(path);
     }
     return status;

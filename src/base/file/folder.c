@@ -14,12 +14,25 @@
 /* As many symbolic links in a row as systems follow. */
 #define MOST_LINKS 40
 
+/* How often the making of a folder begins again. */
+#define MOST_AGAIN 20
+
 /* Returns the end of the next folder's name in a path, at or after the offset `at`; 0 if there is none. */
 static size_t next_folder(const char *path, size_t at)
 {
     for (size_t i = at; path[i]; i++)
         if (path[i + 1] == '/' || path[i + 1] == 0)
             return i + 1;
+    return 0;
+}
+
+/* Makes the folder that partial names so far. *made: as of ffd_folder_make. */
+static int make_one(const char *partial, size_t end, size_t *made)
+{
+    if (mkdir(partial, 0777) != 0)
+        return errno == EEXIST || ffd_file_exists(partial) ? 0 : errno;
+    if (!*made || end < *made)
+        *made = end;
     return 0;
 }
 
@@ -30,16 +43,53 @@ ffd_status ffd_folder_make(const char *path, size_t *made, ffd_error *error)
     if (!partial)
         return ffd_fail_memory(error);
     ffd_status status = FFD_OK;
+    int again = 0;
     for (size_t end = next_folder(path, 0); end && !status; end = next_folder(path, end)) {
         partial[end] = 0;
-        if (mkdir(partial, 0777) == 0)
-            *made = *made ? *made : end;
-        else if (errno != EEXIST && !ffd_file_exists(partial))
+        const int reason = make_one(partial, end, made);
+        if (reason && !(reason == ENOENT && again < MOST_AGAIN))
             status =
-                ffd_fail_file(error, FFD_E_IO, partial, "the folder cannot be made: %s", strerror(errno));
+                ffd_fail_file(error, FFD_E_IO, partial, "the folder cannot be made: %s", strerror(reason));
         partial[end] = path[end];
+        if (reason && !status) { /* another run has removed a folder above, which it had made */
+            again++;
+            end = 0;
+        }
     }
     ffd_free(partial);
+    return status;
+}
+
+bool ffd_folder_is_there(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
+/* Returns the part of a path that is there, or "." for a relative one; NULL if memory runs out. */
+static char *find_existing(const char *path)
+{
+    struct stat info;
+    char *at = ffd_text_copy(path);
+    while (at && lstat(at, &info) != 0 && errno == ENOENT && strcmp(at, ".") != 0) {
+        char *const above = ffd_path_folder(at);
+        ffd_free(at);
+        at = above;
+    }
+    return at;
+}
+
+ffd_status ffd_folder_check(const char *path, ffd_error *error)
+{
+    char *const there = find_existing(path);
+    TRY(there ? FFD_OK : ffd_fail_memory(error));
+    ffd_status status = FFD_OK;
+    if (!ffd_folder_is_there(there))
+        status =
+            ffd_fail_file(error, FFD_E_IO, path, "the folder cannot be made: \"%s\" is not a folder", there);
+    else if (strcmp(there, path) != 0 && access(there, W_OK | X_OK) != 0)
+        status = ffd_fail_file(error, FFD_E_IO, path, "the folder cannot be made: %s", strerror(errno));
+    ffd_free(there);
     return status;
 }
 

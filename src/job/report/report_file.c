@@ -142,7 +142,7 @@ static ffd_status check_kind(const char *path, ffd_error *error)
 ffd_status ffd_report_check(const char *path, ffd_error *error)
 {
     TRY(check_kind(path, error));
-    return ffd_output_check(path, true, error);
+    return ffd_output_check_with_folder(path, true, error);
 }
 
 ffd_status ffd_report_create(const char *path, bool stable, ffd_output_set *output_set, ffd_report **report,

@@ -162,7 +162,7 @@ static ffd_status give_name(gltf_saver *saver, size_t b, sidecar_names *names, f
     if (!saver->in_place)
         status = refuse_own_file(saver, target, error);
     if (!status && !saver->in_place && !saver->options->to_sink)
-        status = ffd_output_check(target, saver->options->force, error);
+        status = ffd_output_check_with_folder(target, saver->options->force, error);
     return status ? status : set_uri(saver, b, ffd_path_name(target), error);
 }
 
