@@ -186,9 +186,9 @@ FFD_API ffd_status ffd_shared_box_create(ffd_shared_box **box, ffd_error *error)
 /* Destroys the box and sets *box to NULL. box and *box may be NULL. */
 FFD_API void ffd_shared_box_destroy(ffd_shared_box **box);
 
-/* A dependency file for make and ninja: a rule "OUT: MESH BUFFERS IMAGES LATTICES EMBEDDING" for each job
-   that succeeds. Standard streams are left out; images and material libraries are listed only if they are
-   copied with the output. One thread at a time. */
+/* A dependency file for make and ninja: a rule "OUT FILES: MESH BUFFERS IMAGES LATTICES EMBEDDING" for each
+   job that succeeds; FILES are those that it writes beside OUT. Standard streams are left out; images and
+   material libraries are listed only if they are copied with the output. One thread at a time. */
 typedef struct ffd_depfile ffd_depfile;
 
 /* Starts a dependency file at path ("-": standard output). It is written under a temporary name until it is
@@ -201,6 +201,15 @@ FFD_API void ffd_depfile_destroy(ffd_depfile **depfile);
 /* Writes the file under its own name. To be called at most once, after the jobs. Errors: FFD_E_IO,
    FFD_E_MEMORY. */
 FFD_API ffd_status ffd_depfile_write(ffd_depfile *depfile, ffd_error *error);
+
+/* Creates an empty list of outputs (ffd/result.h). The caller destroys *list. Errors: FFD_E_MEMORY. */
+FFD_API ffd_status ffd_output_list_create(ffd_output_list **list, ffd_error *error);
+/* Destroys the list and sets *list to NULL. list and *list may be NULL. */
+FFD_API void ffd_output_list_destroy(ffd_output_list **list);
+/* Returns the number of names, of the last job. */
+FFD_API size_t ffd_output_list_count(const ffd_output_list *list);
+/* Returns a name, which is valid until the next job; NULL if index is not less than the number. */
+FFD_API const char *ffd_output_list_name(const ffd_output_list *list, size_t index);
 
 /* An embedding of a job: a file, or its bytes. */
 typedef struct ffd_embedding_source {
@@ -306,6 +315,9 @@ typedef struct ffd_deform_desc {
     /* Make the folder of output, and those above it, just before the output is written. A job that fails
        leaves none that it made and that is empty. false: a missing folder is FFD_E_IO. */
     bool make_folders;
+    /* Receives the names of the files that the job writes or, with dry_run, would write; also those that stay
+       because they are up to date. Empty after a failure, and of ffd_check_run. May be NULL. */
+    ffd_output_list *output_list;
 } ffd_deform_desc;
 
 /* Sets desc to defaults: all members 0, NULL or false. size: sizeof(ffd_deform_desc) in the caller's
@@ -566,7 +578,9 @@ FFD_API ffd_status ffd_report_create_sink(const char *name, bool stable, ffd_sin
 /* Destroys the object and sets *report to NULL; a file keeps the entries that it has. report and *report may
    be NULL. */
 FFD_API void ffd_report_destroy(ffd_report **report);
-/* Adds the entry of a job. input and output: the paths that the entry gives; output may be NULL. Errors:
+/* Adds the entry of a job. input and output: the paths that the entry gives; output may be NULL. It has the
+   names of all outputs if the job had an output_list, which must still hold them; else only output is known.
+   Errors:
    FFD_E_IO, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,
                                   const ffd_job_result *result, ffd_error *error);

@@ -86,13 +86,22 @@ static void append_lines(const pool_task *task, const char *manifest, byte_buffe
     ffd_buffer_free(&lead);
 }
 
+ffd_status ffd_run_list_texts(const byte_buffer *texts, path_list *list, ffd_error *error)
+{
+    for (size_t at = 0; at < texts->size; at += strlen(texts->data + at) + 1)
+        TRY(ffd_paths_add(list, texts->data + at, error));
+    return FFD_OK;
+}
+
 /* Appends a job's report entry, if no worker has made it. rows: as in pool_desc. */
 static void append_entry(const pool_task *task, const row_array *rows, bool stable, byte_buffer *text)
 {
     const batch_job *const job = &task->job;
     ffd_job_result result;
     byte_buffer set = {0};
+    path_list outputs = {0};
     ffd_result_clear(&result);
+    const bool listed = !ffd_run_list_texts(&task->outputs, &outputs, NULL);
     result.status = task->failure.status;
     result.error = task->failure;
     ffd_settings_json(&job->desc, &set);
@@ -101,6 +110,7 @@ static void append_entry(const pool_task *task, const row_array *rows, bool stab
     const report_entry entry = {.line = job->line,
                                 .input = job->input,
                                 .output = ffd_job_output_name(job),
+                                .outputs = &outputs,
                                 .positions = rows ? rows->path : NULL,
                                 .row = job->row,
                                 .set = set.failed ? NULL : set.data,
@@ -109,8 +119,9 @@ static void append_entry(const pool_task *task, const row_array *rows, bool stab
                                 .skipped = skipped,
                                 .stable = stable};
     ffd_report_entry_text(&entry, text);
-    text->failed = text->failed || set.failed;
+    text->failed = text->failed || set.failed || !listed;
     ffd_buffer_free(&set);
+    ffd_paths_free(&outputs);
 }
 
 /* Bits of a state that fit into the table: its numbers have 39 bits, and one says whether a warning was
@@ -266,8 +277,8 @@ static ffd_status emit_task(batch_run *run, pool_task *task, ffd_error *error)
         print_plan(task, rows_of(run));
     if (run->depfile && task->rule.size) {
         ffd_depfile_add(run->depfile, &task->rule);
-        if (run->box_files.count && ffd_paths_add(&run->outputs, task->job.target, error))
-            return FFD_E_MEMORY;
+        if (run->box_files.count)
+            TRY(ffd_run_list_texts(&task->targets, &run->outputs, error));
     }
     if (run->view)
         TRY(show_task(run, task, error));

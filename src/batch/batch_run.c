@@ -399,7 +399,7 @@ static ffd_status write_depfile(batch_run *run, ffd_error *error)
     byte_buffer rule = {0};
     ffd_status status = FFD_OK;
     if (run->outputs.count)
-        status = ffd_depfile_common_rule(&run->outputs, &run->box_files, &rule, error);
+        status = ffd_depfile_rule(&run->outputs, &run->box_files, &rule, error);
     if (!status)
         ffd_depfile_add(run->depfile, &rule);
     ffd_buffer_free(&rule);

@@ -52,7 +52,8 @@ ffd_status ffd_job_picture_write(const char *path, const ffd_deform_desc *desc, 
     ffd_view_desc view;
     char *folder;
     size_t made;
-    job.cache = NULL; /* draw the mesh at rest; a mesh of the cache may have results */
+    job.output_list = NULL; /* the outputs are those of the job itself */
+    job.cache = NULL;       /* draw the mesh at rest; a mesh of the cache may have results */
     ffd_view_desc_init(&view, sizeof view);
     view.job = &job;
     view.output = path;

@@ -54,6 +54,8 @@ typedef struct pool_task {
     byte_buffer log;          /* after the end: lines of messages; */
     byte_buffer rule;         /* rule of the depfile; of a measured mesh: its files; */
     byte_buffer result;       /* as in wire_answer; or empty */
+    byte_buffer outputs;      /* likewise */
+    byte_buffer targets;      /* likewise */
     byte_buffer entry;        /* of the report; empty if no worker has made it */
     ffd_error failure;        /* of a job whose worker died, or that was invalid from the start */
 } pool_task;

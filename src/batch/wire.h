@@ -93,6 +93,8 @@ typedef struct wire_answer {
                               what was found (scan.h) */
     uint64_t figures_size; /* of the job, as JSON terminated by 0 */
     uint64_t result_size;  /* of the job: ffd_job_result, and one for each of its morph targets */
+    uint64_t outputs_size; /* names of its outputs for the report, each terminated by 0 */
+    uint64_t targets_size; /* likewise, their paths for the depfile */
     task_end end;
     bool scanned;       /* the scan found files, and nothing else was done */
     bool goes_on;       /* the scan found nothing: the answer has no more yet */

@@ -2,6 +2,7 @@
 #include "base/file/cleanup.h"
 #include "base/file/mapping.h"
 #include "base/file/output.h"
+#include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"
 #include "batch/fingerprint.h"
@@ -13,6 +14,7 @@
 #include "io/formats.h"
 #include "job/chain/chain_load.h"
 #include "job/chain/job_cache.h"
+#include "job/deform_job.h"
 #include "job/figures/figure_values.h"
 #include "job/input/settings.h"
 #include "job/input/shown_box.h"
@@ -32,13 +34,16 @@ typedef struct task_texts {
 } task_texts;
 
 typedef struct batch_worker {
-    hash_cache hashes;                             /* of the files of all jobs so far */
-    ffd_job_cache *cache;                          /* cache between jobs */
-    byte_buffer text;                              /* of the task */
-    ffd_deform_desc desc;                          /* likewise, in that text */
-    task_texts texts;                              /* what else is in it */
-    byte_buffer log, entry, rule, figures, result; /* of the answer */
-    byte_buffer message;                           /* the whole answer */
+    hash_cache hashes;                                               /* of the files of all jobs so far */
+    ffd_job_cache *cache;                                            /* cache between jobs */
+    byte_buffer text;                                                /* of the task */
+    ffd_deform_desc desc;                                            /* likewise, in that text */
+    task_texts texts;                                                /* what else is in it */
+    byte_buffer log, entry, rule, figures, result, outputs, targets; /* of the answer */
+    path_list inputs;           /* files of the task that its outputs depend on */
+    ffd_output_list *written;   /* paths of the files that the task writes */
+    path_list names;            /* likewise, as the report has them */
+    byte_buffer message;        /* the whole answer */
     ffd_output_set *output_set; /* of the task: the models that share files with its output; or NULL */
 } batch_worker;
 
@@ -174,20 +179,75 @@ static ffd_status deform(ffd_deform_desc *desc, ffd_job_result *result)
     return ffd_deform_run(desc, result, NULL);
 }
 
-/* Hashes the input files and makes the depfile rule, as far as wanted. */
+/* Hashes the input files and lists them, as far as wanted. */
 static ffd_status hash_files(batch_worker *worker, const wire_task *task, const ffd_deform_desc *desc,
                              wire_answer *answer, ffd_error *error)
 {
-    path_list files = {0};
     if (!task->wishes.records && !task->wishes.dry && !task->wishes.depfile)
         return FFD_OK;
     /* In a dry run this also shows that they can be read. */
-    ffd_status status = ffd_fingerprint_inputs(desc, &task->content, &worker->hashes, &files,
-                                               &answer->end.record.inputs, error);
-    if (!status && task->wishes.depfile && !task->wishes.dry && desc->output)
-        status = ffd_depfile_rule(desc->output, &files, &worker->rule, error);
-    ffd_paths_free(&files);
+    return ffd_fingerprint_inputs(desc, &task->content, &worker->hashes, &worker->inputs,
+                                  &answer->end.record.inputs, error);
+}
+
+/* Adds the name of an output in the folder of `target`, or below, as the job names it: output. */
+static ffd_status add_name(path_list *names, const char *path, const char *target, const char *output,
+                           ffd_error *error)
+{
+    const size_t folder = (size_t)(ffd_path_name(target) - target);
+    if (strncmp(path, target, folder) != 0)
+        return ffd_paths_add(names, path, error);
+    char *const name = ffd_path_sibling(output, path + folder);
+    const ffd_status status = name ? ffd_paths_add(names, name, error) : ffd_fail_memory(error);
+    ffd_free(name);
     return status;
+}
+
+/* Lists the files beside the output of a job that was not run now. What cannot be known is left out. */
+static ffd_status list_files(batch_worker *worker, const ffd_deform_desc *desc, ffd_error *error)
+{
+    path_list *const paths = &worker->written->names;
+    const char *const target = desc->in_place ? desc->input.path : desc->output;
+    if (paths->count > 0 || !target || !ffd_deform_list_outputs(desc, NULL))
+        return FFD_OK;
+    ffd_paths_free(paths);
+    return ffd_paths_add(paths, target, error);
+}
+
+/* Lists the outputs of a job that has succeeded, or would. */
+static ffd_status list_outputs(batch_worker *worker, const wire_task *task, const ffd_deform_desc *desc,
+                               ffd_error *error)
+{
+    const path_list *const paths = &worker->written->names;
+    const char *const target = desc->in_place ? desc->input.path : desc->output;
+    TRY(list_files(worker, desc, error));
+    for (size_t i = 0; i < paths->count; i++)
+        TRY(add_name(&worker->names, paths->paths[i], target, worker->texts.output, error));
+    return task->has_row ? ffd_paths_add(&worker->names, worker->texts.rows, error) : FFD_OK;
+}
+
+/* Adds the names and paths of outputs to the answer, and makes the depfile rule. */
+static ffd_status tell_outputs(batch_worker *worker, const wire_task *task, const wire_answer *answer,
+                               const ffd_deform_desc *desc, ffd_status done, ffd_error *error)
+{
+    path_list *const paths = &worker->written->names;
+    const char *const picture = worker->texts.picture;
+    const bool has_picture =
+        *picture && (answer->end.has_picture || (!done && task->wishes.dry)); /* also of a gate */
+    if (!task->wishes.report && !task->wishes.depfile && !task->wishes.result)
+        return done;
+    ffd_status status = done ? FFD_OK : list_outputs(worker, task, desc, error);
+    if (!status && has_picture)
+        status = ffd_paths_add(&worker->names, picture, error);
+    if (!status && !done && has_picture)
+        status = ffd_paths_add(paths, picture, error);
+    if (!status && !done && task->wishes.depfile && !task->wishes.dry && desc->output)
+        status = ffd_depfile_rule(paths, &worker->inputs, &worker->rule, error);
+    for (size_t i = 0; i < worker->names.count; i++)
+        ffd_buffer_append(&worker->outputs, worker->names.paths[i], strlen(worker->names.paths[i]) + 1);
+    for (size_t i = 0; i < paths->count && task->wishes.depfile; i++)
+        ffd_buffer_append(&worker->targets, paths->paths[i], strlen(paths->paths[i]) + 1);
+    return done ? done : status;
 }
 
 /* Dry run: makes the checks that do not need the mesh. */
@@ -401,6 +461,7 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const cha
     status = ffd_mapping_judge(losses, status, &result->error);
     if (!status)
         status = do_job(worker, task, *picture ? picture : NULL, row, desc, answer, result);
+    status = tell_outputs(worker, task, answer, desc, status, &result->error);
     answer->end.own_box = result->own_box;
     return status;
 }
@@ -457,6 +518,7 @@ static ffd_status run_task(batch_worker *worker, const wire_task *task, wire_ans
     desc->log_user = &log;
     desc->quality = task->wishes.quality;
     desc->make_folders = true;
+    desc->output_list = worker->written;
     desc->positions = task->has_row ? take_positions : NULL;
     desc->positions_user = &row;
     desc->cache = worker->cache;
@@ -483,6 +545,7 @@ static void make_entry(batch_worker *worker, const wire_task *task, const wire_a
     const report_entry entry = {.line = task->line,
                                 .input = texts->input,
                                 .output = *texts->output ? texts->output : NULL,
+                                .outputs = &worker->names,
                                 .positions = task->has_row ? texts->rows : NULL,
                                 .row = task->row,
                                 .set = set.failed ? NULL : set.data,
@@ -534,10 +597,11 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
    header that says so. */
 static bool send_answer(batch_worker *worker, wire_answer *answer)
 {
-    const byte_buffer *const texts[] = {&worker->log, &worker->entry, &worker->rule, &worker->figures,
-                                        &worker->result};
-    uint64_t *const sizes[] = {&answer->log_size, &answer->entry_size, &answer->rule_size,
-                               &answer->figures_size, &answer->result_size};
+    const byte_buffer *const texts[] = {&worker->log,    &worker->entry,   &worker->rule,   &worker->figures,
+                                        &worker->result, &worker->outputs, &worker->targets};
+    uint64_t *const sizes[] = {&answer->log_size,     &answer->entry_size,  &answer->rule_size,
+                               &answer->figures_size, &answer->result_size, &answer->outputs_size,
+                               &answer->targets_size};
     enum { TEXTS = sizeof texts / sizeof *texts };
     byte_buffer *const message = &worker->message;
     for (int i = 0; i < TEXTS; i++)
@@ -572,13 +636,18 @@ static int run_worker(void)
     ffd_guard_inputs();
     ffd_interrupt_ignore();
     ffd_process_follow_parent();
-    worker.text.failed = ffd_job_cache_create(&worker.cache, NULL) != FFD_OK;
+    worker.text.failed = ffd_job_cache_create(&worker.cache, NULL) != FFD_OK ||
+                         ffd_output_list_create(&worker.written, NULL) != FFD_OK;
     bool going = !worker.text.failed;
     while (going && read_task(&worker, &task)) {
         wire_answer answer;
         memset(&answer, 0, sizeof answer); /* also clears padding, which is sent */
         ffd_shown_box_clear(&answer.end.box);
         worker.log.size = worker.entry.size = worker.rule.size = worker.figures.size = worker.result.size = 0;
+        worker.outputs.size = worker.targets.size = 0;
+        ffd_paths_free(&worker.inputs);
+        ffd_paths_free(&worker.names);
+        ffd_paths_free(&worker.written->names);
         answer_task(&worker, &task, &answer);
         ffd_kept_free(&worker.hashes.kept);
         going = send_answer(&worker, &answer) && !answer.retires;
@@ -593,6 +662,11 @@ static int run_worker(void)
     ffd_buffer_free(&worker.rule);
     ffd_buffer_free(&worker.figures);
     ffd_buffer_free(&worker.result);
+    ffd_buffer_free(&worker.outputs);
+    ffd_buffer_free(&worker.targets);
+    ffd_paths_free(&worker.inputs);
+    ffd_paths_free(&worker.names);
+    ffd_output_list_destroy(&worker.written);
     ffd_buffer_free(&worker.message);
     return code;
 }

@@ -145,8 +145,9 @@ static bool goes_round_all(const deform_job *job)
     return false;
 }
 
-/* Makes the depfile rule of the output. inputs: the files of the mesh; the other inputs are added. */
-static ffd_status make_rule(const deform_job *job, path_list *inputs, byte_buffer *rule, ffd_error *error)
+/* Makes the depfile rule of the outputs. inputs: the files of the mesh; the other inputs are added. */
+static ffd_status make_rule(const deform_job *job, const path_list *outputs, path_list *inputs,
+                            byte_buffer *rule, ffd_error *error)
 {
     const ffd_deform_desc *desc = job->desc;
     for (size_t i = 0; i < desc->lattice_count; i++) {
@@ -160,8 +161,9 @@ static ffd_status make_rule(const deform_job *job, path_list *inputs, byte_buffe
         TRY(add_paths(inputs, &job->chain.links[i].box_files, error));
     if (desc->shared_box && goes_round_all(job))
         TRY(add_paths(inputs, &desc->shared_box->files, error));
-    TRY(ffd_depfile_rule(desc->output, inputs, rule, error));
-    warn_of_name(job, desc->output);
+    TRY(ffd_depfile_rule(outputs, inputs, rule, error));
+    for (size_t i = 0; i < outputs->count; i++)
+        warn_of_name(job, outputs->paths[i]);
     for (size_t i = 0; i < inputs->count; i++)
         warn_of_name(job, inputs->paths[i]);
     return FFD_OK;
@@ -180,7 +182,7 @@ static ffd_status write_all(deform_job *job, const mesh_save_options *options, f
     if (!status)
         status = write_mesh(job, &listing, output, error);
     if (!status)
-        status = make_rule(job, &inputs, rule, error);
+        status = make_rule(job, options->outputs, &inputs, rule, error);
     ffd_paths_free(&inputs);
     return status;
 }
@@ -238,6 +240,8 @@ static ffd_status dry_run_conversion(deform_job *job, const mesh_save_options *o
         status = ffd_sidecar_next(&names, NULL, NULL, &path, error);
         if (!status)
             status = ffd_output_check_with_folder(path, options->force, error);
+        if (!status && ffd_mesh_vertex_count(job->document) > 0) /* else the buffer is empty: no file */
+            status = ffd_paths_add(options->outputs, path, error);
         ffd_free(path);
     }
     return status;
@@ -315,20 +319,46 @@ static ffd_status check_reads(const deform_job *job, const char *output, ffd_err
     return ffd_job_check_box_files(output, &job->chain, desc->lattices, error);
 }
 
+/* Gives the names of the outputs to the caller. */
+static void hand_over(const ffd_deform_desc *desc, path_list *outputs)
+{
+    if (!desc->output_list)
+        return;
+    ffd_paths_free(&desc->output_list->names);
+    desc->output_list->names = *outputs;
+    *outputs = (path_list){0};
+}
+
+/* Saves the result, or only looks whether that would be refused, and lists the outputs. */
+static ffd_status write_outputs(deform_job *job, mesh_save_options *options, bool writes, ffd_error *error)
+{
+    path_list outputs = {0};
+    job_sharing sharing;
+    ffd_status status =
+        ffd_output_is_stream(options->path) ? FFD_OK : ffd_paths_add(&outputs, options->path, error);
+    ffd_sharing_begin(&sharing, job->desc, job->document, options->path, options->format, &options->sharing);
+    options->outputs = &outputs;
+    if (!status)
+        status = writes ? save(job, options, error) : dry_run_job(job, options, error);
+    ffd_sharing_end(&sharing);
+    options->outputs = NULL;
+    if (!status)
+        hand_over(job->desc, &outputs);
+    ffd_paths_free(&outputs);
+    return status;
+}
+
 /* Saves the result; a dry run only looks whether that would be refused. */
 static ffd_status write_output(deform_job *job, mesh_save_options *options, ffd_job_result *result,
                                ffd_error *error)
 {
     const double start = ffd_clock_seconds();
-    job_sharing sharing;
-    ffd_sharing_begin(&sharing, job->desc, job->document, options->path, options->format, &options->sharing);
+    const bool writes = !job->desc->dry_run;
     options->indices_left = &result->indices_left;
     options->bytes_left = &result->bytes_left;
     options->bounds_left = &result->bounds_left;
-    const ffd_status status =
-        job->desc->dry_run ? dry_run_job(job, options, error) : save(job, options, error);
-    ffd_sharing_end(&sharing);
-    if (!job->desc->dry_run)
+    const ffd_status status = write_outputs(job, options, writes, error);
+    if (writes)
         result->seconds.write = ffd_clock_seconds() - start;
     return status;
 }
@@ -384,4 +414,28 @@ ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, f
     }
     ffd_job_cache_destroy(&cache);
     return ffd_job_call_end(&call, status, error);
+}
+
+/* Opens the mesh and lists what would be written. */
+static ffd_status list_outputs(deform_job *job, ffd_job_result *result, ffd_error *error)
+{
+    mesh_save_options options;
+    TRY(resolve_output(job->desc, &options, error));
+    TRY(ffd_deform_job_open(job, 0, result, error));
+    return write_outputs(job, &options, false, error);
+}
+
+ffd_status ffd_deform_list_outputs(const ffd_deform_desc *desc, ffd_error *error)
+{
+    deform_job job;
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_deform_desc own = *desc;
+    own.log = NULL;
+    own.force = true; /* they may be there */
+    if (!ffd_deform_desc_writes(&own))
+        return FFD_OK;
+    ffd_status status = ffd_deform_job_begin(&job, &own, false, &result);
+    if (!status)
+        status = list_outputs(&job, &result, &result.error);
+    return ffd_deform_job_end(&job, status, &result, error);
 }

@@ -4,6 +4,7 @@
 #include "job/chain/chain_load.h"
 #include "job/figures/figure_values.h"
 #include "job/input/deform_desc.h"
+#include "job/report/output_set.h"
 
 /* Replaces the caller's results of morph targets by own ones. */
 static ffd_status make_morph_results(job_call *call, ffd_error *error)
@@ -24,6 +25,8 @@ ffd_status ffd_job_call_begin(job_call *call, const ffd_deform_desc *desc, ffd_j
     TRY(ffd_struct_check(sizeof call->result, result, "ffd_job_result", error));
     call->size = result->struct_size;
     const ffd_status taken = ffd_deform_desc_take(desc, &call->desc, own);
+    if (!taken && call->desc.output_list)
+        ffd_paths_free(&call->desc.output_list->names);
     call->before = ffd_deadline_begin(&call->own, taken ? 0 : call->desc.timeout);
     TRY(taken);
     call->callers_lattices = call->desc.lattices;
@@ -47,6 +50,9 @@ ffd_status ffd_job_call_end(job_call *call, ffd_status status, ffd_error *error)
         result->morphs.results = call->callers_morphs;
     if (result->morphs.lattices)
         result->morphs.lattices = call->callers_lattices;
+    result->outputs = call->desc.output_list;
+    if (status && result->outputs)
+        ffd_paths_free(&call->desc.output_list->names);
     ffd_deadline_end(call->before);
     if (status && error)
         *error = result->error;

@@ -419,7 +419,7 @@ def the_report_counts_what_was_told(run):
     report = json.loads(run.read("r.json"))
     equal([report["format"], report["version"], len(report["jobs"])], ["ffd-report", 1, 1])
     job = report["jobs"][0]
-    equal(list(job), ["input", "output", "status", "exit", "error", "vertices", "inside", "outside", "multiple", "singular",
+    equal(list(job), ["input", "output", "outputs", "status", "exit", "error", "vertices", "inside", "outside", "multiple", "singular",
                       "invalid", "unused", "hidden", "morph_targets", "moved", "shared_faces", "residual", "iterations", "folds", "flipped_faces", "tear", "volume", "area", "det", "edges",
                       "bounds", "displacement", "behind", "seconds"])
     equal([job[key] for key in ("input", "output", "status", "exit", "error")], ["a.obj", "b.obj", "ok", 0, None])

@@ -92,8 +92,15 @@ ffd_status ffd_ply_bring_textures(const ply_header *header, const file_folder *f
     if (ffd_save_meets(options, mesh, options->path))
         return FFD_OK;
     char *const from = ffd_path_folder(mesh), *const to = ffd_path_folder(options->path);
-    const resource_copier copier = {
-        *folder, from, to, options->to_sink ? options->path : NULL, output, log, options->copied};
+    const resource_copier copier = {*folder,
+                                    from,
+                                    to,
+                                    options->to_sink ? options->path : NULL,
+                                    output,
+                                    log,
+                                    options->copied,
+                                    options->path,
+                                    options->outputs};
     resource_list list = {0};
     ffd_status status = from && to ? list_all(header, folder, &list, error) : ffd_fail_memory(error);
     if (!status)

@@ -211,6 +211,8 @@ static ffd_status put_files(gltf_writer *w, const mesh_save_options *options, co
         status = ffd_fail_memory(w->error);
     if (!status && w->total > 0)
         status = put_bin_file(w, options, path);
+    if (!status && w->total > 0 && options->outputs)
+        status = ffd_paths_add(options->outputs, path, w->error);
     if (!status)
         status = ffd_output_begin(w->sink.output, options->path, options->force, w->error);
     if (!status)

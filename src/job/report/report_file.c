@@ -264,7 +264,11 @@ static ffd_status take_result(const ffd_job_result *callers, ffd_job_result *res
 static ffd_status add_entry(ffd_report *report, const char *input, const char *output,
                             const ffd_job_result *result, ffd_error *error)
 {
-    const report_entry entry = {.input = input, .output = output, .result = result, .stable = report->stable};
+    const report_entry entry = {.input = input,
+                                .output = output,
+                                .outputs = result->outputs ? &result->outputs->names : NULL,
+                                .result = result,
+                                .stable = report->stable};
     byte_buffer text = {0};
     ffd_report_entry_text(&entry, &text);
     const ffd_status status = text.failed

@@ -381,9 +381,15 @@ static ffd_status view(const ffd_view_desc *desc, ffd_job_result *result, ffd_er
     view_work work = {.desc = desc, .scene = {.animation = RIG_NONE}};
     ffd_error own;
     ffd_status status = ffd_deform_job_begin(&work.job, desc->job, true, result);
+    ffd_output_list *const outputs = desc->job->output_list;
+    if (outputs)
+        ffd_paths_free(&outputs->names);
+    result->outputs = outputs;
     work.job.stored = desc->as_stored;
     if (!status) {
         status = make_view(&work, result, &own);
+        if (!status && outputs && !ffd_output_is_stream(desc->output))
+            status = ffd_paths_add(&outputs->names, desc->output, &own);
         if (status) {
             result->error = own;
         } else {

@@ -157,6 +157,17 @@ ffd_status ffd_resource_note(const resource_copier *c, const mesh_resource *reso
     return status;
 }
 
+/* Adds the name of a copy beside the output. */
+static ffd_status note_output(const resource_copier *c, const mesh_resource *resource, ffd_error *error)
+{
+    if (!c->outputs)
+        return FFD_OK;
+    char *const name = ffd_path_sibling(c->path, resource->path);
+    const ffd_status status = name ? ffd_paths_add(c->outputs, name, error) : ffd_fail_memory(error);
+    ffd_free(name);
+    return status;
+}
+
 static ffd_status copy_loaded(const resource_copier *c, const mesh_resource *resource,
                               const file_input *bytes, ffd_error *error)
 {
@@ -165,6 +176,8 @@ static ffd_status copy_loaded(const resource_copier *c, const mesh_resource *res
     ffd_status status = target ? write_copy(c, resource->kind, target, bytes, error) : ffd_fail_memory(error);
     if (!status)
         status = ffd_resource_note(c, resource, error);
+    if (!status)
+        status = note_output(c, resource, error);
     ffd_free(target);
     return status;
 }

@@ -21,6 +21,8 @@ typedef struct resource_copier {
     const mesh_log *log;
     path_list
         *copied; /* receives the paths of files that are copied, embedded, or exist already; may be NULL */
+    const char *path;   /* the output's */
+    path_list *outputs; /* as in mesh_save_options */
 } resource_copier;
 
 /* Loads a file that a mesh names, if it may be copied. *left: NULL, or the reason why it is not copied: its

@@ -130,6 +130,17 @@ def filled(name: str) -> Any:
     return structure
 
 
+@contextlib.contextmanager
+def output_list() -> Iterator[Any]:
+    """Yields a list for the names of a job's outputs."""
+    outputs = ctypes.c_void_p()
+    call(lib.ffd_output_list_create, ctypes.byref(outputs))
+    try:
+        yield outputs
+    finally:
+        lib.ffd_output_list_destroy(ctypes.byref(outputs))
+
+
 def call(function: Any, *arguments: Any) -> None:
     """Calls a function whose last argument is an ffd_error; raises an exception if it fails."""
     error = declared.ffd_error()

@@ -159,6 +159,8 @@ static ffd_status give_name(gltf_saver *saver, size_t b, sidecar_names *names, f
         return status;
     }
     saver->buffers[b].target = target;
+    if (saver->options->outputs)
+        TRY(ffd_paths_add(saver->options->outputs, target, error));
     if (!saver->in_place)
         status = refuse_own_file(saver, target, error);
     if (!status && !saver->in_place && !saver->options->to_sink)

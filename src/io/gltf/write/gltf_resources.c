@@ -379,7 +379,9 @@ ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error)
                                  .sink_name = saver->options->to_sink ? saver->options->path : NULL,
                                  .output = saver->output,
                                  .log = saver->log,
-                                 .copied = saver->options->copied};
+                                 .copied = saver->options->copied,
+                                 .path = saver->options->path,
+                                 .outputs = saver->options->outputs};
     ffd_status status = r.from && r.to ? FFD_OK : ffd_fail_memory(error);
     const bool stay = status == FFD_OK && (saver->in_place || ffd_save_meets(saver->options, r.from, r.to));
     const bool own_copies = stay || (copies && !embeds);

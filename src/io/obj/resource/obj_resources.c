@@ -174,8 +174,15 @@ ffd_status ffd_obj_bring_resources(const file_input *input, const file_folder *f
         ffd_save_meets(options, mesh, options->path))
         return FFD_OK;
     char *const from = ffd_path_folder(mesh), *const to = ffd_path_folder(options->path);
-    const resource_copier copier = {
-        *folder, from, to, options->to_sink ? options->path : NULL, output, log, options->copied};
+    const resource_copier copier = {*folder,
+                                    from,
+                                    to,
+                                    options->to_sink ? options->path : NULL,
+                                    output,
+                                    log,
+                                    options->copied,
+                                    options->path,
+                                    options->outputs};
     ffd_status status = from && to ? FFD_OK : ffd_fail_memory(error);
     const bool is_stay = !status && ffd_save_meets(options, from, to);
     /* In its own folder an output of another ending meets none of the names. */
