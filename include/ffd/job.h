@@ -55,8 +55,13 @@ typedef enum ffd_space { FFD_SPACE_SCENE = 0, FFD_SPACE_MESH } ffd_space;
 typedef enum ffd_rig { FFD_RIG_KEEP = 0, FFD_RIG_FOLLOW } ffd_rig;
 /* What happens to the images of a glTF, and to the material libraries and maps of an OBJ, if the output is in
    another folder than the input: COPY copies them next to the output; REFERENCE (glTF only) rewrites the URIs
-   so that they lead to the original files. */
-typedef enum ffd_resources { FFD_RESOURCES_COPY = 0, FFD_RESOURCES_REFERENCE } ffd_resources;
+   so that they lead to the original files; REFRESH copies them too, and replaces a copy that is still as an
+   earlier run has made it, where its original has changed. */
+typedef enum ffd_resources {
+    FFD_RESOURCES_COPY = 0,
+    FFD_RESOURCES_REFERENCE,
+    FFD_RESOURCES_REFRESH
+} ffd_resources;
 
 /* Quality gates, combined with |. If one is violated, the job fails with FFD_E_GATE before it writes
    anything. */

@@ -223,6 +223,20 @@ static void put_records(const batch_run *run, const pool_task *task)
         ffd_journal_put(run->journal, &task->picture_target, &drawn, "", 0);
 }
 
+/* Notes the copies that a job has made. */
+static void put_copies(const batch_run *run, const pool_task *task)
+{
+    copy_note note;
+    job_record known;
+    for (size_t at = 0; at + sizeof note <= task->copies.size; at += sizeof note) {
+        memcpy(&note, task->copies.data + at, sizeof note);
+        const job_record record = {note.content, note.content};
+        if (!ffd_journal_find(run->journal, &note.target, &known, NULL) ||
+            !ffd_hash_equal(&known.outputs, &note.content))
+            ffd_journal_put(run->journal, &note.target, &record, "", 0);
+    }
+}
+
 /* Does what must happen as soon as a job ends, even if earlier jobs still run. */
 static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
 {
@@ -243,6 +257,8 @@ static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
         run->ending = true;
     if (run->journal && task->end.outcome == OUTCOME_DONE && task->end.has_record)
         put_records(run, task);
+    if (run->journal)
+        put_copies(run, task);
     if (!status && run->report && !ffd_report_is_ordered(run->report))
         status = report_task(run, run->report, task, error);
     if (!status && run->rows.report)

@@ -2,6 +2,7 @@
 #include "base/file/folder.h"
 #include "base/file/input.h"
 #include "base/file/output.h"
+#include "base/file/place.h"
 #include "base/memory/memory.h"
 #include "base/spelling.h"
 #include "base/system/interrupt.h"
@@ -186,29 +187,55 @@ static ffd_status open_default_journal(const char *path, job_journal **journal, 
     return status;
 }
 
-static ffd_status open_journal(batch_run *run, ffd_error *error)
+/* Returns the path of the file that the jobs come from; NULL: they come from elsewhere. */
+static const char *file_of_jobs(const job_source_desc *jobs)
 {
-    const batch_desc *const desc = run->desc;
-    const job_source_desc *const jobs = &desc->jobs;
+    const char *const file = jobs->next ? NULL : jobs->manifest ? jobs->manifest : jobs->table;
+    return file && !ffd_file_is_stream(file) ? file : NULL;
+}
+
+/* Finds the folder that the names in the journal are relative to. */
+static ffd_status find_base(batch_run *run, ffd_error *error)
+{
+    const char *const file = file_of_jobs(&run->desc->jobs);
+    char *const folder = ffd_path_folder(file ? file : "");
+    run->base = folder ? ffd_path_resolve(folder) : NULL;
+    ffd_free(folder);
+    if (!run->base)
+        return ffd_fail_memory(error);
+    if (run->desc->given->positions)
+        run->rows.file = ffd_place_relative(run->base, run->desc->given->positions);
+    return FFD_OK;
+}
+
+static ffd_status name_journal(batch_run *run)
+{
+    const job_source_desc *const jobs = &run->desc->jobs;
+    const char *const given = run->desc->given->journal;
     const char *const origin = jobs->next       ? ffd_jobs_name(run->source)
                                : jobs->manifest ? jobs->manifest
                                : jobs->table    ? jobs->table
                                                 : jobs->pattern;
-    char *const path = desc->given->journal ? ffd_text_copy(desc->given->journal)
-                                            : ffd_journal_default_path(origin, jobs->shard, jobs->shards);
+    run->journal_path =
+        given ? ffd_text_copy(given) : ffd_journal_default_path(origin, jobs->shard, jobs->shards);
+    return run->journal_path ? FFD_OK : FFD_E_IO;
+}
+
+static ffd_status open_journal(batch_run *run, ffd_error *error)
+{
+    const batch_desc *const desc = run->desc;
     ffd_error reason;
-    if (path && desc->pool.wishes.dry && !(desc->pool.wishes.resume && ffd_file_exists(path))) {
-        ffd_free(path); /* a dry run writes nothing, not even a journal */
+    ffd_status status = name_journal(run);
+    const char *const path = run->journal_path;
+    /* A dry run writes nothing, not even a journal. */
+    if (path && desc->pool.wishes.dry && !(desc->pool.wishes.resume && ffd_file_exists(path)))
         return FFD_OK;
-    }
-    ffd_status status = FFD_OK;
-    if (!path)
+    if (status)
         status = ffd_fail(&reason, FFD_E_IO, "there is no folder for the journal ({journal} names one)");
     else if (desc->given->journal)
         status = ffd_journal_open(path, &run->journal, &reason);
     else
         status = open_default_journal(path, &run->journal, &reason);
-    ffd_free(path);
     if (!status)
         return FFD_OK;
     if (!desc->given->journal) { /* the default journal is optional: it only saves time */
@@ -301,6 +328,8 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
     if (!status)
         status = ffd_jobs_open(&desc->jobs, &run->source, error);
     if (!status)
+        status = find_base(run, error);
+    if (!status)
         status = open_journal(run, error);
     watch(run);
     if (!status && desc->given->depfile && !pool.wishes.dry)
@@ -324,6 +353,11 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
     pool.wishes.records = run->journal != NULL;
     pool.box = desc->given->shared_box ? &run->box : NULL;
     pool.wishes.reports_empty_scan = run->files.comes_once;
+    pool.journal =
+        run->journal || (pool.wishes.dry && run->journal_path && ffd_file_exists(run->journal_path))
+            ? run->journal_path
+            : NULL;
+    pool.base = run->base;
     pool.origin = status ? NULL : ffd_jobs_name(run->source);
     return status ? status : ffd_pool_create(&pool, &run->pool, error);
 }
@@ -458,6 +492,8 @@ ffd_status ffd_batch_do(const batch_desc *desc, ffd_batch_result *result, ffd_er
     ffd_run_view_destroy(&run.view);
     ffd_run_rows_close(&run.rows);
     ffd_journal_close(&run.journal);
+    ffd_free(run.journal_path);
+    ffd_free(run.base);
     ffd_jobs_close(&run.source);
     ffd_paths_free(&run.box_files);
     ffd_paths_free(&run.outputs);

@@ -29,6 +29,8 @@ typedef struct batch_run {
     job_source *source;
     worker_pool *pool;
     job_journal *journal; /* NULL: none */
+    char *journal_path;   /* NULL: none */
+    char *base;           /* folder that the names in the journal are relative to, without links */
     ffd_report *report;   /* NULL: none */
     ffd_depfile *depfile; /* NULL: none */
     run_view *view;       /* NULL: none */

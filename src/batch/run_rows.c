@@ -2,7 +2,6 @@
 #include "base/file/input.h"
 #include "base/file/output.h"
 #include "base/file/path.h"
-#include "base/file/place.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"
@@ -83,7 +82,6 @@ ffd_status ffd_run_rows_open(run_rows *rows, const batch_desc *desc, ffd_error *
         status = make_folder(rows, desc, error);
     if (!status && rows->is_there)
         status = make_array(rows, desc, error);
-    rows->file = ffd_place_of(NULL, desc->given->positions);
     return status ? status : ffd_report_check(rows->list, error);
 }
 

@@ -8,6 +8,7 @@
 #include "batch/fingerprint.h"
 #include "batch/job_picture.h"
 #include "batch/job_scan.h"
+#include "batch/journal.h"
 #include "batch/manifest/settings.h"
 #include "batch/row_array.h"
 #include "batch/wire.h"
@@ -22,6 +23,7 @@
 #include "job/report/depfile.h"
 #include "job/report/output_set.h"
 #include "job/report/report.h"
+#include "mesh/resource/copy_notes.h"
 #include <ffd/program.h>
 #include <ffd/version.h>
 #include <inttypes.h>
@@ -30,19 +32,21 @@
 
 /* As in wire_task. */
 typedef struct task_texts {
-    const char *origin, *input, *output, *picture, *rows, *passed;
+    const char *origin, *input, *output, *picture, *rows, *journal, *base, *passed;
 } task_texts;
 
 typedef struct batch_worker {
-    hash_cache hashes;                                               /* of the files of all jobs so far */
-    ffd_job_cache *cache;                                            /* cache between jobs */
-    byte_buffer text;                                                /* of the task */
-    ffd_deform_desc desc;                                            /* likewise, in that text */
-    task_texts texts;                                                /* what else is in it */
-    byte_buffer log, entry, rule, figures, result, outputs, targets; /* of the answer */
+    hash_cache hashes;    /* of the files of all jobs so far */
+    ffd_job_cache *cache; /* cache between jobs */
+    byte_buffer text;     /* of the task */
+    ffd_deform_desc desc; /* likewise, in that text */
+    task_texts texts;     /* what else is in it */
+    byte_buffer log, entry, rule, figures, result, outputs, targets, copies; /* of the answer */
     path_list inputs;           /* files of the task that its outputs depend on */
     ffd_output_list *written;   /* paths of the files that the task writes */
     path_list names;            /* likewise, as the report has them */
+    copy_notes notes;           /* in the journal */
+    job_journal *journal;       /* opened for the notes of copies; or NULL */
     byte_buffer message;        /* the whole answer */
     ffd_output_set *output_set; /* of the task: the models that share files with its output; or NULL */
 } batch_worker;
@@ -64,6 +68,30 @@ static bool read_task(batch_worker *worker, wire_task *task)
     text[task->text_size] = 0;
     worker->text.size = task->text_size;
     return true;
+}
+
+/* Finds what the journal knows of a copy. */
+static bool find_copy(void *context, const char *copy, hash128 *hash)
+{
+    batch_worker *const worker = context;
+    const task_texts *const texts = &worker->texts;
+    job_record record;
+    if (*texts->journal && !worker->journal)
+        ffd_journal_open(texts->journal, &worker->journal, NULL);
+    const hash128 key = ffd_journal_copy_key(texts->base, copy);
+    const bool found = worker->journal && ffd_journal_find(worker->journal, &key, &record, NULL);
+    if (found)
+        *hash = record.outputs;
+    return found;
+}
+
+/* The first process writes the journal. */
+static void put_copy(void *context, const char *copy, const hash128 *hash)
+{
+    batch_worker *const worker = context;
+    const copy_note note = {ffd_journal_copy_key(worker->texts.base, copy), *hash};
+    if (*worker->texts.journal)
+        ffd_buffer_append(&worker->copies, &note, sizeof note);
 }
 
 /* Context of a job's log. */
@@ -472,9 +500,11 @@ static ffd_status take_passed(batch_worker *worker, const wire_task *task, const
                               const ffd_deform_desc *desc, ffd_error *error)
 {
     const mesh_format *const format = ffd_format_table(ffd_job_output_format(desc));
-    if (!format || !format->sidecars)
-        return FFD_OK;
     ffd_status status = ffd_output_set_create(&worker->output_set, error);
+    if (!status)
+        worker->output_set->notes = &worker->notes;
+    if (!format || !format->sidecars)
+        return status;
     for (uint32_t i = 0; i < task->passed_count && !status; i++) {
         const char *const users = next_text(text);
         status = ffd_users_add(&worker->output_set->users.users, text, users, error);
@@ -500,7 +530,9 @@ static ffd_status take_texts(batch_worker *worker, ffd_error *error)
     texts->output = next_text(texts->input);
     texts->picture = next_text(texts->output);
     texts->rows = next_text(texts->picture);
-    texts->passed = next_text(texts->rows);
+    texts->journal = next_text(texts->rows);
+    texts->base = next_text(texts->journal);
+    texts->passed = next_text(texts->base);
     if (!desc->morphs)
         return FFD_OK;
     desc->morph_results = ffd_alloc_zero(desc->lattice_count, sizeof *desc->morph_results);
@@ -597,11 +629,11 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
    header that says so. */
 static bool send_answer(batch_worker *worker, wire_answer *answer)
 {
-    const byte_buffer *const texts[] = {&worker->log,    &worker->entry,   &worker->rule,   &worker->figures,
-                                        &worker->result, &worker->outputs, &worker->targets};
+    const byte_buffer *const texts[] = {&worker->log,    &worker->entry,   &worker->rule,    &worker->figures,
+                                        &worker->result, &worker->outputs, &worker->targets, &worker->copies};
     uint64_t *const sizes[] = {&answer->log_size,     &answer->entry_size,  &answer->rule_size,
                                &answer->figures_size, &answer->result_size, &answer->outputs_size,
-                               &answer->targets_size};
+                               &answer->targets_size, &answer->copies_size};
     enum { TEXTS = sizeof texts / sizeof *texts };
     byte_buffer *const message = &worker->message;
     for (int i = 0; i < TEXTS; i++)
@@ -630,7 +662,7 @@ void ffd_worker_build(char build[WORKER_BUILD])
 /* Does jobs until there are no more. Returns the process's exit code. */
 static int run_worker(void)
 {
-    batch_worker worker = {0};
+    batch_worker worker = {.notes = {find_copy, put_copy, &worker}};
     wire_task task;
     ffd_cleanup_on_crashes();
     ffd_guard_inputs();
@@ -644,7 +676,7 @@ static int run_worker(void)
         memset(&answer, 0, sizeof answer); /* also clears padding, which is sent */
         ffd_shown_box_clear(&answer.end.box);
         worker.log.size = worker.entry.size = worker.rule.size = worker.figures.size = worker.result.size = 0;
-        worker.outputs.size = worker.targets.size = 0;
+        worker.outputs.size = worker.targets.size = worker.copies.size = 0;
         ffd_paths_free(&worker.inputs);
         ffd_paths_free(&worker.names);
         ffd_paths_free(&worker.written->names);
@@ -664,6 +696,8 @@ static int run_worker(void)
     ffd_buffer_free(&worker.result);
     ffd_buffer_free(&worker.outputs);
     ffd_buffer_free(&worker.targets);
+    ffd_buffer_free(&worker.copies);
+    ffd_journal_close(&worker.journal);
     ffd_paths_free(&worker.inputs);
     ffd_paths_free(&worker.names);
     ffd_output_list_destroy(&worker.written);

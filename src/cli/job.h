@@ -37,8 +37,8 @@ typedef struct cli_kept {
         {"if-changed", 0, NULL, CLI_KEPT_HELP, cli_set_member, (at) + offsetof(cli_kept, desc), NULL},       \
         {"depfile", 0, "FILE", CLI_KEPT_HELP, cli_set_text, (at) + offsetof(cli_kept, depfile), NULL},       \
     {                                                                                                        \
-        "resources", 0, "copy|reference", CLI_KEPT_HELP, cli_set_member, (at) + offsetof(cli_kept, desc),    \
-            NULL                                                                                             \
+        "resources", 0, "copy|reference|refresh", CLI_KEPT_HELP, cli_set_member,                             \
+            (at) + offsetof(cli_kept, desc), NULL                                                            \
     }
 
 /* Parses the arguments into job, the head of the command's settings, and words. Returns true to go on;

@@ -22,6 +22,7 @@
 #include "job/sharing.h"
 #include "lattice/file/lattice_source.h"
 #include "mesh/morphs.h"
+#include "mesh/resource/copy_notes.h"
 #include "mesh/resource/sidecar.h"
 #include <string.h>
 
@@ -195,12 +196,21 @@ static bool is_hashed(const deform_job *job)
            ffd_source_is_alone(job->document);
 }
 
+/* Returns where the run keeps notes of copies. */
+static const copy_notes *notes_of(const ffd_deform_desc *desc)
+{
+    return desc->output_set && desc->output_set->notes ? desc->output_set->notes : &ffd_copy_notes_of_user;
+}
+
 static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_error *error)
 {
     const bool hashed = is_hashed(job);
     hash128 hash;
     byte_buffer rule = {0};
     file_output *output;
+    noted_copies noted = {.notes = notes_of(job->desc)};
+    mesh_save_options noting = *options;
+    noting.noted = job->desc->sink ? NULL : &noted;
     TRY(ffd_output_create(&output, error));
     ffd_output_record(output, ffd_output_set_list(job->desc->output_set));
     ffd_output_redirect(output, job->desc->sink, job->desc->sink_user);
@@ -210,17 +220,20 @@ static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_er
         ffd_output_hash(output);
     ffd_status status = make_folder(job->desc, output, error);
     if (!status)
-        status = write_all(job, options, output, &rule, error);
+        status = write_all(job, &noting, output, &rule, error);
     status = ffd_mapping_judge(job->losses, status, error);
     if (!status) /* a missing resource may be the fault of a resolve callback */
         status = ffd_in_memory_judge(&job->desc->input, status, error);
     if (!status)
         status = ffd_output_commit(output, error);
+    if (!status)
+        ffd_copies_keep(&noted);
     if (!status && job->desc->depfile)
         ffd_depfile_add(job->desc->depfile, &rule);
     if (!status && hashed && ffd_output_hash_value(output, &hash))
         ffd_job_cache_put_output(job->desc->cache, &hash);
     ffd_buffer_free(&rule);
+    ffd_copies_free(&noted);
     ffd_output_destroy(&output);
     return status;
 }
@@ -250,9 +263,14 @@ static ffd_status dry_run_conversion(deform_job *job, const mesh_save_options *o
 /* Refuses an output whose other files cannot be written, as writing would. */
 static ffd_status dry_run_job(deform_job *job, const mesh_save_options *options, ffd_error *error)
 {
+    noted_copies noted = {.notes = notes_of(job->desc)};
+    mesh_save_options noting = *options;
+    noting.noted = job->desc->sink ? NULL : &noted;
     if (ffd_conversion_needed(job->document, options->format))
         return dry_run_conversion(job, options, error);
-    return job->document->format->save(job->document, options, NULL, &job->log, error);
+    const ffd_status status = job->document->format->save(job->document, &noting, NULL, &job->log, error);
+    ffd_copies_free(&noted);
+    return status;
 }
 
 static const char *name_of_format(ffd_format format)

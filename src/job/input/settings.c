@@ -11,7 +11,7 @@ static const char *const outside_words[] = {"keep", "extend", "error", NULL};
 static const char *const normals_words[] = {"transform", "keep", "recompute", NULL};
 static const char *const space_words[] = {"scene", "mesh", NULL};
 static const char *const rig_words[] = {"keep", "follow", NULL};
-static const char *const resources_words[] = {"copy", "reference", NULL};
+static const char *const resources_words[] = {"copy", "reference", "refresh", NULL};
 static const char *const isa_words[] = {"auto", "scalar", "sse2", "avx2", "avx512", NULL};
 static const char *const format_words[] = {"auto", "obj", "gltf", "glb", "ply", "off", "stl", NULL};
 

@@ -18,6 +18,7 @@ typedef struct known_users {
 struct ffd_output_set {
     written_files files;
     known_users users;
+    const struct copy_notes *notes; /* mesh/resource/copy_notes.h: of the run; NULL: those of the user */
 };
 
 struct ffd_output_list {

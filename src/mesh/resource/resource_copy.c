@@ -18,16 +18,29 @@ static bool is_there(const resource_copier *c, const char *target)
     return !c->sink_name && ffd_file_exists(target);
 }
 
-/* Begins the file of a copy, unless it exists. If another process is writing the same copy, waits for it.
-   There is no deadlock, because all processes write copies in the order of their paths. */
-static ffd_status begin_copy(const resource_copier *c, const char *target, bool *exists, ffd_error *error)
+/* Finds whether a file is there, and whether it has these bytes. */
+static ffd_status inspect(const resource_copier *c, const char *target, const file_input *bytes,
+                          bool *is_file, bool *is_same, ffd_error *error)
+{
+    *is_same = false;
+    *is_file = is_there(c, target);
+    return *is_file ? ffd_file_compare(target, bytes, is_same, error) : FFD_OK;
+}
+
+/* Begins the file of a copy, unless it exists, as it should be where an old copy is replaced. If another
+   process is writing the same copy, waits for it. There is no deadlock, because all processes write copies in
+   the order of their paths. */
+static ffd_status begin_copy(const resource_copier *c, const char *target, const file_input *bytes,
+                             bool replaces, bool *exists, ffd_error *error)
 {
     const double begin = ffd_clock_seconds();
     for (;;) {
-        *exists = is_there(c, target);
+        bool is_file, is_same;
+        TRY(inspect(c, target, bytes, &is_file, &is_same, error));
+        *exists = replaces ? is_same : is_file;
         if (*exists)
             return FFD_OK;
-        const ffd_status status = ffd_output_begin(c->output, target, false, error);
+        const ffd_status status = ffd_output_begin(c->output, target, replaces, error);
         /* The file may also have been created between these two calls. */
         const bool waits = status && (ffd_output_was_busy(c->output) || status == FFD_E_EXISTS);
         if (!waits || ffd_clock_seconds() - begin > MOST_WAITING)
@@ -36,35 +49,43 @@ static ffd_status begin_copy(const resource_copier *c, const char *target, bool 
     }
 }
 
-static ffd_status compare_copy(const resource_kind *kind, const char *target, const file_input *bytes,
-                               ffd_error *error)
+/* Judges a file that is there. *replaces: it is an earlier run's copy and is to be replaced. */
+static ffd_status judge_copy(const resource_copier *c, const resource_kind *kind, const char *target,
+                             const file_input *bytes, bool *replaces, ffd_error *error)
 {
-    bool same = false;
-    TRY(ffd_file_compare(target, bytes, &same, error));
-    if (same)
+    bool is_file, is_same;
+    *replaces = false;
+    TRY(inspect(c, target, bytes, &is_file, &is_same, error));
+    if (is_same || !is_file)
         return FFD_OK;
-    return ffd_fail_file(
-        error, FFD_E_IO, target,
-        "already exists and is not the %s to be copied there ({resources=reference} copies none)",
-        kind->name);
+    const bool is_own = c->noted && ffd_copies_are_own(c->noted, target);
+    *replaces = is_own && c->refreshes;
+    if (*replaces)
+        return FFD_OK;
+    return ffd_fail_file(error, FFD_E_IO, target,
+                         is_own
+                             ? "is the copy of an earlier run, and the %s has changed since "
+                               "({resources=refresh} copies it anew)"
+                             : "already exists and is not the %s to be copied there ({resources=reference} "
+                               "copies none)",
+                         kind->name);
 }
 
 static ffd_status write_copy(const resource_copier *c, const resource_kind *kind, const char *target,
                              const file_input *bytes, ffd_error *error)
 {
-    bool exists;
-    if (is_there(c, target))
-        return compare_copy(kind, target, bytes, error);
-    if (!c->output)
+    bool exists = is_there(c, target), replaces;
+    TRY(judge_copy(c, kind, target, bytes, &replaces, error));
+    if ((exists && !replaces) || !c->output)
         return FFD_OK;
     char *folder = ffd_path_folder(target);
     ffd_status status = folder ? ffd_output_folder(c->output, folder, error) : ffd_fail_memory(error);
     ffd_free(folder);
     if (!status)
-        status = begin_copy(c, target, &exists, error);
+        status = begin_copy(c, target, bytes, replaces, &exists, error);
     if (status)
         return status;
-    return exists ? compare_copy(kind, target, bytes, error)
+    return exists ? judge_copy(c, kind, target, bytes, &replaces, error)
                   : ffd_output_write(c->output, bytes->data, bytes->size, error);
 }
 
@@ -178,6 +199,8 @@ static ffd_status copy_loaded(const resource_copier *c, const mesh_resource *res
         status = ffd_resource_note(c, resource, error);
     if (!status)
         status = note_output(c, resource, error);
+    if (!status && c->noted && !c->sink_name)
+        status = ffd_copies_add(c->noted, target, bytes->data, bytes->size, error);
     ffd_free(target);
     return status;
 }

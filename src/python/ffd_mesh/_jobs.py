@@ -23,7 +23,7 @@ def deform_file(source: Path, output: Path | None, lattices: AnyLattice | Sequen
       set={"NAME": value}, outside="keep" | "extend" | "error", falloff=, snap=LENGTH or "0.001r", blocks=True,
       normals="transform" | "keep" | "recompute", as_morph="NAME", only=["node:NAME"], embedding="uvw.npy" or its bytes,
       fail_on=["folds", "tear=0.1"], quality=True (fills the figures of `check_file`), space="scene" | "mesh",
-      resources="copy" | "reference", rig="keep" | "follow", force=True (replace the output), if_changed=True, dry_run=True,
+      resources="copy" | "reference" | "refresh", rig="keep" | "follow", force=True (replace the output), if_changed=True, dry_run=True,
       make_folders=True (those of output), threads=, memory=BYTES, strict=True, allow_extensions=["NAME"], input_format="ply", output_format="glb", isa="auto",
       timeout=SECONDS (a job that takes longer raises an `Error`, and writes nothing)
     Raises `Error`. Threads may call it at the same time.
