@@ -510,6 +510,36 @@ FFD_API ffd_status ffd_compare_run(const ffd_compare_desc *desc, ffd_comparison 
 FFD_API ffd_status ffd_comparison_json(const ffd_comparison *comparison, const char *a, const char *b,
                                        char **text, ffd_error *error);
 
+/* A mesh of two folders, as ffd_compare_folders finds it. All of it is valid during the call only. */
+typedef struct ffd_compared_file {
+    const char *name;                 /* relative to both folders, with "/" */
+    bool in_a, in_b;                  /* if it is in one of them only, the next two are NULL */
+    const ffd_comparison *comparison; /* NULL after an error */
+    const ffd_error *error;           /* why it could not be compared; NULL: it was */
+} ffd_compared_file;
+
+/* Receives a mesh, in the thread that called the library, in the order of the names. A result other than
+   FFD_OK ends the comparison with this status. */
+typedef ffd_status (*ffd_compared_function)(void *user, const ffd_compared_file *file);
+
+/* The result of comparing two folders, as numbers of meshes. */
+typedef struct ffd_folder_comparison {
+    size_t struct_size; /* sizeof(ffd_folder_comparison) in the caller's header, set before the call */
+    bool equal;         /* nothing differs, and all could be read */
+    uint64_t same, different, failed, only_a, only_b;
+} ffd_folder_comparison;
+
+/* Compares two folders: desc->a.path and desc->b.path, with all else as of ffd_compare_run. Meshes (files
+   whose endings ffd_format_from_name knows) are paired by their relative names, those of folders below too;
+   one that is in one folder only differs; other files are not looked at. file may be NULL. Thread-safe.
+   Errors: FFD_E_IO (a folder cannot be read), FFD_E_ARGUMENT, FFD_E_MEMORY; a mesh that cannot be read is a
+   failed one. */
+FFD_API ffd_status ffd_compare_folders(const ffd_compare_desc *desc, ffd_compared_function file, void *user,
+                                       ffd_folder_comparison *result, ffd_error *error);
+/* The same, with the result as JSON too ("ffd-comparison", version 1). *text as of ffd_comparison_json. */
+FFD_API ffd_status ffd_compare_folders_json(const ffd_compare_desc *desc, ffd_folder_comparison *result,
+                                            char **text, ffd_error *error);
+
 /* A job of `ffd info`. */
 typedef struct ffd_info_desc {
     size_t struct_size; /* sizeof(ffd_info_desc) in the caller's header */
@@ -602,6 +632,13 @@ FFD_API ffd_status ffd_report_write(ffd_report *report, ffd_error *error);
    FFD_E_UNSUPPORTED, FFD_E_LIMIT, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_report_merge_run(const char *const *reports, size_t count, bool interleave,
                                         const char *output, bool force, ffd_error *error);
+
+/* `ffd report junit`: writes count reports, or comparisons of two folders (ffd_compare_folders_json), as
+   JUnit XML to output: a suite for each, a case for each job or mesh. A job with exit code 1, or a mesh that
+   differs, is a failure; one with another exit code, or that could not be read, an error. As of
+   ffd_report_merge_run names, force and errors. */
+FFD_API ffd_status ffd_report_junit_run(const char *const *reports, size_t count, const char *output,
+                                        bool force, ffd_error *error);
 
 #ifdef __cplusplus
 }

@@ -31,7 +31,7 @@ const cli_option cli_deform_options[] = {
     {"depfile", 0, "FILE", "write what OUT was made from, for make and ninja", cli_set_text, AT(depfile_path),
      NULL},
     {"resources", 0, "copy|reference|refresh",
-     "images, materials of a mesh written elsewhere: copied, referred to, copied anew; default copy",
+     "images, materials beside OUT: copied, referred to, copied anew; default copy",
      cli_set_member, AT(job.desc), NULL},
     {"output-format", 0, "FORMAT", FFD_FORMAT_NAMES "; for -, --out-dir, batch: OUT gets its ending",
      set_output_format, AT(job.desc), NULL},

@@ -4,7 +4,7 @@ import re
 
 from harness import CUBE, LIMIT, USAGE, case, check, equal, lattice, main
 
-COMMANDS = ["deform", "check", "embed", "compare", "info", "view", "lattice new", "report merge"]
+COMMANDS = ["deform", "check", "embed", "compare", "info", "view", "lattice new", "report merge", "report junit"]
 OPTIONS = {
     "deform": {"--lattice", "--set", "--shared-box", "--out-dir", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--rig", "--only", "--space", "--embedding", "--as-morph", "--fail-on",
                "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict", "--allow-extension",
@@ -14,7 +14,7 @@ OPTIONS = {
     "embed": {"--lattice", "--set", "--output", "--status", "--space", "--snap", "--threads", "--force", "--input-format", "--memory", "--strict", "--allow-extension"},
     "jacobian": {"--lattice", "--output", "--wrt", "--components", "--of", "--times", "--transposed", "--check", "--set", "--outside", "--falloff", "--snap", "--space",
                  "--only", "--threads", "--isa", "--memory", "--allow-extension", "--strict", "--input-format", "--force"},
-    "compare": {"--tolerance", "--normal-tolerance", "--json", "--input-format", "--memory", "--strict"},
+    "compare": {"--recursive", "--tolerance", "--normal-tolerance", "--json", "--input-format", "--memory", "--strict"},
     "info": {"--json", "--parts", "--set", "--input-format", "--memory", "--strict"},
     "view": {"--output", "--size", "--camera", "--color", "--frames", "--animation", "--full", "--lattice", "--set", "--shared-box", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--rig", "--only", "--space", "--embedding",
              "--as-morph", "--fail-on", "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict",
@@ -22,6 +22,7 @@ OPTIONS = {
     "lattice new": {"--output", "--size", "--degree", "--knots", "--margin", "--spacing", "--shape", "--axis", "--axes", "--only",
                     "--force", "--input-format", "--memory", "--strict", "--allow-extension"},
     "report merge": {"--output", "--interleave", "--force"},
+    "report junit": {"--output", "--force"},
 }
 COMMON = {"--quiet", "--verbose", "--help"}
 
@@ -86,7 +87,8 @@ def an_unknown_command_gets_the_nearest_one_proposed(run):
     refused(run, "lattice", says="lattice new")
     refused(run, "lattice", "nwe", "a.obj", says="lattice new")
     refused(run, "report", says="report merge")
-    refused(run, "report", "join", "a.json", says="report merge")
+    refused(run, "report", "junt", "a.json", says="report junit")
+    refused(run, "report", "mrge", "a.json", says="report merge")
     refused(run, "help", "deform", "x", says="x")
     refused(run, "DEFORM", says="DEFORM")
     refused(run, "", says="nearest")

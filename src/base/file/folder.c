@@ -123,6 +123,63 @@ ffd_status ffd_folder_list(const char *path, path_list *names, ffd_error *error)
     return status;
 }
 
+/* Adds an entry of a folder, named relative to `top`, to the files or to the folders that are still to be
+   read. */
+static ffd_status add_entry(const char *top, const char *name, path_list *files, path_list *folders,
+                            ffd_error *error)
+{
+    struct stat info;
+    char *const path = ffd_path_join(top, name);
+    TRY(path ? FFD_OK : ffd_fail_memory(error));
+    const bool is_there = lstat(path, &info) == 0;
+    const bool is_folder = is_there && S_ISDIR(info.st_mode);
+    const bool is_file = is_there && !is_folder && stat(path, &info) == 0 && S_ISREG(info.st_mode);
+    ffd_free(path);
+    return is_folder ? ffd_paths_add(folders, name, error)
+           : is_file ? ffd_paths_add(files, name, error)
+                     : FFD_OK;
+}
+
+/* Reads the folder `name` below top; "": top itself. */
+static ffd_status read_below(const char *top, const char *name, path_list *files, path_list *folders,
+                             ffd_error *error)
+{
+    char *const path = *name ? ffd_path_join(top, name) : ffd_text_copy(top);
+    TRY(path ? FFD_OK : ffd_fail_memory(error));
+    DIR *const folder = opendir(path);
+    const struct dirent *entry;
+    ffd_status status =
+        folder ? FFD_OK
+               : ffd_fail_file(error, FFD_E_IO, path, "cannot be read as a folder: %s", strerror(errno));
+    while (!status && (entry = readdir(folder)) != NULL) {
+        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0)
+            continue;
+        char *const below = *name ? ffd_path_join(name, entry->d_name) : ffd_text_copy(entry->d_name);
+        status = below ? add_entry(top, below, files, folders, error) : ffd_fail_memory(error);
+        ffd_free(below);
+    }
+    if (folder)
+        closedir(folder);
+    ffd_free(path);
+    return status;
+}
+
+ffd_status ffd_folder_walk(const char *path, path_list *files, ffd_error *error)
+{
+    path_list folders = {0};
+    const size_t before = files->count;
+    ffd_status status = ffd_paths_add(&folders, "", error);
+    for (size_t i = 0; i < folders.count && !status; i++) {
+        char *const name = ffd_text_copy(folders.paths[i]); /* the list grows */
+        status = name ? read_below(path, name, files, &folders, error) : ffd_fail_memory(error);
+        ffd_free(name);
+    }
+    ffd_paths_free(&folders);
+    if (files->count > before)
+        qsort(files->paths + before, files->count - before, sizeof *files->paths, compare);
+    return status;
+}
+
 bool ffd_folders_differ(const char *file, const char *other)
 {
     char *const here = ffd_path_folder(file), *const there = ffd_path_folder(other);
