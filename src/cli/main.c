@@ -127,7 +127,7 @@ static int run_version(int count, char **arguments)
         cli_complain("--version: unexpected argument \"%s\"", arguments[0]);
         return EXIT_USAGE;
     }
-    printf("ffd %s\n", ffd_version());
+    printf("ffd %s\n", ffd_version_build());
     return EXIT_DONE;
 }
 
