@@ -323,6 +323,13 @@ typedef struct ffd_deform_desc {
     /* Receives the names of the files that the job writes or, with dry_run, would write; also those that stay
        because they are up to date. Empty after a failure, and of ffd_check_run. May be NULL. */
     ffd_output_list *output_list;
+    /* Called in the thread that called the library, several times a second while the job runs and at its end,
+       with the finished fraction, 0..1, which never falls. If it returns false, the job ends within a second,
+       as far as it need not wait for a file, fails with FFD_E_CANCELLED and writes nothing; it is not asked
+       any more once the outputs are complete. Of ffd_deform_run, ffd_check_run and ffd_view_run; NULL: no
+       callback. */
+    bool (*progress)(void *user, double done);
+    void *progress_user;
 } ffd_deform_desc;
 
 /* Sets desc to defaults: all members 0, NULL or false. size: sizeof(ffd_deform_desc) in the caller's

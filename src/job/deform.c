@@ -4,6 +4,7 @@
 #include "base/memory/memory.h"
 #include "base/spelling.h"
 #include "base/system/clock.h"
+#include "base/system/deadline.h"
 #include "io/format_names.h"
 #include "io/formats.h"
 #include "job/chain/job_cache.h"
@@ -224,6 +225,8 @@ static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_er
     status = ffd_mapping_judge(job->losses, status, error);
     if (!status) /* a missing resource may be the fault of a resolve callback */
         status = ffd_in_memory_judge(&job->desc->input, status, error);
+    if (!status)
+        status = ffd_deadline_check(error);
     if (!status)
         status = ffd_output_commit(output, error);
     if (!status)

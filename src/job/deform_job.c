@@ -136,6 +136,7 @@ ffd_status ffd_deform_job_open(deform_job *job, unsigned needs, ffd_job_result *
                                "has no nodes that could follow: only glTF has ({rig=follow})");
     if (!status)
         ffd_result_note_flaws(result, &job->document->flaws);
+    ffd_deadline_done(JOB_IS_OPEN);
     if (!status)
         status = ffd_deadline_check(error);
     for (size_t l = 0; l < job->chain.count; l++)
@@ -346,9 +347,11 @@ static ffd_status pass_and_judge(deform_job *job, figure_arrays *arrays, figure_
     const ffd_status passed = ffd_deform_passes(job, arrays, stored, error);
     ffd_figures_free(stored);
     TRY(passed);
+    ffd_deadline_done(JOB_HAS_PASSED);
     ffd_result_fill(result, &job->totals, ffd_clock_seconds() - prepared);
     TRY(find_left(job, result, error));
     TRY(judge(job, arrays, result, error));
+    ffd_deadline_done(JOB_IS_JUDGED);
     return ffd_deadline_check(error);
 }
 

@@ -27,7 +27,11 @@ ffd_status ffd_job_call_begin(job_call *call, const ffd_deform_desc *desc, ffd_j
     const ffd_status taken = ffd_deform_desc_take(desc, &call->desc, own);
     if (!taken && call->desc.output_list)
         ffd_paths_free(&call->desc.output_list->names);
-    call->before = ffd_deadline_begin(&call->own, taken ? 0 : call->desc.timeout);
+    if (!taken) {
+        call->watch.progress = call->desc.progress;
+        call->watch.user = call->desc.progress_user;
+    }
+    call->before = ffd_deadline_begin(&call->own, taken ? 0 : call->desc.timeout, &call->watch);
     TRY(taken);
     call->callers_lattices = call->desc.lattices;
     TRY(ffd_chain_check_count(call->desc.lattice_count, own));
@@ -53,6 +57,8 @@ ffd_status ffd_job_call_end(job_call *call, ffd_status status, ffd_error *error)
     result->outputs = call->desc.output_list;
     if (status && result->outputs)
         ffd_paths_free(&call->desc.output_list->names);
+    if (!status && call->watch.progress)
+        call->watch.progress(call->watch.user, 1);
     ffd_deadline_end(call->before);
     if (status && error)
         *error = result->error;

@@ -157,7 +157,7 @@ ffd_status ffd_jacobian_run(const ffd_jacobian_desc *callers, ffd_jacobian_resul
         status = check_desc(&desc, &own);
     const bool runs = !status;
     deadline limit;
-    const deadline *const before = ffd_deadline_begin(&limit, runs ? job.timeout : 0);
+    const deadline *const before = ffd_deadline_begin(&limit, runs ? job.timeout : 0, NULL);
     if (runs)
         status = differentiate(&desc, &result, &own);
     ffd_deadline_end(before);

@@ -442,7 +442,8 @@ ffd_status ffd_view_run(const ffd_view_desc *callers, ffd_job_result *callers_re
     job.morph_results = NULL; /* only jobs that write fill these */
     desc.job = &job;
     deadline own;
-    const deadline *const before = ffd_deadline_begin(&own, status ? 0 : job.timeout);
+    work_watch watch = {.progress = status ? NULL : job.progress, .user = job.progress_user};
+    const deadline *const before = ffd_deadline_begin(&own, status ? 0 : job.timeout, &watch);
     if (!status)
         status = take_memory(&memory, &desc, &deformed, &job, &result.error);
     if (!status)

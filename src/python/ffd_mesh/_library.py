@@ -179,6 +179,19 @@ class Run:
             raise self._said[1]
 
 
+@contextlib.contextmanager
+def progress_into(desc: Any, progress: Progress | None) -> Iterator[None]:
+    """Gives a job the caller's progress function; the exception that it raises is passed on."""
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress must be a function, not {type(progress).__name__}")
+    said: list[Any] = [progress]
+    if progress is not None:
+        desc.progress, desc.progress_user = _native.progress, id(said)
+    yield
+    if len(said) > 1:
+        raise said[1] from None
+
+
 _LEVELS = {0: logging.WARNING, 1: logging.INFO, 2: logging.DEBUG}
 
 
