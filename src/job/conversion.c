@@ -1,5 +1,6 @@
 #include "job/conversion.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/text/words.h"
 #include "io/formats.h"
 #include "io/write/write.h"
@@ -225,6 +226,8 @@ ffd_status ffd_conversion_save(const mesh_document *document, mesh_state state, 
     mesh_model model = {0};
     memory_budget budget = document->budget;
     ffd_status status = make_model(document, state, morph, &budget, &model, error);
+    if (!status)
+        status = ffd_deadline_check(error);
     if (!status)
         status = check_range(&model, target, options->path, error);
     if (!status) {

@@ -289,7 +289,11 @@ static ffd_status judge(deform_job *job, figure_arrays *arrays, ffd_job_result *
     if (!status && (ffd_figures_wanted(job) || desc->fail_on & FFD_GATE_FOLDS))
         status = ffd_figures_folds(&job->chain, job->threads, result, error);
     if (!status)
+        status = ffd_deadline_check(error);
+    if (!status)
         status = ffd_tear_figures_find(job, arrays, result, error);
+    if (!status)
+        status = ffd_deadline_check(error);
     if (!status && ffd_figures_wanted(job))
         status = ffd_figures_faces(job, arrays, result, error);
     if (!status && job->details) /* check late, so that the picture can be drawn all the same */
