@@ -325,8 +325,8 @@ typedef struct ffd_deform_desc {
     ffd_output_list *output_list;
     /* Called in the thread that called the library, several times a second while the job runs and at its end,
        with the finished fraction, 0..1, which never falls. If it returns false, the job fails with
-       FFD_E_CANCELLED and writes nothing: within a second for a mesh of a million vertices; a step of a larger
-       one is ended first. Once the outputs are complete the answer does not matter. Of ffd_deform_run,
+       FFD_E_CANCELLED and writes nothing: within a second for a mesh of a million vertices; a step of a
+       larger one is ended first. Once the outputs are complete the answer does not matter. Of ffd_deform_run,
        ffd_check_run and ffd_view_run; NULL: no callback. */
     bool (*progress)(void *user, double done);
     void *progress_user;

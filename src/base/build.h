@@ -1,5 +1,5 @@
-/* build.h - what the library was built from. Each program and library has its own: build.c.in, which changes with
-   each commit, or unversioned.c. */
+/* build.h - what the library was built from. Each program and library has its own: build.c.in, which changes
+   with each commit, or unversioned.c. */
 #ifndef FFD_BASE_BUILD_H
 #define FFD_BASE_BUILD_H
 

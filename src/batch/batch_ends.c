@@ -86,13 +86,6 @@ static void append_lines(const pool_task *task, const char *manifest, byte_buffe
     ffd_buffer_free(&lead);
 }
 
-ffd_status ffd_run_list_texts(const byte_buffer *texts, path_list *list, ffd_error *error)
-{
-    for (size_t at = 0; at < texts->size; at += strlen(texts->data + at) + 1)
-        TRY(ffd_paths_add(list, texts->data + at, error));
-    return FFD_OK;
-}
-
 /* Appends a job's report entry, if no worker has made it. rows: as in pool_desc. */
 static void append_entry(const pool_task *task, const row_array *rows, bool stable, byte_buffer *text)
 {

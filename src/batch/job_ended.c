@@ -32,6 +32,13 @@ static void take_result(const pool_task *task, ffd_job_result *result, ffd_job_r
         (ffd_morph_results){*morphs ? size / sizeof *result : 0, desc->morphs, desc->lattices, *morphs};
 }
 
+ffd_status ffd_run_list_texts(const byte_buffer *texts, path_list *list, ffd_error *error)
+{
+    for (size_t at = 0; at < texts->size; at += strlen(texts->data + at) + 1)
+        TRY(ffd_paths_add(list, texts->data + at, error));
+    return FFD_OK;
+}
+
 void ffd_run_call_ended(const batch_run *run, const pool_task *task, const char *log)
 {
     const ffd_batch_desc *const given = run->desc->given;

@@ -655,8 +655,8 @@ static bool send_answer(batch_worker *worker, wire_answer *answer)
 
 void ffd_worker_build(char build[WORKER_BUILD])
 {
-    snprintf(build, WORKER_BUILD, "%s %zu %zu %zu", ffd_version_build(), sizeof(wire_task), sizeof(wire_answer),
-             sizeof(ffd_job_result));
+    snprintf(build, WORKER_BUILD, "%s %zu %zu %zu", ffd_version_build(), sizeof(wire_task),
+             sizeof(wire_answer), sizeof(ffd_job_result));
 }
 
 /* Does jobs until there are no more. Returns the process's exit code. */

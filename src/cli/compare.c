@@ -204,7 +204,8 @@ static int run(const cli_command *command, int count, char **arguments)
 static const cli_example examples[] = {
     {"the same, to the bit?", "ffd compare old.obj new.obj"},
     {"the same to a millionth of its size?", "ffd compare old.obj new.obj --tolerance 1e-6r"},
-    {"two folders, mesh by mesh", "mkdir -p a b; cp cow.obj vase.obj a; cp a/* b; ffd compare a b --recursive"},
+    {"two folders, mesh by mesh",
+     "mkdir -p a b; cp cow.obj vase.obj a; cp a/* b; ffd compare a b --recursive"},
     {NULL, NULL},
 };
 

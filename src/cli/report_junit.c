@@ -45,8 +45,8 @@ static const cli_example examples[] = {
     {"a report for a build server", "ffd check cow.obj -l twist.json --fail-on folds --report report.json "
                                     "-q; ffd report junit report.json -o "
                                     "report.xml"},
-    {"a comparison of two folders",
-     "mkdir -p a b; cp cow.obj a; cp cow.obj b; ffd compare a b --recursive --json >c.json; ffd report junit c.json"},
+    {"a comparison of two folders", "mkdir -p a b; cp cow.obj a; cp cow.obj b; ffd compare a b --recursive "
+                                    "--json >c.json; ffd report junit c.json"},
     {NULL, NULL},
 };
 

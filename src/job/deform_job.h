@@ -1,4 +1,5 @@
-/* deform_job.h - the steps that `ffd deform` and `ffd check` share: everything except writing. */
+/* deform_job.h - the steps that `ffd deform` and `ffd check` share: everything except writing;
+   and what a job would write (deform.c). */
 #ifndef FFD_JOB_DEFORM_JOB_H
 #define FFD_JOB_DEFORM_JOB_H
 

@@ -17,7 +17,7 @@ NO_FIGURES = {"struct_size", "status", "error", "picture", "outputs", "flaw_coun
 # Members of pass_totals that are not joined tile by tile, and not copied to the result.
 OF_PASS = {"of_shown", "rounding.error", "rounding.before", "splats_moved", "splat_parts", "splat_part_count", "others"}
 # Members of an entry that say which job it is, and what became of it.
-OF_ENTRY = {"line", "set", "input", "output", "positions", "row", "picture", "status", "exit", "error"}
+OF_ENTRY = {"line", "set", "input", "output", "outputs", "positions", "row", "picture", "status", "exit", "error"}
 
 
 class Row:

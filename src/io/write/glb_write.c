@@ -1,7 +1,6 @@
 /* glb_write.c - writes a model as a new .glb or .gltf file. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
-#include "base/system/deadline.h"
 #include "base/text/number.h"
 #include "io/gltf/file/glb.h"
 #include "io/gltf/file/gltf_uri.h"
@@ -132,7 +131,6 @@ static ffd_status begin(gltf_writer *w, const mesh_model *model, ffd_error *erro
     for (unsigned byte = 0; byte < 256 && model->colours && w->byte_colours; byte++)
         w->linear_of_bytes[byte] = ffd_srgb_byte_to_linear(byte);
     TRY(ffd_glb_make_plan(model, &w->plan, error));
-    TRY(ffd_deadline_check(error));
     TRY(ffd_glb_make_clips(&w->plan, &w->clips, error));
     measure(w);
     return choose_origins(&w->plan, &w->origins, error);
