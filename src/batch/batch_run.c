@@ -327,6 +327,8 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
     }
     if (!status)
         status = ffd_jobs_open(&desc->jobs, &run->source, error);
+    if (!status && desc->given->view) /* its folder is made: other files of the run may be there */
+        status = open_view(run, error);
     if (!status)
         status = find_base(run, error);
     if (!status)
@@ -334,8 +336,6 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
     watch(run);
     if (!status && desc->given->depfile && !pool.wishes.dry)
         status = ffd_depfile_create(desc->given->depfile, &run->depfile, error);
-    if (!status && desc->given->view)
-        status = open_view(run, error);
     run->files.manifest = status ? NULL : ffd_run_manifest(run);
     if (!status)
         status = claim_own(run, error);
