@@ -44,18 +44,19 @@ ffd_status ffd_folder_make(const char *path, size_t *made, ffd_error *error)
         return ffd_fail_memory(error);
     ffd_status status = FFD_OK;
     int again = 0;
-    for (size_t end = next_folder(path, 0); end && !status; end = next_folder(path, end)) {
+    for (size_t end = next_folder(path, 0); end; end = next_folder(path, end)) {
         partial[end] = 0;
         const int reason = make_one(partial, end, made);
         if (reason && !(reason == ENOENT && again < MOST_AGAIN))
-            status =
-                ffd_fail_file(error, FFD_E_IO, partial, "the folder cannot be made: %s", strerror(reason));
+            TRY_END(
+                ffd_fail_file(error, FFD_E_IO, partial, "the folder cannot be made: %s", strerror(reason)));
         partial[end] = path[end];
-        if (reason && !status) { /* another run has removed a folder above, which it had made */
+        if (reason) { /* another run has removed a folder above, which it had made */
             again++;
             end = 0;
         }
     }
+end:
     ffd_free(partial);
     return status;
 }
@@ -114,8 +115,9 @@ ffd_status ffd_folder_list(const char *path, path_list *names, ffd_error *error)
     const struct dirent *entry;
     const size_t before = names->count;
     ffd_status status = FFD_OK;
-    while (folder && !status && (entry = readdir(folder)) != NULL)
-        status = ffd_paths_add(names, entry->d_name, error);
+    while (folder && (entry = readdir(folder)) != NULL)
+        TRY_END(ffd_paths_add(names, entry->d_name, error));
+end:
     if (folder)
         closedir(folder);
     if (names->count > before)
