@@ -55,8 +55,13 @@ typedef enum ffd_space { FFD_SPACE_SCENE = 0, FFD_SPACE_MESH } ffd_space;
 typedef enum ffd_rig { FFD_RIG_KEEP = 0, FFD_RIG_FOLLOW } ffd_rig;
 /* What happens to the images of a glTF, and to the material libraries and maps of an OBJ, if the output is in
    another folder than the input: COPY copies them next to the output; REFERENCE (glTF only) rewrites the URIs
-   so that they lead to the original files. */
-typedef enum ffd_resources { FFD_RESOURCES_COPY = 0, FFD_RESOURCES_REFERENCE } ffd_resources;
+   so that they lead to the original files; REFRESH copies them too, and replaces a copy that is still as an
+   earlier run has made it, where its original has changed. */
+typedef enum ffd_resources {
+    FFD_RESOURCES_COPY = 0,
+    FFD_RESOURCES_REFERENCE,
+    FFD_RESOURCES_REFRESH
+} ffd_resources;
 
 /* Quality gates, combined with |. If one is violated, the job fails with FFD_E_GATE before it writes
    anything. */
@@ -186,9 +191,9 @@ FFD_API ffd_status ffd_shared_box_create(ffd_shared_box **box, ffd_error *error)
 /* Destroys the box and sets *box to NULL. box and *box may be NULL. */
 FFD_API void ffd_shared_box_destroy(ffd_shared_box **box);
 
-/* A dependency file for make and ninja: a rule "OUT: MESH BUFFERS IMAGES LATTICES EMBEDDING" for each job
-   that succeeds. Standard streams are left out; images and material libraries are listed only if they are
-   copied with the output. One thread at a time. */
+/* A dependency file for make and ninja: a rule "OUT FILES: MESH BUFFERS IMAGES LATTICES EMBEDDING" for each
+   job that succeeds; FILES are those that it writes beside OUT. Standard streams are left out; images and
+   material libraries are listed only if they are copied with the output. One thread at a time. */
 typedef struct ffd_depfile ffd_depfile;
 
 /* Starts a dependency file at path ("-": standard output). It is written under a temporary name until it is
@@ -201,6 +206,15 @@ FFD_API void ffd_depfile_destroy(ffd_depfile **depfile);
 /* Writes the file under its own name. To be called at most once, after the jobs. Errors: FFD_E_IO,
    FFD_E_MEMORY. */
 FFD_API ffd_status ffd_depfile_write(ffd_depfile *depfile, ffd_error *error);
+
+/* Creates an empty list of outputs (ffd/result.h). The caller destroys *list. Errors: FFD_E_MEMORY. */
+FFD_API ffd_status ffd_output_list_create(ffd_output_list **list, ffd_error *error);
+/* Destroys the list and sets *list to NULL. list and *list may be NULL. */
+FFD_API void ffd_output_list_destroy(ffd_output_list **list);
+/* Returns the number of names, of the last job. */
+FFD_API size_t ffd_output_list_count(const ffd_output_list *list);
+/* Returns a name, which is valid until the next job; NULL if index is not less than the number. */
+FFD_API const char *ffd_output_list_name(const ffd_output_list *list, size_t index);
 
 /* An embedding of a job: a file, or its bytes. */
 typedef struct ffd_embedding_source {
@@ -303,6 +317,19 @@ typedef struct ffd_deform_desc {
     /* A job that takes longer than so many seconds fails with FFD_E_LIMIT and writes nothing; 0: no limit.
        The job looks at the time at least between its steps. */
     double timeout;
+    /* Make the folder of output, and those above it, just before the output is written. A job that fails
+       leaves none that it made and that is empty. false: a missing folder is FFD_E_IO. */
+    bool make_folders;
+    /* Receives the names of the files that the job writes or, with dry_run, would write; also those that stay
+       because they are up to date. Empty after a failure, and of ffd_check_run. May be NULL. */
+    ffd_output_list *output_list;
+    /* Called in the thread that called the library, several times a second while the job runs and at its end,
+       with the finished fraction, 0..1, which never falls. If it returns false, the job fails with
+       FFD_E_CANCELLED and writes nothing: within a second for a mesh of a million vertices; a step of a
+       larger one is ended first. Once the outputs are complete the answer does not matter. Of ffd_deform_run,
+       ffd_check_run and ffd_view_run; NULL: no callback. */
+    bool (*progress)(void *user, double done);
+    void *progress_user;
 } ffd_deform_desc;
 
 /* Sets desc to defaults: all members 0, NULL or false. size: sizeof(ffd_deform_desc) in the caller's
@@ -490,6 +517,36 @@ FFD_API ffd_status ffd_compare_run(const ffd_compare_desc *desc, ffd_comparison 
 FFD_API ffd_status ffd_comparison_json(const ffd_comparison *comparison, const char *a, const char *b,
                                        char **text, ffd_error *error);
 
+/* A mesh of two folders, as ffd_compare_folders finds it. All of it is valid during the call only. */
+typedef struct ffd_compared_file {
+    const char *name;                 /* relative to both folders, with "/" */
+    bool in_a, in_b;                  /* if it is in one of them only, the next two are NULL */
+    const ffd_comparison *comparison; /* NULL after an error */
+    const ffd_error *error;           /* why it could not be compared; NULL: it was */
+} ffd_compared_file;
+
+/* Receives a mesh, in the thread that called the library, in the order of the names. A result other than
+   FFD_OK ends the comparison with this status. */
+typedef ffd_status (*ffd_compared_function)(void *user, const ffd_compared_file *file);
+
+/* The result of comparing two folders, as numbers of meshes. */
+typedef struct ffd_folder_comparison {
+    size_t struct_size; /* sizeof(ffd_folder_comparison) in the caller's header, set before the call */
+    bool equal;         /* nothing differs, and all could be read */
+    uint64_t same, different, failed, only_a, only_b;
+} ffd_folder_comparison;
+
+/* Compares two folders: desc->a.path and desc->b.path, with all else as of ffd_compare_run. Meshes (files
+   whose endings ffd_format_from_name knows) are paired by their relative names, those of folders below too;
+   one that is in one folder only differs; other files are not looked at. file may be NULL. Thread-safe.
+   Errors: FFD_E_IO (a folder cannot be read), FFD_E_ARGUMENT, FFD_E_MEMORY; a mesh that cannot be read is a
+   failed one. */
+FFD_API ffd_status ffd_compare_folders(const ffd_compare_desc *desc, ffd_compared_function file, void *user,
+                                       ffd_folder_comparison *result, ffd_error *error);
+/* The same, with the result as JSON too ("ffd-comparison", version 1). *text as of ffd_comparison_json. */
+FFD_API ffd_status ffd_compare_folders_json(const ffd_compare_desc *desc, ffd_folder_comparison *result,
+                                            char **text, ffd_error *error);
+
 /* A job of `ffd info`. */
 typedef struct ffd_info_desc {
     size_t struct_size; /* sizeof(ffd_info_desc) in the caller's header */
@@ -563,7 +620,9 @@ FFD_API ffd_status ffd_report_create_sink(const char *name, bool stable, ffd_sin
 /* Destroys the object and sets *report to NULL; a file keeps the entries that it has. report and *report may
    be NULL. */
 FFD_API void ffd_report_destroy(ffd_report **report);
-/* Adds the entry of a job. input and output: the paths that the entry gives; output may be NULL. Errors:
+/* Adds the entry of a job. input and output: the paths that the entry gives; output may be NULL. It has the
+   names of all outputs if the job had an output_list, which must still hold them; else only output is known.
+   Errors:
    FFD_E_IO, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,
                                   const ffd_job_result *result, ffd_error *error);
@@ -580,6 +639,13 @@ FFD_API ffd_status ffd_report_write(ffd_report *report, ffd_error *error);
    FFD_E_UNSUPPORTED, FFD_E_LIMIT, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_report_merge_run(const char *const *reports, size_t count, bool interleave,
                                         const char *output, bool force, ffd_error *error);
+
+/* `ffd report junit`: writes count reports, or comparisons of two folders (ffd_compare_folders_json), as
+   JUnit XML to output: a suite for each, a case for each job or mesh. A job with exit code 1, or a mesh that
+   differs, is a failure; one with another exit code, or that could not be read, an error. As of
+   ffd_report_merge_run names, force and errors. */
+FFD_API ffd_status ffd_report_junit_run(const char *const *reports, size_t count, const char *output,
+                                        bool force, ffd_error *error);
 
 #ifdef __cplusplus
 }

@@ -221,6 +221,11 @@ typedef struct ffd_seconds {
     uint64_t room[2];
 } ffd_seconds;
 
+/* The names of the files that a job has written: the output as the caller has named it, and behind it the
+   files beside it (buffers, copied images and material libraries). ffd/job.h has its functions. One thread at
+   a time. */
+typedef struct ffd_output_list ffd_output_list;
+
 /* The result of a job. Of a glTF all figures are of the shape that the default weights of morph targets show;
    if the deformation becomes a morph target itself (as_morph, morphs), of the base shape. With several morphs
    the figures of the job are the worst of any target: the counts of the target with the fewest vertices
@@ -284,6 +289,7 @@ typedef struct ffd_job_result {
     uint64_t normals_carried;     /* RECOMPUTE: normals without a face, which are transformed instead */
     uint64_t transforms_singular; /* vertices that stay because the matrix of their node or skin is not
                                      invertible */
+    const ffd_output_list *outputs; /* ffd_deform_desc.output_list */
 } ffd_job_result;
 
 #ifdef __cplusplus

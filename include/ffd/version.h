@@ -16,6 +16,10 @@ extern "C" {
 /* Returns the version of the loaded library, "MAJOR.MINOR.PATCH"; FFD_VERSION is the version of the headers.
    The string is static. Thread-safe. */
 FFD_API const char *ffd_version(void);
+/* Returns the same and, of a build from a clone, its commit, as `ffd --version` prints it: "MAJOR.MINOR.PATCH
+   (COMMIT)", 12 digits and "+" where the sources were changed. The journal of a batch belongs to one such
+   text. The string is static. Thread-safe. */
+FFD_API const char *ffd_version_build(void);
 
 #ifdef __cplusplus
 }

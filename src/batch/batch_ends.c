@@ -92,7 +92,9 @@ static void append_entry(const pool_task *task, const row_array *rows, bool stab
     const batch_job *const job = &task->job;
     ffd_job_result result;
     byte_buffer set = {0};
+    path_list outputs = {0};
     ffd_result_clear(&result);
+    const bool listed = !ffd_run_list_texts(&task->outputs, &outputs, NULL);
     result.status = task->failure.status;
     result.error = task->failure;
     ffd_settings_json(&job->desc, &set);
@@ -101,6 +103,7 @@ static void append_entry(const pool_task *task, const row_array *rows, bool stab
     const report_entry entry = {.line = job->line,
                                 .input = job->input,
                                 .output = ffd_job_output_name(job),
+                                .outputs = &outputs,
                                 .positions = rows ? rows->path : NULL,
                                 .row = job->row,
                                 .set = set.failed ? NULL : set.data,
@@ -109,8 +112,9 @@ static void append_entry(const pool_task *task, const row_array *rows, bool stab
                                 .skipped = skipped,
                                 .stable = stable};
     ffd_report_entry_text(&entry, text);
-    text->failed = text->failed || set.failed;
+    text->failed = text->failed || set.failed || !listed;
     ffd_buffer_free(&set);
+    ffd_paths_free(&outputs);
 }
 
 /* Bits of a state that fit into the table: its numbers have 39 bits, and one says whether a warning was
@@ -211,6 +215,20 @@ static void put_records(const batch_run *run, const pool_task *task)
         ffd_journal_put(run->journal, &task->picture_target, &drawn, "", 0);
 }
 
+/* Notes the copies that a job has made. */
+static void put_copies(const batch_run *run, const pool_task *task)
+{
+    copy_note note;
+    job_record known;
+    for (size_t at = 0; at + sizeof note <= task->copies.size; at += sizeof note) {
+        memcpy(&note, task->copies.data + at, sizeof note);
+        const job_record record = {note.content, note.content};
+        if (!ffd_journal_find(run->journal, &note.target, &known, NULL) ||
+            !ffd_hash_equal(&known.outputs, &note.content))
+            ffd_journal_put(run->journal, &note.target, &record, "", 0);
+    }
+}
+
 /* Learns from the end of a job, and logs it. */
 static ffd_status learn_end(batch_run *run, pool_task *task, ffd_error *error)
 {
@@ -236,6 +254,8 @@ static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
         run->ending = true;
     if (run->journal && task->end.outcome == OUTCOME_DONE && task->end.has_record)
         put_records(run, task);
+    if (run->journal)
+        put_copies(run, task);
     TRY(learned);
     if (run->report && !ffd_report_is_ordered(run->report))
         TRY(report_task(run, run->report, task, error));
@@ -270,8 +290,8 @@ static ffd_status emit_task(batch_run *run, pool_task *task, ffd_error *error)
         print_plan(task, rows_of(run));
     if (run->depfile && task->rule.size) {
         ffd_depfile_add(run->depfile, &task->rule);
-        if (run->box_files.count && ffd_paths_add(&run->outputs, task->job.target, error))
-            return FFD_E_MEMORY;
+        if (run->box_files.count)
+            TRY(ffd_run_list_texts(&task->targets, &run->outputs, error));
     }
     if (run->view)
         TRY(show_task(run, task, error));

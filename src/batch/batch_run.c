@@ -1,6 +1,8 @@
 #include "batch/batch_run.h"
+#include "base/file/folder.h"
 #include "base/file/input.h"
 #include "base/file/output.h"
+#include "base/file/place.h"
 #include "base/memory/memory.h"
 #include "base/spelling.h"
 #include "base/system/interrupt.h"
@@ -180,25 +182,66 @@ static ffd_status run_jobs(batch_run *run, ffd_error *error)
     return first ? first : status;
 }
 
-static ffd_status open_journal(batch_run *run, ffd_error *error)
+static ffd_status open_default_journal(const char *path, job_journal **journal, ffd_error *error)
 {
-    const batch_desc *const desc = run->desc;
-    const job_source_desc *const jobs = &desc->jobs;
+    size_t made;
+    char *const folder = ffd_path_folder(path);
+    ffd_status status = folder ? ffd_folder_make(folder, &made, error) : ffd_fail_memory(error);
+    if (!status)
+        status = ffd_journal_open(path, journal, error);
+    ffd_free(folder);
+    return status;
+}
+
+/* Returns the path of the file that the jobs come from; NULL: they come from elsewhere. */
+static const char *file_of_jobs(const job_source_desc *jobs)
+{
+    const char *const file = jobs->next ? NULL : jobs->manifest ? jobs->manifest : jobs->table;
+    return file && !ffd_file_is_stream(file) ? file : NULL;
+}
+
+/* Finds the folder that the names in the journal are relative to. */
+static ffd_status find_base(batch_run *run, ffd_error *error)
+{
+    const char *const file = file_of_jobs(&run->desc->jobs);
+    char *const folder = ffd_path_folder(file ? file : "");
+    run->base = folder ? ffd_path_resolve(folder) : NULL;
+    ffd_free(folder);
+    if (!run->base)
+        return ffd_fail_memory(error);
+    if (run->desc->given->positions)
+        run->rows.file = ffd_place_relative(run->base, run->desc->given->positions);
+    return FFD_OK;
+}
+
+static ffd_status name_journal(batch_run *run)
+{
+    const job_source_desc *const jobs = &run->desc->jobs;
+    const char *const given = run->desc->given->journal;
     const char *const origin = jobs->next       ? ffd_jobs_name(run->source)
                                : jobs->manifest ? jobs->manifest
                                : jobs->table    ? jobs->table
                                                 : jobs->pattern;
-    char *const path = desc->given->journal ? ffd_text_copy(desc->given->journal)
-                                            : ffd_journal_default_path(origin, jobs->shard, jobs->shards);
+    run->journal_path =
+        given ? ffd_text_copy(given) : ffd_journal_default_path(origin, jobs->shard, jobs->shards);
+    return run->journal_path ? FFD_OK : FFD_E_IO;
+}
+
+static ffd_status open_journal(batch_run *run, ffd_error *error)
+{
+    const batch_desc *const desc = run->desc;
     ffd_error reason;
-    if (path && desc->pool.wishes.dry && !(desc->pool.wishes.resume && ffd_file_exists(path))) {
-        ffd_free(path); /* a dry run writes nothing, not even a journal */
+    ffd_status status = name_journal(run);
+    const char *const path = run->journal_path;
+    /* A dry run writes nothing, not even a journal. */
+    if (path && desc->pool.wishes.dry && !(desc->pool.wishes.resume && ffd_file_exists(path)))
         return FFD_OK;
-    }
-    ffd_status status =
-        path ? ffd_journal_open(path, &run->journal, &reason)
-             : ffd_fail(&reason, FFD_E_IO, "there is no folder for the journal ({journal} names one)");
-    ffd_free(path);
+    if (status)
+        status = ffd_fail(&reason, FFD_E_IO, "there is no folder for the journal ({journal} names one)");
+    else if (desc->given->journal)
+        status = ffd_journal_open(path, &run->journal, &reason);
+    else
+        status = open_default_journal(path, &run->journal, &reason);
     if (!status)
         return FFD_OK;
     if (!desc->given->journal) { /* the default journal is optional: it only saves time */
@@ -287,12 +330,13 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
         TRY(ffd_run_rows_open(&run->rows, desc, error));
     }
     TRY(ffd_jobs_open(&desc->jobs, &run->source, error));
+    if (desc->given->view) /* its folder is made: other files of the run may be there */
+        TRY(open_view(run, error));
+    TRY(find_base(run, error));
     TRY(open_journal(run, error));
     watch(run);
     if (desc->given->depfile && !pool.wishes.dry)
         TRY(ffd_depfile_create(desc->given->depfile, &run->depfile, error));
-    if (desc->given->view)
-        TRY(open_view(run, error));
     run->files.manifest = ffd_run_manifest(run);
     TRY(claim_own(run, error));
     TRY(ffd_run_expect(run, replaces_files(run), error));
@@ -308,6 +352,11 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
     pool.wishes.records = run->journal != NULL;
     pool.box = desc->given->shared_box ? &run->box : NULL;
     pool.wishes.reports_empty_scan = run->files.comes_once;
+    pool.journal =
+        run->journal || (pool.wishes.dry && run->journal_path && ffd_file_exists(run->journal_path))
+            ? run->journal_path
+            : NULL;
+    pool.base = run->base;
     pool.origin = ffd_jobs_name(run->source);
     return ffd_pool_create(&pool, &run->pool, error);
 }
@@ -383,7 +432,7 @@ static ffd_status write_depfile(batch_run *run, ffd_error *error)
     byte_buffer rule = {0};
     ffd_status status = FFD_OK;
     if (run->outputs.count)
-        TRY_END(ffd_depfile_common_rule(&run->outputs, &run->box_files, &rule, error));
+        TRY_END(ffd_depfile_rule(&run->outputs, &run->box_files, &rule, error));
     ffd_depfile_add(run->depfile, &rule);
 end:
     ffd_buffer_free(&rule);
@@ -446,6 +495,8 @@ end:
     ffd_run_view_destroy(&run.view);
     ffd_run_rows_close(&run.rows);
     ffd_journal_close(&run.journal);
+    ffd_free(run.journal_path);
+    ffd_free(run.base);
     ffd_jobs_close(&run.source);
     ffd_paths_free(&run.box_files);
     ffd_paths_free(&run.outputs);

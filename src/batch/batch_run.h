@@ -29,6 +29,8 @@ typedef struct batch_run {
     job_source *source;
     worker_pool *pool;
     job_journal *journal; /* NULL: none */
+    char *journal_path;   /* NULL: none */
+    char *base;           /* folder that the names in the journal are relative to, without links */
     ffd_report *report;   /* NULL: none */
     ffd_depfile *depfile; /* NULL: none */
     run_view *view;       /* NULL: none */
@@ -76,6 +78,8 @@ ffd_status ffd_run_learn(batch_run *run, pool_task *task, ffd_error *error);
    have, because an earlier failure may stop the run; it is dropped if no more jobs are begun. Errors:
    FFD_E_MEMORY, FFD_E_IO. */
 ffd_status ffd_run_note_ends(batch_run *run, ffd_error *error);
+/* Adds texts that are each terminated by 0 to a list. Errors: FFD_E_MEMORY. */
+ffd_status ffd_run_list_texts(const byte_buffer *texts, path_list *list, ffd_error *error);
 /* Tells the caller that a job has ended. log: its messages. */
 void ffd_run_call_ended(const batch_run *run, const pool_task *task, const char *log);
 /* Removes ended jobs from the window; if results are output in order, only up to the first job that has not

@@ -57,7 +57,7 @@ static ffd_status finish(hash_list *list, ffd_status status, hash128 *hash)
 static bool copies_images(const ffd_deform_desc *desc)
 {
     ffd_format from_format, format = desc->output_format;
-    if (desc->in_place || !desc->output || desc->resources != FFD_RESOURCES_COPY ||
+    if (desc->in_place || !desc->output || desc->resources == FFD_RESOURCES_REFERENCE ||
         ffd_source_format(&desc->input, &from_format, NULL))
         return false;
     if (format == FFD_FORMAT_AUTO)

@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "batch/batch_run.h"
 #include "job/figures/figure_values.h"
+#include "job/report/output_set.h"
 #include "job/report/report_figures.h"
 #include "json/json_parse.h"
 
@@ -31,10 +32,18 @@ static void take_result(const pool_task *task, ffd_job_result *result, ffd_job_r
         (ffd_morph_results){*morphs ? size / sizeof *result : 0, desc->morphs, desc->lattices, *morphs};
 }
 
+ffd_status ffd_run_list_texts(const byte_buffer *texts, path_list *list, ffd_error *error)
+{
+    for (size_t at = 0; at < texts->size; at += strlen(texts->data + at) + 1)
+        TRY(ffd_paths_add(list, texts->data + at, error));
+    return FFD_OK;
+}
+
 void ffd_run_call_ended(const batch_run *run, const pool_task *task, const char *log)
 {
     const ffd_batch_desc *const given = run->desc->given;
     ffd_job_result result, *morphs = NULL;
+    ffd_output_list outputs = {0};
     if (!given->ended)
         return;
     ffd_result_clear(&result);
@@ -46,6 +55,8 @@ void ffd_run_call_ended(const batch_run *run, const pool_task *task, const char 
         result.error = task->failure;
         result.status = result.error.status;
     }
+    ffd_run_list_texts(&task->outputs, &outputs.names, NULL);
+    result.outputs = &outputs;
     result.picture = task->end.has_picture ? task->picture : NULL;
     const ffd_batch_job job = {.line = task->job.line,
                                .row = task->job.row,
@@ -56,4 +67,5 @@ void ffd_run_call_ended(const batch_run *run, const pool_task *task, const char 
                                .result = &result};
     given->ended(given->ended_user, &job);
     ffd_free(morphs);
+    ffd_paths_free(&outputs.names);
 }

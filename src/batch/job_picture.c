@@ -14,7 +14,7 @@
 
 ffd_status ffd_job_picture_check(const char *path, bool force, ffd_error *error)
 {
-    return ffd_file_exists(path) ? ffd_output_check(path, force, error) : FFD_OK;
+    return ffd_output_check_with_folder(path, force, error);
 }
 
 static bool is_older(const file_stamp *a, const file_stamp *b)
@@ -52,7 +52,8 @@ ffd_status ffd_job_picture_write(const char *path, const ffd_deform_desc *desc, 
     ffd_view_desc view;
     char *folder;
     size_t made;
-    job.cache = NULL; /* draw the mesh at rest; a mesh of the cache may have results */
+    job.output_list = NULL; /* the outputs are those of the job itself */
+    job.cache = NULL;       /* draw the mesh at rest; a mesh of the cache may have results */
     ffd_view_desc_init(&view, sizeof view);
     view.job = &job;
     view.output = path;

@@ -8,7 +8,7 @@
    SQLite's authors advise against. Linking SQLite makes an empty program start 1.34 times as slowly (shared
    library), or 1.11 times (static). */
 #include "batch/journal.h"
-#include "base/file/folder.h"
+#include "base/file/cache_folder.h"
 #include "base/file/path.h"
 #include "base/file/place.h"
 #include "base/file/update.h"
@@ -18,7 +18,6 @@
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* The file has a header, slots, then figures. It is a hash table with open addressing: a record is in the
@@ -243,17 +242,12 @@ static ffd_status open_table(job_journal *journal, ffd_error *error)
 
 ffd_status ffd_journal_open(const char *path, job_journal **journal, ffd_error *error)
 {
-    size_t made;
-    char *const folder = ffd_path_folder(path);
     *journal = ffd_alloc_zero(1, sizeof **journal);
     if (*journal)
         (*journal)->path = ffd_text_copy(path);
-    ffd_status status;
-    TRY_END(folder && *journal && (*journal)->path ? FFD_OK : ffd_fail_memory(error));
-    TRY_END(ffd_folder_make(folder, &made, error));
-    TRY_END(open_table(*journal, error));
-end:
-    ffd_free(folder);
+    ffd_status status = *journal && (*journal)->path ? FFD_OK : ffd_fail_memory(error);
+    if (!status)
+        status = open_table(*journal, error);
     if (status)
         ffd_journal_close(journal);
     return status;
@@ -333,6 +327,14 @@ bool ffd_journal_put(job_journal *journal, const hash128 *target, const job_reco
     return write_figures(journal, figures, size, &slot) && write_slot(journal->file, index, &slot);
 }
 
+hash128 ffd_journal_copy_key(const char *base, const char *copy)
+{
+    static const char word[] = "copy";
+    const hash128 place = ffd_place_relative(base, copy);
+    const hash_block blocks[] = {{word, sizeof word}, {place.bytes, sizeof place.bytes}};
+    return ffd_hash_blocks(blocks, 2);
+}
+
 void ffd_journal_close(job_journal **journal)
 {
     if (!*journal)
@@ -343,26 +345,13 @@ void ffd_journal_close(job_journal **journal)
     *journal = NULL;
 }
 
-/* Returns the user's cache folder, extended by ours; freed with ffd_free. NULL: there is none, as without a
-   home folder, which is not made. */
-static char *cache_folder(void)
-{
-    const char *const caches = getenv("XDG_CACHE_HOME"), *const home = getenv("HOME"),
-                      *const local = getenv("LOCALAPPDATA");
-    if (caches && ffd_path_is_absolute(caches))
-        return ffd_path_join(caches, "ffd");
-    if (home && *home && ffd_file_exists(home))
-        return ffd_path_join(home, ".cache/ffd");
-    return local && *local ? ffd_path_join(local, "ffd") : NULL;
-}
-
 char *ffd_journal_default_path(const char *jobs, uint64_t shard, uint64_t shards)
 {
     const hash128 hash = ffd_place_of(NULL, jobs);
     char name[80];
     snprintf(name, sizeof name, "batch-%016" PRIx64 "%016" PRIx64 "-%" PRIu64 "-of-%" PRIu64,
              load_u64(hash.bytes), load_u64(hash.bytes + 8), shard, shards);
-    char *const folder = cache_folder();
+    char *const folder = ffd_cache_folder();
     char *const path = folder ? ffd_path_join(folder, name) : NULL;
     ffd_free(folder);
     return path;

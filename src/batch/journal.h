@@ -11,21 +11,24 @@
 
 typedef struct job_journal job_journal;
 
-/* Opens a journal; creates it and its folder if missing. Refuses a file that is not a journal. Errors:
-   FFD_E_IO, FFD_E_INVALID, FFD_E_MEMORY. */
+/* Opens a journal; creates it if missing, in a folder that is there. Refuses a file that is not a journal.
+   Errors: FFD_E_IO, FFD_E_INVALID, FFD_E_MEMORY. */
 ffd_status ffd_journal_open(const char *path, job_journal **journal, ffd_error *error);
-/* Looks up the record of an output (target: ffd_file_identity). figures: NULL, or replaced by the stored
-   text. Returns false if there is none. */
+/* Looks up the record of an output (target: ffd_place_relative, as seen from the folder of the jobs' file).
+   figures: NULL, or replaced by the stored text. Returns false if there is none. */
 bool ffd_journal_find(job_journal *journal, const hash128 *target, job_record *record, byte_buffer *figures);
 /* Stores a record with figures of this size. Returns false on failure, which may also lose the old record. */
 bool ffd_journal_put(job_journal *journal, const hash128 *target, const job_record *record,
                      const char *figures, size_t size);
+/* Returns the key of the note of a copy beside an output: its content's hash is in both parts of the record.
+ */
+hash128 ffd_journal_copy_key(const char *base, const char *copy);
 /* Closes a journal and sets *journal to NULL, which it may be already. */
 void ffd_journal_close(job_journal **journal);
 
 /* Returns the default path of a batch's journal, named by the manifest and the shard, in the user's cache
    folder (XDG_CACHE_HOME or ~/.cache; LOCALAPPDATA). Freed with ffd_free; NULL: no such folder, or out of
-   memory. */
+   memory. ffd_folder_make makes its folder. */
 char *ffd_journal_default_path(const char *jobs, uint64_t shard, uint64_t shards);
 
 #endif

@@ -91,6 +91,8 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
     append_word(&text, ffd_job_output_name(job) ? ffd_job_output_name(job) : "");
     append_word(&text, task->picture ? task->picture : "");
     append_word(&text, desc->rows ? desc->rows->path : "");
+    append_word(&text, desc->journal ? desc->journal : "");
+    append_word(&text, desc->base ? desc->base : "");
     ffd_buffer_append(&text, task->passed.data, task->passed.size);
     head.text_size = text.size - sizeof head;
     head.line = job->line;
@@ -321,10 +323,11 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
     memcpy(&head, bytes->data, sizeof head);
     if (!worker->task || ((head.scanned || head.goes_on) && !worker->task->order.scans) ||
         head.log_size > WIRE_MOST || head.entry_size > WIRE_MOST || head.rule_size > WIRE_MOST ||
-        head.figures_size > WIRE_MOST || head.result_size > WIRE_MOST)
+        head.figures_size > WIRE_MOST || head.result_size > WIRE_MOST || head.outputs_size > WIRE_MOST ||
+        head.targets_size > WIRE_MOST || head.copies_size > WIRE_MOST)
         return false;
-    if (bytes->size <
-        sizeof head + head.log_size + head.entry_size + head.rule_size + head.figures_size + head.result_size)
+    if (bytes->size < sizeof head + head.log_size + head.entry_size + head.rule_size + head.figures_size +
+                          head.result_size + head.outputs_size + head.targets_size + head.copies_size)
         return true;
     pool_task *const task = worker->task;
     if (head.goes_on) { /* the rest of the answer may be here already */
@@ -336,7 +339,9 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
     }
     const char *const log = bytes->data + sizeof head, *const entry = log + head.log_size,
                       *const rule = entry + head.entry_size, *const figures = rule + head.rule_size,
-                      *const result = figures + head.figures_size;
+                      *const result = figures + head.figures_size, *const outputs = result + head.result_size,
+                      *const targets = outputs + head.outputs_size,
+                      *const copies = targets + head.targets_size;
     if (head.scanned) {
         take_scan(worker, &head, rule);
         bytes->size = 0;
@@ -350,8 +355,12 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
         task->figures.size = 0;
     ffd_buffer_append(&task->figures, figures, head.figures_size);
     ffd_buffer_append(&task->result, result, head.result_size);
+    ffd_buffer_append(&task->outputs, outputs, head.outputs_size);
+    ffd_buffer_append(&task->targets, targets, head.targets_size);
+    ffd_buffer_append(&task->copies, copies, head.copies_size);
     const bool lost = task->log.failed || task->entry.failed || task->rule.failed || task->figures.failed ||
-                      task->result.failed;
+                      task->result.failed || task->outputs.failed || task->targets.failed ||
+                      task->copies.failed;
     if (head.out_of_memory || lost)
         ffd_fail_file(&task->failure, FFD_E_MEMORY, task->job.input, "out of memory");
     task->end = head.end;
@@ -535,6 +544,9 @@ void ffd_task_free(pool_task *task)
     ffd_buffer_free(&task->rule);
     ffd_buffer_free(&task->figures);
     ffd_buffer_free(&task->result);
+    ffd_buffer_free(&task->outputs);
+    ffd_buffer_free(&task->targets);
+    ffd_buffer_free(&task->copies);
     ffd_buffer_free(&task->found);
     ffd_buffer_free(&task->passed);
     ffd_free(task);

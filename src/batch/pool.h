@@ -11,6 +11,8 @@ typedef struct pool_desc {
     int threads;         /* of each job; 0: an equal share of the processors */
     double timeout;      /* limit of a job in seconds; 0: none */
     const char *origin;  /* name of the manifest, for messages */
+    const char *journal; /* path of the journal; NULL: none */
+    const char *base;    /* folder that its names are relative to; NULL with no journal */
     task_wishes wishes;
     bool draws;            /* jobs make pictures too */
     const row_array *rows; /* array of positions, or NULL */
@@ -32,7 +34,7 @@ typedef enum task_state {
 typedef struct pool_task {
     batch_job job;
     uint64_t index;         /* in the run, from 0 */
-    hash128 target;         /* identity of the output */
+    hash128 target;         /* of its output in the journal */
     hash128 picture_target; /* the journal's key for the picture of a job without an output */
     hash128 mesh;           /* hash of the input's name: a worker prefers the mesh that it has */
     bool is_large;          /* the input is large: only one worker may read it */
@@ -54,6 +56,9 @@ typedef struct pool_task {
     byte_buffer log;          /* after the end: lines of messages; */
     byte_buffer rule;         /* rule of the depfile; of a measured mesh: its files; */
     byte_buffer result;       /* as in wire_answer; or empty */
+    byte_buffer outputs;      /* likewise */
+    byte_buffer targets;      /* likewise */
+    byte_buffer copies;       /* likewise */
     byte_buffer entry;        /* of the report; empty if no worker has made it */
     ffd_error failure;        /* of a job whose worker died, or that was invalid from the start */
 } pool_task;

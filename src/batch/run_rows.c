@@ -1,7 +1,7 @@
 #include "batch/run_rows.h"
 #include "base/file/input.h"
 #include "base/file/output.h"
-#include "base/file/place.h"
+#include "base/file/path.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"
@@ -52,17 +52,30 @@ static ffd_status make_array(run_rows *rows, const batch_desc *desc, ffd_error *
     if (is_there && rows->replaces)
         TRY(ffd_rows_check_replaced(&rows->array, error));
     if (is_there || desc->pool.wishes.dry) /* report all refusals before any work */
-        TRY(ffd_output_check(rows->array.path, force, error));
+        TRY(ffd_output_check_with_folder(rows->array.path, force, error));
     return desc->pool.wishes.dry ? FFD_OK : ffd_rows_make(&rows->array, rows->replaces, &rows->made, error);
+}
+
+/* The folder of the array and its list. */
+static ffd_status make_folder(run_rows *rows, const batch_desc *desc, ffd_error *error)
+{
+    if (desc->pool.wishes.dry)
+        return FFD_OK;
+    TRY(ffd_output_create(&rows->folder, error));
+    char *const folder = ffd_path_folder(rows->list);
+    const ffd_status status =
+        folder ? ffd_output_folder(rows->folder, folder, error) : ffd_fail_memory(error);
+    ffd_free(folder);
+    return status;
 }
 
 ffd_status ffd_run_rows_open(run_rows *rows, const batch_desc *desc, ffd_error *error)
 {
-    rows->file = ffd_place_of(NULL, desc->given->positions);
     rows->list = ffd_run_rows_list(desc);
     if (!rows->list)
         return ffd_fail_memory(error);
     TRY(measure(rows, desc, error));
+    TRY(make_folder(rows, desc, error));
     if (rows->is_there)
         TRY(make_array(rows, desc, error));
     return ffd_report_check(rows->list, error);
@@ -90,6 +103,7 @@ hash128 ffd_run_rows_target(const run_rows *rows, uint64_t row, const hash128 *o
 void ffd_run_rows_close(run_rows *rows)
 {
     ffd_output_destroy(&rows->made);
+    ffd_output_destroy(&rows->folder);
     ffd_report_destroy(&rows->report);
     ffd_free(rows->list);
     *rows = (run_rows){0};

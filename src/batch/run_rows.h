@@ -9,13 +9,14 @@
 /* All zeros: not wanted. */
 typedef struct run_rows {
     row_array array;
-    bool is_there;      /* exists, or will: the number of vertices is known */
-    char *list;         /* path of the report beside it */
-    ffd_report *report; /* NULL: a dry run, or interrupted before the first job */
-    hash128 file;       /* identity of the array */
-    file_output *made;  /* the array under its temporary name; NULL: it exists, or none is to be written */
-    bool replaces;      /* an existing array is replaced */
-    bool goes_on;       /* an existing array is continued */
+    bool is_there;       /* exists, or will: the number of vertices is known */
+    char *list;          /* path of the report beside it */
+    ffd_report *report;  /* NULL: a dry run, or interrupted before the first job */
+    hash128 file;        /* identity of the array */
+    file_output *folder; /* the folders that were made for the files, which go again if they stay empty */
+    file_output *made;   /* the array under its temporary name; NULL: it exists, or none is to be written */
+    bool replaces;       /* an existing array is replaced */
+    bool goes_on;        /* an existing array is continued */
 } run_rows;
 
 /* Returns the path of the report beside the array: "ALL.json" for "ALL.npy". Shards write at the same time,

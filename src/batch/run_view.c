@@ -49,8 +49,8 @@ static ffd_status open_view(run_view *view, ffd_error *error)
         return ffd_fail_memory(error);
     if (!desc->dry)
         TRY(begin_page(view, error));
-    else if (ffd_file_exists(view->page))
-        TRY(ffd_output_check(view->page, desc->force, error));
+    else
+        TRY(ffd_output_check_with_folder(view->page, desc->force, error));
     view->resolved = ffd_path_resolve(desc->folder);
     if (!view->resolved)
         view->resolved = ffd_text_copy(desc->folder);

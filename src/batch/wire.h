@@ -69,8 +69,9 @@ typedef struct task_end {
 
 /* A task for a worker, followed by its texts: the settings of the job (ffd_settings_write), and each
    terminated by 0 the path of the mesh, the names of the manifest, of the input and of the output (empty: no
-   mesh is written), the paths of the picture and of the array of positions (empty: none), and passed_count
-   pairs of texts as ffd_claims_others fills them. */
+   mesh is written), the paths of the picture, of the array of positions and of the journal (empty: none), the
+   folder that the names in the journal are relative to, and passed_count pairs of texts as ffd_claims_others
+   fills them. */
 typedef struct wire_task {
     uint64_t text_size;
     uint64_t line, row; /* of the job */
@@ -85,6 +86,11 @@ typedef struct wire_task {
     bool has_row, has_box;
 } wire_task;
 
+/* What the journal is to note of a copy beside an output. */
+typedef struct copy_note {
+    hash128 target, content; /* its key (ffd_journal_copy_key), and the hash of its bytes */
+} copy_note;
+
 /* An answer of a worker, followed by its texts. */
 typedef struct wire_answer {
     uint64_t log_size;     /* messages, each with its line break */
@@ -93,6 +99,9 @@ typedef struct wire_answer {
                               what was found (scan.h) */
     uint64_t figures_size; /* of the job, as JSON terminated by 0 */
     uint64_t result_size;  /* of the job: ffd_job_result, and one for each of its morph targets */
+    uint64_t outputs_size; /* names of its outputs for the report, each terminated by 0 */
+    uint64_t targets_size; /* likewise, their paths for the depfile */
+    uint64_t copies_size;  /* notes of copies (copy_note) */
     task_end end;
     bool scanned;       /* the scan found files, and nothing else was done */
     bool goes_on;       /* the scan found nothing: the answer has no more yet */

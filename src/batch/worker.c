@@ -2,17 +2,20 @@
 #include "base/file/cleanup.h"
 #include "base/file/mapping.h"
 #include "base/file/output.h"
+#include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"
 #include "batch/fingerprint.h"
 #include "batch/job_picture.h"
 #include "batch/job_scan.h"
+#include "batch/journal.h"
 #include "batch/manifest/settings.h"
 #include "batch/row_array.h"
 #include "batch/wire.h"
 #include "io/formats.h"
 #include "job/chain/chain_load.h"
 #include "job/chain/job_cache.h"
+#include "job/deform_job.h"
 #include "job/figures/figure_values.h"
 #include "job/input/settings.h"
 #include "job/input/shown_box.h"
@@ -20,6 +23,7 @@
 #include "job/report/depfile.h"
 #include "job/report/output_set.h"
 #include "job/report/report.h"
+#include "mesh/resource/copy_notes.h"
 #include <ffd/program.h>
 #include <ffd/version.h>
 #include <inttypes.h>
@@ -28,17 +32,22 @@
 
 /* As in wire_task. */
 typedef struct task_texts {
-    const char *origin, *input, *output, *picture, *rows, *passed;
+    const char *origin, *input, *output, *picture, *rows, *journal, *base, *passed;
 } task_texts;
 
 typedef struct batch_worker {
-    hash_cache hashes;                             /* of the files of all jobs so far */
-    ffd_job_cache *cache;                          /* cache between jobs */
-    byte_buffer text;                              /* of the task */
-    ffd_deform_desc desc;                          /* likewise, in that text */
-    task_texts texts;                              /* what else is in it */
-    byte_buffer log, entry, rule, figures, result; /* of the answer */
-    byte_buffer message;                           /* the whole answer */
+    hash_cache hashes;    /* of the files of all jobs so far */
+    ffd_job_cache *cache; /* cache between jobs */
+    byte_buffer text;     /* of the task */
+    ffd_deform_desc desc; /* likewise, in that text */
+    task_texts texts;     /* what else is in it */
+    byte_buffer log, entry, rule, figures, result, outputs, targets, copies; /* of the answer */
+    path_list inputs;           /* files of the task that its outputs depend on */
+    ffd_output_list *written;   /* paths of the files that the task writes */
+    path_list names;            /* likewise, as the report has them */
+    copy_notes notes;           /* in the journal */
+    job_journal *journal;       /* opened for the notes of copies; or NULL */
+    byte_buffer message;        /* the whole answer */
     ffd_output_set *output_set; /* of the task: the models that share files with its output; or NULL */
 } batch_worker;
 
@@ -59,6 +68,30 @@ static bool read_task(batch_worker *worker, wire_task *task)
     text[task->text_size] = 0;
     worker->text.size = task->text_size;
     return true;
+}
+
+/* Finds what the journal knows of a copy. */
+static bool find_copy(void *context, const char *copy, hash128 *hash)
+{
+    batch_worker *const worker = context;
+    const task_texts *const texts = &worker->texts;
+    job_record record;
+    if (*texts->journal && !worker->journal)
+        ffd_journal_open(texts->journal, &worker->journal, NULL);
+    const hash128 key = ffd_journal_copy_key(texts->base, copy);
+    const bool found = worker->journal && ffd_journal_find(worker->journal, &key, &record, NULL);
+    if (found)
+        *hash = record.outputs;
+    return found;
+}
+
+/* The first process writes the journal. */
+static void put_copy(void *context, const char *copy, const hash128 *hash)
+{
+    batch_worker *const worker = context;
+    const copy_note note = {ffd_journal_copy_key(worker->texts.base, copy), *hash};
+    if (*worker->texts.journal)
+        ffd_buffer_append(&worker->copies, &note, sizeof note);
 }
 
 /* Context of a job's log. */
@@ -174,22 +207,75 @@ static ffd_status deform(ffd_deform_desc *desc, ffd_job_result *result)
     return ffd_deform_run(desc, result, NULL);
 }
 
-/* Hashes the input files and makes the depfile rule, as far as wanted. */
+/* Hashes the input files and lists them, as far as wanted. */
 static ffd_status hash_files(batch_worker *worker, const wire_task *task, const ffd_deform_desc *desc,
                              wire_answer *answer, ffd_error *error)
 {
-    path_list files = {0};
     if (!task->wishes.records && !task->wishes.dry && !task->wishes.depfile)
         return FFD_OK;
-    ffd_status status;
     /* In a dry run this also shows that they can be read. */
-    TRY_END(ffd_fingerprint_inputs(desc, &task->content, &worker->hashes, &files, &answer->end.record.inputs,
-                                   error));
-    if (task->wishes.depfile && !task->wishes.dry && desc->output)
-        TRY_END(ffd_depfile_rule(desc->output, &files, &worker->rule, error));
-end:
-    ffd_paths_free(&files);
+    return ffd_fingerprint_inputs(desc, &task->content, &worker->hashes, &worker->inputs,
+                                  &answer->end.record.inputs, error);
+}
+
+/* Adds the name of an output in the folder of `target`, or below, as the job names it: output. */
+static ffd_status add_name(path_list *names, const char *path, const char *target, const char *output,
+                           ffd_error *error)
+{
+    const size_t folder = (size_t)(ffd_path_name(target) - target);
+    if (strncmp(path, target, folder) != 0)
+        return ffd_paths_add(names, path, error);
+    char *const name = ffd_path_sibling(output, path + folder);
+    const ffd_status status = name ? ffd_paths_add(names, name, error) : ffd_fail_memory(error);
+    ffd_free(name);
     return status;
+}
+
+/* Lists the files beside the output of a job that was not run now. What cannot be known is left out. */
+static ffd_status list_files(batch_worker *worker, const ffd_deform_desc *desc, ffd_error *error)
+{
+    path_list *const paths = &worker->written->names;
+    const char *const target = desc->in_place ? desc->input.path : desc->output;
+    if (paths->count > 0 || !target || !ffd_deform_list_outputs(desc, NULL))
+        return FFD_OK;
+    ffd_paths_free(paths);
+    return ffd_paths_add(paths, target, error);
+}
+
+/* Lists the outputs of a job that has succeeded, or would. */
+static ffd_status list_outputs(batch_worker *worker, const wire_task *task, const ffd_deform_desc *desc,
+                               ffd_error *error)
+{
+    const path_list *const paths = &worker->written->names;
+    const char *const target = desc->in_place ? desc->input.path : desc->output;
+    TRY(list_files(worker, desc, error));
+    for (size_t i = 0; i < paths->count; i++)
+        TRY(add_name(&worker->names, paths->paths[i], target, worker->texts.output, error));
+    return task->has_row ? ffd_paths_add(&worker->names, worker->texts.rows, error) : FFD_OK;
+}
+
+/* Adds the names and paths of outputs to the answer, and makes the depfile rule. */
+static ffd_status tell_outputs(batch_worker *worker, const wire_task *task, const wire_answer *answer,
+                               const ffd_deform_desc *desc, ffd_status done, ffd_error *error)
+{
+    path_list *const paths = &worker->written->names;
+    const char *const picture = worker->texts.picture;
+    const bool has_picture =
+        *picture && (answer->end.has_picture || (!done && task->wishes.dry)); /* also of a gate */
+    if (!task->wishes.report && !task->wishes.depfile && !task->wishes.result)
+        return done;
+    ffd_status status = done ? FFD_OK : list_outputs(worker, task, desc, error);
+    if (!status && has_picture)
+        status = ffd_paths_add(&worker->names, picture, error);
+    if (!status && !done && has_picture)
+        status = ffd_paths_add(paths, picture, error);
+    if (!status && !done && task->wishes.depfile && !task->wishes.dry && desc->output)
+        status = ffd_depfile_rule(paths, &worker->inputs, &worker->rule, error);
+    for (size_t i = 0; i < worker->names.count; i++)
+        ffd_buffer_append(&worker->outputs, worker->names.paths[i], strlen(worker->names.paths[i]) + 1);
+    for (size_t i = 0; i < paths->count && task->wishes.depfile; i++)
+        ffd_buffer_append(&worker->targets, paths->paths[i], strlen(paths->paths[i]) + 1);
+    return done ? done : status;
 }
 
 /* Dry run: makes the checks that do not need the mesh. */
@@ -200,7 +286,8 @@ static ffd_status plan(const ffd_deform_desc *desc, ffd_error *error)
                                .set = desc->set,
                                .set_count = desc->set_count,
                                .mesh = &desc->input};
-    TRY(desc->output ? ffd_output_check(desc->output, desc->force || desc->if_changed, error) : FFD_OK);
+    if (desc->output)
+        TRY(ffd_output_check_with_folder(desc->output, desc->force || desc->if_changed, error));
     return ffd_chain_check(&files, error);
 }
 
@@ -396,7 +483,8 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const cha
         return measure(worker, task, desc, answer, error);
     desc->shared_box = task->has_box ? &shared : NULL;
     TRY(ffd_mapping_judge(losses, hash_files(worker, task, desc, answer, error), error));
-    const ffd_status status = do_job(worker, task, *picture ? picture : NULL, row, desc, answer, result);
+    ffd_status status = do_job(worker, task, *picture ? picture : NULL, row, desc, answer, result);
+    status = tell_outputs(worker, task, answer, desc, status, error);
     answer->end.own_box = result->own_box;
     return status;
 }
@@ -407,9 +495,10 @@ static ffd_status take_passed(batch_worker *worker, const wire_task *task, const
                               const ffd_deform_desc *desc, ffd_error *error)
 {
     const mesh_format *const format = ffd_format_table(ffd_job_output_format(desc));
+    TRY(ffd_output_set_create(&worker->output_set, error));
+    worker->output_set->notes = &worker->notes;
     if (!format || !format->sidecars)
         return FFD_OK;
-    TRY(ffd_output_set_create(&worker->output_set, error));
     for (uint32_t i = 0; i < task->passed_count; i++) {
         const char *const users = next_text(text);
         TRY(ffd_users_add(&worker->output_set->users.users, text, users, error));
@@ -432,7 +521,9 @@ static ffd_status take_texts(batch_worker *worker, ffd_error *error)
     texts->output = next_text(texts->input);
     texts->picture = next_text(texts->output);
     texts->rows = next_text(texts->picture);
-    texts->passed = next_text(texts->rows);
+    texts->journal = next_text(texts->rows);
+    texts->base = next_text(texts->journal);
+    texts->passed = next_text(texts->base);
     if (!desc->morphs)
         return FFD_OK;
     desc->morph_results = ffd_alloc_zero(desc->lattice_count, sizeof *desc->morph_results);
@@ -449,6 +540,8 @@ static ffd_status run_task(batch_worker *worker, const wire_task *task, wire_ans
     desc->log = log_line;
     desc->log_user = &log;
     desc->quality = task->wishes.quality;
+    desc->make_folders = true;
+    desc->output_list = worker->written;
     desc->positions = task->has_row ? take_positions : NULL;
     desc->positions_user = &row;
     desc->cache = worker->cache;
@@ -475,6 +568,7 @@ static void make_entry(batch_worker *worker, const wire_task *task, const wire_a
     const report_entry entry = {.line = task->line,
                                 .input = texts->input,
                                 .output = *texts->output ? texts->output : NULL,
+                                .outputs = &worker->names,
                                 .positions = task->has_row ? texts->rows : NULL,
                                 .row = task->row,
                                 .set = set.failed ? NULL : set.data,
@@ -526,10 +620,11 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
    header that says so. */
 static bool send_answer(batch_worker *worker, wire_answer *answer)
 {
-    const byte_buffer *const texts[] = {&worker->log, &worker->entry, &worker->rule, &worker->figures,
-                                        &worker->result};
-    uint64_t *const sizes[] = {&answer->log_size, &answer->entry_size, &answer->rule_size,
-                               &answer->figures_size, &answer->result_size};
+    const byte_buffer *const texts[] = {&worker->log,    &worker->entry,   &worker->rule,    &worker->figures,
+                                        &worker->result, &worker->outputs, &worker->targets, &worker->copies};
+    uint64_t *const sizes[] = {&answer->log_size,     &answer->entry_size,  &answer->rule_size,
+                               &answer->figures_size, &answer->result_size, &answer->outputs_size,
+                               &answer->targets_size, &answer->copies_size};
     enum { TEXTS = sizeof texts / sizeof *texts };
     byte_buffer *const message = &worker->message;
     for (int i = 0; i < TEXTS; i++)
@@ -551,26 +646,31 @@ static bool send_answer(batch_worker *worker, wire_answer *answer)
 
 void ffd_worker_build(char build[WORKER_BUILD])
 {
-    snprintf(build, WORKER_BUILD, "%s %zu %zu %zu", ffd_version(), sizeof(wire_task), sizeof(wire_answer),
-             sizeof(ffd_job_result));
+    snprintf(build, WORKER_BUILD, "%s %zu %zu %zu", ffd_version_build(), sizeof(wire_task),
+             sizeof(wire_answer), sizeof(ffd_job_result));
 }
 
 /* Does jobs until there are no more. Returns the process's exit code. */
 static int run_worker(void)
 {
-    batch_worker worker = {0};
+    batch_worker worker = {.notes = {find_copy, put_copy, &worker}};
     wire_task task;
     ffd_cleanup_on_crashes();
     ffd_guard_inputs();
     ffd_interrupt_ignore();
     ffd_process_follow_parent();
-    worker.text.failed = ffd_job_cache_create(&worker.cache, NULL) != FFD_OK;
+    worker.text.failed = ffd_job_cache_create(&worker.cache, NULL) != FFD_OK ||
+                         ffd_output_list_create(&worker.written, NULL) != FFD_OK;
     bool going = !worker.text.failed;
     while (going && read_task(&worker, &task)) {
         wire_answer answer;
         memset(&answer, 0, sizeof answer); /* also clears padding, which is sent */
         ffd_shown_box_clear(&answer.end.box);
         worker.log.size = worker.entry.size = worker.rule.size = worker.figures.size = worker.result.size = 0;
+        worker.outputs.size = worker.targets.size = worker.copies.size = 0;
+        ffd_paths_free(&worker.inputs);
+        ffd_paths_free(&worker.names);
+        ffd_paths_free(&worker.written->names);
         answer_task(&worker, &task, &answer);
         ffd_kept_free(&worker.hashes.kept);
         going = send_answer(&worker, &answer) && !answer.retires;
@@ -585,6 +685,13 @@ static int run_worker(void)
     ffd_buffer_free(&worker.rule);
     ffd_buffer_free(&worker.figures);
     ffd_buffer_free(&worker.result);
+    ffd_buffer_free(&worker.outputs);
+    ffd_buffer_free(&worker.targets);
+    ffd_buffer_free(&worker.copies);
+    ffd_journal_close(&worker.journal);
+    ffd_paths_free(&worker.inputs);
+    ffd_paths_free(&worker.names);
+    ffd_output_list_destroy(&worker.written);
     ffd_buffer_free(&worker.message);
     return code;
 }

@@ -9,7 +9,7 @@ typedef struct settings {
     double normal_tolerance;
     bool has_normal_tolerance;
     ffd_deform_desc job; /* the options that it shares with ffd deform */
-    bool json, help;
+    bool json, recursive, help;
     cli_logging logging;
 } settings;
 
@@ -31,6 +31,8 @@ static const cli_option options[] = {
     {"normal-tolerance", 0, "T",
      "normals and tangents may differ by T in a component; default 0, or the number of a T with r",
      set_normal_tolerance, 0, NULL},
+    {"recursive", 0, NULL, "A and B are folders: compare the meshes of equal names in them and below",
+     cli_set_flag, AT(recursive), NULL},
     {"json", 0, NULL, "the result as JSON", cli_set_flag, AT(json), NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_member, AT(job), NULL},
     {"strict", 0, NULL, CLI_STRICT, cli_set_member, AT(job), NULL},
@@ -98,7 +100,7 @@ static int print_verdict(const settings *s, const ffd_comparison *comparison, co
     return EXIT_NO;
 }
 
-static int compare(settings *s, const char *a, const char *b)
+static ffd_compare_desc describe(settings *s, const char *a, const char *b)
 {
     ffd_compare_desc desc;
     ffd_compare_desc_init(&desc, sizeof desc);
@@ -111,6 +113,12 @@ static int compare(settings *s, const char *a, const char *b)
                                                           : 0;
     desc.log = cli_log;
     desc.log_user = &s->logging;
+    return desc;
+}
+
+static int compare(settings *s, const char *a, const char *b)
+{
+    const ffd_compare_desc desc = describe(s, a, b);
     if (!cli_knows_format(a, desc.a.format) || !cli_knows_format(b, desc.b.format))
         return EXIT_USAGE;
     ffd_comparison comparison = {.struct_size = sizeof comparison};
@@ -120,10 +128,68 @@ static int compare(settings *s, const char *a, const char *b)
     return print_verdict(s, &comparison, a, b);
 }
 
+/* What a line about a mesh needs. */
+typedef struct folders {
+    const settings *settings;
+    const char *a, *b;
+} folders;
+
+/* An ffd_compared_function: prints a line about each mesh that is not the same. */
+static ffd_status print_file(void *user, const ffd_compared_file *file)
+{
+    const folders *const of = user;
+    const bool is_quiet = of->settings->logging.quiet;
+    if (file->error)
+        cli_fail(file->error);
+    else if (is_quiet || (file->comparison && file->comparison->equal))
+        return FFD_OK;
+    else if (!file->comparison)
+        printf("only in %s: %s\n", cli_display_name(file->in_a ? of->a : of->b), file->name);
+    else
+        printf("%s: differs: %s\n", file->name, file->comparison->first.text);
+    return FFD_OK;
+}
+
+static void print_summary(const ffd_folder_comparison *result)
+{
+    printf("%llu the same, %llu different, %llu only in A, %llu only in B, %llu not readable\n",
+           (unsigned long long)result->same, (unsigned long long)result->different,
+           (unsigned long long)result->only_a, (unsigned long long)result->only_b,
+           (unsigned long long)result->failed);
+}
+
+static int compare_folders(settings *s, const char *a, const char *b)
+{
+    const ffd_compare_desc desc = describe(s, a, b);
+    folders of = {s, a, b};
+    ffd_folder_comparison result = {.struct_size = sizeof result};
+    ffd_error error;
+    char *text = NULL;
+    if (s->json ? ffd_compare_folders_json(&desc, &result, &text, &error)
+                : ffd_compare_folders(&desc, print_file, &of, &result, &error))
+        return cli_fail(&error);
+    if (s->json)
+        fputs(text, stdout);
+    else if (!s->logging.quiet && !result.equal)
+        print_summary(&result);
+    if (!s->logging.quiet && result.equal && result.same == 0)
+        cli_complain("%s and %s: neither has a mesh: nothing was compared", cli_display_name(a),
+                     cli_display_name(b));
+    ffd_free(text);
+    return result.equal ? EXIT_DONE : EXIT_NO;
+}
+
 static int act(const cli_command *command, void *context, const cli_words *words)
 {
+    settings *const s = context;
     if (words->count != 2)
-        return cli_usage(command, "needs A and B");
+        return cli_usage(command, s->recursive ? "needs the folders A and B" : "needs A and B");
+    if (s->recursive && (strcmp(words->words[0], "-") == 0 || strcmp(words->words[1], "-") == 0))
+        return cli_usage(command, "--recursive compares folders, not standard input");
+    if (s->recursive && s->job.input.format != FFD_FORMAT_AUTO)
+        return cli_usage(command, "--input-format cannot be used with --recursive: endings say the formats");
+    if (s->recursive)
+        return compare_folders(s, words->words[0], words->words[1]);
     if (strcmp(words->words[0], "-") == 0 && strcmp(words->words[1], "-") == 0)
         return cli_usage(command, "standard input can be read only once");
     return compare(context, words->words[0], words->words[1]);
@@ -138,6 +204,8 @@ static int run(const cli_command *command, int count, char **arguments)
 static const cli_example examples[] = {
     {"the same, to the bit?", "ffd compare old.obj new.obj"},
     {"the same to a millionth of its size?", "ffd compare old.obj new.obj --tolerance 1e-6r"},
+    {"two folders, mesh by mesh",
+     "mkdir -p a b; cp cow.obj vase.obj a; cp a/* b; ffd compare a b --recursive"},
     {NULL, NULL},
 };
 
@@ -145,6 +213,7 @@ const cli_command cli_compare = {
     "compare",
     "are two files the same mesh?",
     "usage: ffd compare A B [--tolerance T] [options]\n"
+    "       ffd compare A B --recursive [--tolerance T] [options]\n"
     "       exit 0: the same; 1: not, with the first and the worst difference and their number\n",
     {.first = options},
     run,

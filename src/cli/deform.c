@@ -22,16 +22,16 @@ const cli_option cli_deform_options[] = {
     {"clip", 0, "CLIP",
      "with --morph: animate weights, \"NAME: TIME TARGET=W ..., TIME ...\"; seconds; repeatable",
      cli_set_member, AT(job.desc), NULL},
-    {"out-dir", 0, "DIR", "write every IN under its own name into this folder", cli_set_text, AT(out_dir),
-     NULL},
+    {"out-dir", 0, "DIR", "write every IN under its own name into this folder, which is made", cli_set_text,
+     AT(out_dir), NULL},
     {"in-place", 0, NULL, "overwrite IN", cli_set_member, AT(job.desc), NULL},
     {"force", 0, NULL, "overwrite an existing output", cli_set_member, AT(job.desc), NULL},
     {"if-changed", 0, NULL, "as --force, but leave an output that would stay the same untouched",
      cli_set_member, AT(job.desc), NULL},
     {"depfile", 0, "FILE", "write what OUT was made from, for make and ninja", cli_set_text, AT(depfile_path),
      NULL},
-    {"resources", 0, "copy|reference",
-     "images or materials of a mesh written elsewhere: copied, or referred to; default copy", cli_set_member,
+    {"resources", 0, "copy|reference|refresh",
+     "images, materials beside OUT: copied, referred to, copied anew; default copy", cli_set_member,
      AT(job.desc), NULL},
     {"output-format", 0, "FORMAT", FFD_FORMAT_NAMES "; for -, --out-dir, batch: OUT gets its ending",
      set_output_format, AT(job.desc), NULL},
@@ -77,8 +77,8 @@ static int refuse_conflicts(const settings *s, const cli_words *inputs)
     return code;
 }
 
-/* A missing folder would fail every job: complain once, before any work. */
-static int refuse_missing_folder(const char *folder)
+/* A file in the place of the folder would fail every job: complain once, before any work. */
+static int refuse_no_folder(const char *folder)
 {
     const size_t capacity = strlen(folder) + 3;
     char *const inside = malloc(capacity);
@@ -88,13 +88,13 @@ static int refuse_missing_folder(const char *folder)
     }
     snprintf(inside, capacity, "%s/.", folder);
     FILE *file = fopen(inside, "r");
-    const bool missing = !file && (errno == ENOENT || errno == ENOTDIR);
+    const bool is_none = !file && errno == ENOTDIR;
     if (file)
         fclose(file);
     free(inside);
-    if (!missing)
+    if (!is_none)
         return EXIT_DONE;
-    cli_complain("%s: there is no such folder", folder);
+    cli_complain("%s: is not a folder", folder);
     return ffd_status_exit_code(FFD_E_IO);
 }
 
@@ -102,6 +102,7 @@ static bool describe(settings *s, const char *input, const char *output, ffd_def
 {
     cli_job_describe(&s->job, input, desc);
     desc->output = s->job.desc.in_place ? NULL : output;
+    desc->make_folders = s->out_dir != NULL;
     desc->depfile = s->depfile;
     if (!desc->morphs)
         return true;
@@ -206,7 +207,7 @@ static int refuse(const cli_command *command, settings *s, const cli_words *word
     if (!has_many(s))
         return EXIT_DONE;
     const int code = inputs > 1 ? refuse_conflicts(s, words) : EXIT_DONE;
-    return code || !s->out_dir || words->count == 1 ? code : refuse_missing_folder(s->out_dir);
+    return code || !s->out_dir || words->count == 1 ? code : refuse_no_folder(s->out_dir);
 }
 
 /* Runs the jobs and, if all succeed, writes the depfile. */
@@ -243,7 +244,7 @@ static int run(const cli_command *command, int count, char **arguments)
 static const cli_example examples[] = {
     {"bend a mesh", "ffd deform robot.glb bent.glb -l bend.json"},
     {"many meshes into a folder, with a report",
-     "mkdir -p bent && ffd deform cow.obj vase.obj --out-dir bent -l twist.json --report report.json"},
+     "ffd deform cow.obj vase.obj --out-dir bent -l twist.json --report report.json"},
     {"one part of a mesh (ffd info --parts has the names)",
      "ffd deform knight.glb cape.glb -l bend.json --only node:Knight_Cape"},
     {"a taller character, whose skeleton and animations follow",

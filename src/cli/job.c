@@ -166,6 +166,7 @@ void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc)
     desc->input.path = input;
     desc->quality = job->report != NULL;
     desc->output_set = job->output_set;
+    desc->output_list = job->outputs;
     desc->cache = job->cache;
     desc->shared_box = job->shared_box;
     desc->log = cli_log;
@@ -225,6 +226,7 @@ int cli_job_run_all(cli_job *job, const cli_words *words, size_t inputs, cli_job
     int code = EXIT_DONE;
     if (ffd_output_set_create(&job->output_set, &error) ||
         (inputs > 1 && ffd_job_cache_create_for_lattices(&job->cache, &error)) ||
+        (job->report && ffd_output_list_create(&job->outputs, &error)) ||
         (job->report && ffd_report_create(job->report, job->stable, job->output_set, &report, &error)))
         code = cli_fail(&error);
     else
@@ -237,6 +239,7 @@ int cli_job_run_all(cli_job *job, const cli_words *words, size_t inputs, cli_job
     }
     ffd_report_destroy(&report);
     ffd_output_set_destroy(&job->output_set);
+    ffd_output_list_destroy(&job->outputs);
     ffd_job_cache_destroy(&job->cache);
     ffd_shared_box_destroy(&job->shared_box);
     return code;

@@ -14,6 +14,7 @@ typedef struct cli_job {
     bool own_box;               /* a job has used a box round its own mesh */
     ffd_shared_box *shared_box; /* of all jobs, or NULL */
     ffd_output_set *output_set; /* files written so far */
+    ffd_output_list *outputs;   /* of the last job, for the report; or NULL */
     ffd_job_cache *cache;       /* cache of several jobs, which all have the same lattices */
     ffd_error refusal;          /* why the library refuses the options */
     cli_logging logging;
@@ -36,8 +37,8 @@ typedef struct cli_kept {
         {"if-changed", 0, NULL, CLI_KEPT_HELP, cli_set_member, (at) + offsetof(cli_kept, desc), NULL},       \
         {"depfile", 0, "FILE", CLI_KEPT_HELP, cli_set_text, (at) + offsetof(cli_kept, depfile), NULL},       \
     {                                                                                                        \
-        "resources", 0, "copy|reference", CLI_KEPT_HELP, cli_set_member, (at) + offsetof(cli_kept, desc),    \
-            NULL                                                                                             \
+        "resources", 0, "copy|reference|refresh", CLI_KEPT_HELP, cli_set_member,                             \
+            (at) + offsetof(cli_kept, desc), NULL                                                            \
     }
 
 /* Parses the arguments into job, the head of the command's settings, and words. Returns true to go on;

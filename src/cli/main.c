@@ -41,12 +41,28 @@ static const cli_command *find_command(int count, char **arguments, int *words)
     return NULL;
 }
 
-/* In a request for help, "lattice" or "report" alone means its only command. */
-static const cli_command *only_command_of(const char *word)
+/* Returns the next command of a group such as "report" from number *next on; NULL: there is none. */
+static const cli_command *next_of_group(const char *group, int *next)
 {
-    return strcmp(word, "lattice") == 0  ? &cli_lattice_new
-           : strcmp(word, "report") == 0 ? &cli_report_merge
-                                         : NULL;
+    const size_t length = strlen(group);
+    for (; length && cli_commands[*next]; ++*next)
+        if (strncmp(cli_commands[*next]->name, group, length) == 0 &&
+            cli_commands[*next]->name[length] == ' ')
+            return cli_commands[(*next)++];
+    return NULL;
+}
+
+static bool is_group(const char *word)
+{
+    int next = 0;
+    return next_of_group(word, &next) != NULL;
+}
+
+static void print_help_of_group(const char *group)
+{
+    int next = 0;
+    for (const cli_command *command; (command = next_of_group(group, &next)) != NULL;)
+        cli_print_help(command);
 }
 
 /* Returns the command whose name is most similar. If a single word was typed, a command of two words is
@@ -72,11 +88,9 @@ static const char *nearest_command(const char *typed, bool two)
 static int unknown_command(int count, char **arguments)
 {
     char typed[64];
-    const cli_command *group = only_command_of(arguments[0]);
-    const bool two = group && count > 1;
+    const bool two = is_group(arguments[0]) && count > 1;
     snprintf(typed, sizeof typed, "%s%s%s", arguments[0], two ? " " : "", two ? arguments[1] : "");
-    cli_complain("unknown command \"%s\" (nearest: %s)", typed,
-                 group ? group->name : nearest_command(typed, two));
+    cli_complain("unknown command \"%s\" (nearest: %s)", typed, nearest_command(typed, two));
     return EXIT_USAGE;
 }
 
@@ -92,9 +106,11 @@ static int run_help(int count, char **arguments)
         print_overview();
         return EXIT_DONE;
     }
-    const cli_command *command = count == 1 ? only_command_of(arguments[0]) : NULL;
-    if (!command)
-        command = find_command(count, arguments, &words);
+    if (count == 1 && is_group(arguments[0])) {
+        print_help_of_group(arguments[0]);
+        return EXIT_DONE;
+    }
+    const cli_command *const command = find_command(count, arguments, &words);
     if (!command)
         return unknown_command(count, arguments);
     if (words && words != count) {
@@ -111,7 +127,7 @@ static int run_version(int count, char **arguments)
         cli_complain("--version: unexpected argument \"%s\"", arguments[0]);
         return EXIT_USAGE;
     }
-    printf("ffd %s\n", ffd_version());
+    printf("ffd %s\n", ffd_version_build());
     return EXIT_DONE;
 }
 
@@ -138,7 +154,7 @@ static int run(int count, char **arguments)
         return run_help(count - 1, arguments + 1);
     if (arguments[0][0] == '-')
         return unknown_option(arguments[0]);
-    if (count > 1 && is_help(arguments[1]) && only_command_of(arguments[0]))
+    if (count > 1 && is_help(arguments[1]) && is_group(arguments[0]))
         return run_help(1, arguments);
     const cli_command *command = find_command(count, arguments, &words);
     return command ? command->run(command, count - words, arguments + words)

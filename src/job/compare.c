@@ -1,4 +1,5 @@
 /* compare.c - the job of `ffd compare`, and its result as JSON. */
+#include "job/compare.h"
 #include "base/file/mapping.h"
 #include "base/struct_size.h"
 #include "job/input/in_memory.h"
@@ -113,13 +114,8 @@ static void write_difference(json_text *json, const char *key, const ffd_differe
     ffd_json_end(json, '}');
 }
 
-static void write_comparison(json_text *json, const ffd_comparison *comparison, const char *a, const char *b)
+void ffd_comparison_write(json_text *json, const ffd_comparison *comparison)
 {
-    ffd_json_object(json, NULL, false);
-    ffd_json_string(json, "format", "ffd-comparison");
-    ffd_json_count(json, "version", 1);
-    ffd_json_string(json, "a", a);
-    ffd_json_string(json, "b", b);
     ffd_json_bool(json, "equal", comparison->equal);
     ffd_json_bool(json, "complete", comparison->complete);
     ffd_json_number(json, "tolerance", comparison->tolerance);
@@ -136,7 +132,6 @@ static void write_comparison(json_text *json, const ffd_comparison *comparison, 
     ffd_json_end(json, '}');
     write_difference(json, "first", &comparison->first);
     write_difference(json, "worst", &comparison->worst);
-    ffd_json_end(json, '}');
 }
 
 ffd_status ffd_comparison_json(const ffd_comparison *callers, const char *a, const char *b, char **text,
@@ -150,7 +145,13 @@ ffd_status ffd_comparison_json(const ffd_comparison *callers, const char *a, con
     byte_buffer buffer = {0};
     json_text json;
     ffd_json_begin(&json, &buffer);
-    write_comparison(&json, comparison, a, b);
+    ffd_json_object(&json, NULL, false);
+    ffd_json_string(&json, "format", "ffd-comparison");
+    ffd_json_count(&json, "version", 1);
+    ffd_json_string(&json, "a", a);
+    ffd_json_string(&json, "b", b);
+    ffd_comparison_write(&json, comparison);
+    ffd_json_end(&json, '}');
     *text = ffd_buffer_finish(&buffer);
     ffd_buffer_free(&buffer);
     return *text ? FFD_OK : ffd_fail_memory(error);

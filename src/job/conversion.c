@@ -1,5 +1,6 @@
 #include "job/conversion.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/text/words.h"
 #include "io/formats.h"
 #include "io/write/write.h"
@@ -227,6 +228,7 @@ ffd_status ffd_conversion_save(const mesh_document *document, mesh_state state, 
     memory_budget budget = document->budget;
     ffd_status status;
     TRY_END(make_model(document, state, morph, &budget, &model, error));
+    TRY_END(ffd_deadline_check(error));
     TRY_END(check_range(&model, target, options->path, error));
     clear_attributes(&model, target, log);
     limit_colours(&model, target, log);

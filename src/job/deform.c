@@ -4,6 +4,7 @@
 #include "base/memory/memory.h"
 #include "base/spelling.h"
 #include "base/system/clock.h"
+#include "base/system/deadline.h"
 #include "io/format_names.h"
 #include "io/formats.h"
 #include "job/chain/job_cache.h"
@@ -22,6 +23,7 @@
 #include "job/sharing.h"
 #include "lattice/file/lattice_source.h"
 #include "mesh/morphs.h"
+#include "mesh/resource/copy_notes.h"
 #include "mesh/resource/sidecar.h"
 #include <string.h>
 
@@ -86,7 +88,19 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is a lattice of this command");
     if (!ffd_output_is_stream(desc->output) && ffd_job_reads_embedding(desc, desc->output))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the embedding that is to be reused");
-    return ffd_output_check(desc->output, options->force, error);
+    return desc->make_folders ? ffd_output_check_with_folder(desc->output, options->force, error)
+                              : ffd_output_check(desc->output, options->force, error);
+}
+
+/* Makes the folder of the output where the caller wants that. */
+static ffd_status make_folder(const ffd_deform_desc *desc, file_output *output, ffd_error *error)
+{
+    if (!desc->make_folders || !desc->output || ffd_output_is_stream(desc->output))
+        return FFD_OK;
+    char *const folder = ffd_path_folder(desc->output);
+    const ffd_status status = folder ? ffd_output_folder(output, folder, error) : ffd_fail_memory(error);
+    ffd_free(folder);
+    return status;
 }
 
 static ffd_status write_mesh(deform_job *job, const mesh_save_options *options, file_output *output,
@@ -132,8 +146,9 @@ static bool goes_round_all(const deform_job *job)
     return false;
 }
 
-/* Makes the depfile rule of the output. inputs: the files of the mesh; the other inputs are added. */
-static ffd_status make_rule(const deform_job *job, path_list *inputs, byte_buffer *rule, ffd_error *error)
+/* Makes the depfile rule of the outputs. inputs: the files of the mesh; the other inputs are added. */
+static ffd_status make_rule(const deform_job *job, const path_list *outputs, path_list *inputs,
+                            byte_buffer *rule, ffd_error *error)
 {
     const ffd_deform_desc *desc = job->desc;
     for (size_t i = 0; i < desc->lattice_count; i++) {
@@ -147,8 +162,9 @@ static ffd_status make_rule(const deform_job *job, path_list *inputs, byte_buffe
         TRY(add_paths(inputs, &job->chain.links[i].box_files, error));
     if (desc->shared_box && goes_round_all(job))
         TRY(add_paths(inputs, &desc->shared_box->files, error));
-    TRY(ffd_depfile_rule(desc->output, inputs, rule, error));
-    warn_of_name(job, desc->output);
+    TRY(ffd_depfile_rule(outputs, inputs, rule, error));
+    for (size_t i = 0; i < outputs->count; i++)
+        warn_of_name(job, outputs->paths[i]);
     for (size_t i = 0; i < inputs->count; i++)
         warn_of_name(job, inputs->paths[i]);
     return FFD_OK;
@@ -166,7 +182,7 @@ static ffd_status write_all(deform_job *job, const mesh_save_options *options, f
     ffd_status status;
     TRY_END(ffd_source_files(&job->desc->input, job->document, &inputs, error));
     TRY_END(write_mesh(job, &listing, output, error));
-    TRY_END(make_rule(job, &inputs, rule, error));
+    TRY_END(make_rule(job, options->outputs, &inputs, rule, error));
 end:
     ffd_paths_free(&inputs);
     return status;
@@ -180,12 +196,21 @@ static bool is_hashed(const deform_job *job)
            ffd_source_is_alone(job->document);
 }
 
+/* Returns where the run keeps notes of copies. */
+static const copy_notes *notes_of(const ffd_deform_desc *desc)
+{
+    return desc->output_set && desc->output_set->notes ? desc->output_set->notes : &ffd_copy_notes_of_user;
+}
+
 static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_error *error)
 {
     const bool hashed = is_hashed(job);
     hash128 hash;
     byte_buffer rule = {0};
     file_output *output;
+    noted_copies noted = {.notes = notes_of(job->desc)};
+    mesh_save_options noting = *options;
+    noting.noted = job->desc->sink ? NULL : &noted;
     TRY(ffd_output_create(&output, error));
     ffd_output_record(output, ffd_output_set_list(job->desc->output_set));
     ffd_output_redirect(output, job->desc->sink, job->desc->sink_user);
@@ -194,16 +219,20 @@ static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_er
     if (hashed)
         ffd_output_hash(output);
     ffd_status status;
-    TRY_END(ffd_mapping_judge(job->losses, write_all(job, options, output, &rule, error), error));
+    TRY_END(make_folder(job->desc, output, error));
+    TRY_END(ffd_mapping_judge(job->losses, write_all(job, &noting, output, &rule, error), error));
     /* a missing resource may be the fault of a resolve callback */
     TRY_END(ffd_in_memory_judge(&job->desc->input, FFD_OK, error));
+    TRY_END(ffd_deadline_check(error));
     TRY_END(ffd_output_commit(output, error));
+    ffd_copies_keep(&noted);
     if (job->desc->depfile)
         ffd_depfile_add(job->desc->depfile, &rule);
     if (hashed && ffd_output_hash_value(output, &hash))
         ffd_job_cache_put_output(job->desc->cache, &hash);
 end:
     ffd_buffer_free(&rule);
+    ffd_copies_free(&noted);
     ffd_output_destroy(&output);
     return status;
 }
@@ -221,7 +250,9 @@ static ffd_status dry_run_conversion(deform_job *job, const mesh_save_options *o
     for (size_t i = 0; i < count; i++) {
         char *path;
         TRY(ffd_sidecar_next(&names, NULL, NULL, &path, error));
-        const ffd_status status = ffd_output_check(path, options->force, error);
+        ffd_status status = ffd_output_check_with_folder(path, options->force, error);
+        if (!status && ffd_mesh_vertex_count(job->document) > 0) /* else the buffer is empty: no file */
+            status = ffd_paths_add(options->outputs, path, error);
         ffd_free(path);
         TRY(status);
     }
@@ -231,9 +262,14 @@ static ffd_status dry_run_conversion(deform_job *job, const mesh_save_options *o
 /* Refuses an output whose other files cannot be written, as writing would. */
 static ffd_status dry_run_job(deform_job *job, const mesh_save_options *options, ffd_error *error)
 {
+    noted_copies noted = {.notes = notes_of(job->desc)};
+    mesh_save_options noting = *options;
+    noting.noted = job->desc->sink ? NULL : &noted;
     if (ffd_conversion_needed(job->document, options->format))
         return dry_run_conversion(job, options, error);
-    return job->document->format->save(job->document, options, NULL, &job->log, error);
+    const ffd_status status = job->document->format->save(job->document, &noting, NULL, &job->log, error);
+    ffd_copies_free(&noted);
+    return status;
 }
 
 static const char *name_of_format(ffd_format format)
@@ -300,20 +336,46 @@ static ffd_status check_reads(const deform_job *job, const char *output, ffd_err
     return ffd_job_check_box_files(output, &job->chain, desc->lattices, error);
 }
 
+/* Gives the names of the outputs to the caller. */
+static void hand_over(const ffd_deform_desc *desc, path_list *outputs)
+{
+    if (!desc->output_list)
+        return;
+    ffd_paths_free(&desc->output_list->names);
+    desc->output_list->names = *outputs;
+    *outputs = (path_list){0};
+}
+
+/* Saves the result, or only looks whether that would be refused, and lists the outputs. */
+static ffd_status write_outputs(deform_job *job, mesh_save_options *options, bool writes, ffd_error *error)
+{
+    path_list outputs = {0};
+    job_sharing sharing;
+    ffd_status status =
+        ffd_output_is_stream(options->path) ? FFD_OK : ffd_paths_add(&outputs, options->path, error);
+    ffd_sharing_begin(&sharing, job->desc, job->document, options->path, options->format, &options->sharing);
+    options->outputs = &outputs;
+    if (!status)
+        status = writes ? save(job, options, error) : dry_run_job(job, options, error);
+    ffd_sharing_end(&sharing);
+    options->outputs = NULL;
+    if (!status)
+        hand_over(job->desc, &outputs);
+    ffd_paths_free(&outputs);
+    return status;
+}
+
 /* Saves the result; a dry run only looks whether that would be refused. */
 static ffd_status write_output(deform_job *job, mesh_save_options *options, ffd_job_result *result,
                                ffd_error *error)
 {
     const double start = ffd_clock_seconds();
-    job_sharing sharing;
-    ffd_sharing_begin(&sharing, job->desc, job->document, options->path, options->format, &options->sharing);
+    const bool writes = !job->desc->dry_run;
     options->indices_left = &result->indices_left;
     options->bytes_left = &result->bytes_left;
     options->bounds_left = &result->bounds_left;
-    const ffd_status status =
-        job->desc->dry_run ? dry_run_job(job, options, error) : save(job, options, error);
-    ffd_sharing_end(&sharing);
-    if (!job->desc->dry_run)
+    const ffd_status status = write_outputs(job, options, writes, error);
+    if (writes)
         result->seconds.write = ffd_clock_seconds() - start;
     return status;
 }
@@ -374,4 +436,28 @@ ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, f
 end:
     ffd_job_cache_destroy(&cache);
     return ffd_job_call_end(&call, status, error);
+}
+
+/* Opens the mesh and lists what would be written. */
+static ffd_status list_outputs(deform_job *job, ffd_job_result *result, ffd_error *error)
+{
+    mesh_save_options options;
+    TRY(resolve_output(job->desc, &options, error));
+    TRY(ffd_deform_job_open(job, 0, result, error));
+    return write_outputs(job, &options, false, error);
+}
+
+ffd_status ffd_deform_list_outputs(const ffd_deform_desc *desc, ffd_error *error)
+{
+    deform_job job;
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_deform_desc own = *desc;
+    own.log = NULL;
+    own.force = true; /* they may be there */
+    if (!ffd_deform_desc_writes(&own))
+        return FFD_OK;
+    ffd_status status = ffd_deform_job_begin(&job, &own, false, &result);
+    if (!status)
+        status = list_outputs(&job, &result, &result.error);
+    return ffd_deform_job_end(&job, status, &result, error);
 }

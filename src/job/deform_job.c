@@ -134,6 +134,7 @@ ffd_status ffd_deform_job_open(deform_job *job, unsigned needs, ffd_job_result *
         TRY_END(ffd_fail_file(error, FFD_E_ARGUMENT, ffd_source_name(&desc->input),
                               "has no nodes that could follow: only glTF has ({rig=follow})"));
     ffd_result_note_flaws(result, &job->document->flaws);
+    ffd_deadline_done(JOB_IS_OPEN);
     TRY_END(ffd_deadline_check(error));
 end:
     for (size_t l = 0; l < job->chain.count; l++)
@@ -280,7 +281,9 @@ static ffd_status judge(deform_job *job, figure_arrays *arrays, ffd_job_result *
     TRY_END(ffd_policies_judge(desc, name, &job->chain, &job->totals, error));
     if (ffd_figures_wanted(job) || desc->fail_on & FFD_GATE_FOLDS)
         TRY_END(ffd_figures_folds(&job->chain, job->threads, result, error));
+    TRY_END(ffd_deadline_check(error));
     TRY_END(ffd_tear_figures_find(job, arrays, result, error));
+    TRY_END(ffd_deadline_check(error));
     if (ffd_figures_count_flipped(job))
         TRY_END(ffd_figures_faces(job, arrays, result, error));
     if (job->details) /* check late, so that the picture can be drawn all the same */
@@ -338,9 +341,11 @@ static ffd_status pass_and_judge(deform_job *job, figure_arrays *arrays, figure_
     const ffd_status passed = ffd_deform_passes(job, arrays, stored, error);
     ffd_figures_free(stored);
     TRY(passed);
+    ffd_deadline_done(JOB_HAS_PASSED);
     ffd_result_fill(result, &job->totals, ffd_clock_seconds() - prepared);
     TRY(find_left(job, result, error));
     TRY(judge(job, arrays, result, error));
+    ffd_deadline_done(JOB_IS_JUDGED);
     return ffd_deadline_check(error);
 }
 

@@ -1,4 +1,5 @@
-/* deform_job.h - the steps that `ffd deform` and `ffd check` share: everything except writing. */
+/* deform_job.h - the steps that `ffd deform` and `ffd check` share: everything except writing;
+   and what a job would write (deform.c). */
 #ifndef FFD_JOB_DEFORM_JOB_H
 #define FFD_JOB_DEFORM_JOB_H
 
@@ -27,5 +28,10 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
 
 /* Frees the job's memory, stores the outcome in result and in *error (may be NULL), and returns it. */
 ffd_status ffd_deform_job_end(deform_job *job, ffd_status status, ffd_job_result *result, ffd_error *error);
+
+/* Fills desc->output_list with the names of the files that a job writes, without doing it; the mesh is opened
+   through desc->cache (deform.c). Errors: those of opening the mesh and the lattices, and of the checks of
+   outputs. */
+ffd_status ffd_deform_list_outputs(const ffd_deform_desc *desc, ffd_error *error);
 
 #endif

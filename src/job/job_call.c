@@ -4,6 +4,7 @@
 #include "job/chain/chain_load.h"
 #include "job/figures/figure_values.h"
 #include "job/input/deform_desc.h"
+#include "job/report/output_set.h"
 
 /* Replaces the caller's results of morph targets by own ones. */
 static ffd_status make_morph_results(job_call *call, ffd_error *error)
@@ -24,7 +25,13 @@ ffd_status ffd_job_call_begin(job_call *call, const ffd_deform_desc *desc, ffd_j
     TRY(ffd_struct_check(sizeof call->result, result, "ffd_job_result", error));
     call->size = result->struct_size;
     const ffd_status taken = ffd_deform_desc_take(desc, &call->desc, own);
-    call->before = ffd_deadline_begin(&call->own, taken ? 0 : call->desc.timeout);
+    if (!taken && call->desc.output_list)
+        ffd_paths_free(&call->desc.output_list->names);
+    if (!taken) {
+        call->watch.progress = call->desc.progress;
+        call->watch.user = call->desc.progress_user;
+    }
+    call->before = ffd_deadline_begin(&call->own, taken ? 0 : call->desc.timeout, &call->watch);
     TRY(taken);
     call->callers_lattices = call->desc.lattices;
     TRY(ffd_chain_check_count(call->desc.lattice_count, own));
@@ -47,6 +54,11 @@ ffd_status ffd_job_call_end(job_call *call, ffd_status status, ffd_error *error)
         result->morphs.results = call->callers_morphs;
     if (result->morphs.lattices)
         result->morphs.lattices = call->callers_lattices;
+    result->outputs = call->desc.output_list;
+    if (status && result->outputs)
+        ffd_paths_free(&call->desc.output_list->names);
+    if (!status && call->watch.progress)
+        call->watch.progress(call->watch.user, 1);
     ffd_deadline_end(call->before);
     if (status && error)
         *error = result->error;

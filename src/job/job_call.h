@@ -15,6 +15,7 @@ typedef struct job_call {
     size_t size; /* of each of the caller's results; 0: not known, and they are not filled */
     job_memory memory;
     deadline own;           /* by the job's timeout */
+    work_watch watch;       /* by its progress */
     const deadline *before; /* of the thread */
 } job_call;
 

@@ -175,7 +175,11 @@ typedef struct mesh_save_options {
     /* Receives further files of the output with unchanged content: images and material libraries that are
        copied next to it, or exist already. May be NULL. */
     path_list *copied;
-    uint64_t *indices_left; /* receives the number of indices in extensions that cannot be updated; may be
+    /* Receives the names of the further files that belong to the output, in its folder: buffers and copies,
+       written now or there already, also if nothing is written. May be NULL. */
+    path_list *outputs;
+    struct noted_copies *noted; /* receives the copies, for later runs; NULL: without notes */
+    uint64_t *indices_left;     /* receives the number of indices in extensions that cannot be updated; may be
                                NULL */
     /* Receives the number of bytes of replaced morph targets and animations that stay in the file unused. May
        be NULL. */

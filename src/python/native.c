@@ -194,15 +194,29 @@ static ffd_status next_job(void *user, uint64_t index, const char **line)
     return status;
 }
 
-/* ffd_batch_ended_function. user: a list, to which (row, line, input, output, skipped, log, bytes of the
-   result) is appended. */
+/* Returns a list of the names of a job's outputs; NULL with an exception. */
+static PyObject *names_of(const ffd_output_list *outputs)
+{
+    PyObject *const names = PyList_New(0);
+    for (size_t i = 0; names && i < ffd_output_list_count(outputs); i++) {
+        PyObject *const name = file_name(ffd_output_list_name(outputs, i));
+        if (name)
+            PyList_Append(names, name);
+        Py_XDECREF(name);
+    }
+    return names;
+}
+
+/* ffd_batch_ended_function. user: a list, to which (row, line, input, output, skipped, log, outputs, bytes of
+   the result) is appended. */
 static void job_ended(void *user, const ffd_batch_job *job)
 {
     const PyGILState_STATE state = PyGILState_Ensure();
-    append(user, Py_BuildValue("(KKNNiNy#)", (unsigned long long)job->row, (unsigned long long)job->line,
+    append(user, Py_BuildValue("(KKNNiNNy#)", (unsigned long long)job->row, (unsigned long long)job->line,
                                job->input ? file_name(job->input) : text(NULL),
                                job->output ? file_name(job->output) : text(NULL), (int)job->skipped,
-                               text(job->log), (const char *)job->result, (Py_ssize_t)sizeof *job->result));
+                               text(job->log), names_of(job->result->outputs), (const char *)job->result,
+                               (Py_ssize_t)sizeof *job->result));
     PyGILState_Release(state);
 }
 

@@ -308,6 +308,7 @@ typedef struct ffd_seconds {
     double read, embed, deform, judge, write;
     uint64_t room[2];
 } ffd_seconds;
+typedef struct ffd_output_list ffd_output_list;
 typedef struct ffd_job_result {
     size_t struct_size;
     ffd_status status;
@@ -349,6 +350,7 @@ typedef struct ffd_job_result {
     uint64_t normals_collapsed;
     uint64_t normals_carried;
     uint64_t transforms_singular;
+    const ffd_output_list *outputs;
 } ffd_job_result;
 typedef enum ffd_format {
     FFD_FORMAT_AUTO = 0,
@@ -364,7 +366,11 @@ ffd_status ffd_format_check_name(const char *name, ffd_error *error);
 typedef enum ffd_normals { FFD_NORMALS_TRANSFORM = 0, FFD_NORMALS_KEEP, FFD_NORMALS_RECOMPUTE } ffd_normals;
 typedef enum ffd_space { FFD_SPACE_SCENE = 0, FFD_SPACE_MESH } ffd_space;
 typedef enum ffd_rig { FFD_RIG_KEEP = 0, FFD_RIG_FOLLOW } ffd_rig;
-typedef enum ffd_resources { FFD_RESOURCES_COPY = 0, FFD_RESOURCES_REFERENCE } ffd_resources;
+typedef enum ffd_resources {
+    FFD_RESOURCES_COPY = 0,
+    FFD_RESOURCES_REFERENCE,
+    FFD_RESOURCES_REFRESH
+} ffd_resources;
 typedef enum ffd_gate {
     FFD_GATE_FOLDS = 1,
     FFD_GATE_OUTSIDE = 2,
@@ -412,6 +418,10 @@ typedef struct ffd_depfile ffd_depfile;
 ffd_status ffd_depfile_create(const char *path, ffd_depfile **depfile, ffd_error *error);
 void ffd_depfile_destroy(ffd_depfile **depfile);
 ffd_status ffd_depfile_write(ffd_depfile *depfile, ffd_error *error);
+ffd_status ffd_output_list_create(ffd_output_list **list, ffd_error *error);
+void ffd_output_list_destroy(ffd_output_list **list);
+size_t ffd_output_list_count(const ffd_output_list *list);
+const char *ffd_output_list_name(const ffd_output_list *list, size_t index);
 typedef struct ffd_embedding_source {
     const char *path;
     ffd_bytes bytes;
@@ -463,6 +473,10 @@ typedef struct ffd_deform_desc {
     ffd_positions_function positions;
     void *positions_user;
     double timeout;
+    bool make_folders;
+    ffd_output_list *output_list;
+    bool (*progress)(void *user, double done);
+    void *progress_user;
 } ffd_deform_desc;
 void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size);
 ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *desc, ffd_error *error);
@@ -559,6 +573,22 @@ void ffd_compare_desc_init(ffd_compare_desc *desc, size_t size);
 ffd_status ffd_compare_run(const ffd_compare_desc *desc, ffd_comparison *comparison, ffd_error *error);
 ffd_status ffd_comparison_json(const ffd_comparison *comparison, const char *a, const char *b, char **text,
                                ffd_error *error);
+typedef struct ffd_compared_file {
+    const char *name;
+    bool in_a, in_b;
+    const ffd_comparison *comparison;
+    const ffd_error *error;
+} ffd_compared_file;
+typedef ffd_status (*ffd_compared_function)(void *user, const ffd_compared_file *file);
+typedef struct ffd_folder_comparison {
+    size_t struct_size;
+    bool equal;
+    uint64_t same, different, failed, only_a, only_b;
+} ffd_folder_comparison;
+ffd_status ffd_compare_folders(const ffd_compare_desc *desc, ffd_compared_function file, void *user,
+                               ffd_folder_comparison *result, ffd_error *error);
+ffd_status ffd_compare_folders_json(const ffd_compare_desc *desc, ffd_folder_comparison *result, char **text,
+                                    ffd_error *error);
 typedef struct ffd_info_desc {
     size_t struct_size;
     ffd_source file;
@@ -600,6 +630,8 @@ ffd_status ffd_report_add(ffd_report *report, const char *input, const char *out
 ffd_status ffd_report_write(ffd_report *report, ffd_error *error);
 ffd_status ffd_report_merge_run(const char *const *reports, size_t count, bool interleave, const char *output,
                                 bool force, ffd_error *error);
+ffd_status ffd_report_junit_run(const char *const *reports, size_t count, const char *output, bool force,
+                                ffd_error *error);
 typedef ffd_status (*ffd_batch_next_function)(void *user, uint64_t index, const char **line);
 typedef struct ffd_batch_job {
     uint64_t line;
@@ -796,3 +828,4 @@ ffd_status ffd_member_read(const ffd_member *member, void *desc, const char *tex
 void ffd_deform_desc_clear(ffd_deform_desc *desc);
 ffd_status ffd_deform_desc_check(const ffd_deform_desc *desc, ffd_error *error);
 const char *ffd_version(void);
+const char *ffd_version_build(void);

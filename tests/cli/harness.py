@@ -57,6 +57,10 @@ with open(FFD, "rb") as _program:
     _sanitizer = re.search(b"__[at]san_init", _program.read())
     SANITIZED, _sees_races = _sanitizer is not None, _sanitizer is not None and _sanitizer[0] == b"__tsan_init"
 
+# Notes and journals of the program go to a folder of the test, not to the user's.
+_cache = tempfile.TemporaryDirectory(prefix="ffd-cache-")
+os.environ["XDG_CACHE_HOME"] = _cache.name
+
 _cases = []
 _threaded = []
 _driver = Driver(os.environ["FFD_DRIVER"]) if os.environ.get("FFD_DRIVER") else None

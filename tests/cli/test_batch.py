@@ -166,7 +166,7 @@ def a_bad_job_harms_no_other(run):
     run.write("half.json", lattice(high=(2, 2, 0), moves=MOVE))
     bad = [(job(100, **{"in": "none.obj"}), 3, "none.obj"), (job(101, **{"in": "broken.obj"}), 4, "broken.obj:1"),
            (job(102, lattice="none.json"), 3, "none.json"), (job(103, lattice="broken.json"), 4, "broken.json:1"),
-           (job(104, out="x.xyz"), (2, 4), ""), (job(105, out="no/x.obj"), 3, "no/x.obj"), (job(106, out="a.obj"), (2, 3), "a.obj"),
+           (job(104, out="x.xyz"), (2, 4), ""), (job(105, out="broken.obj/x.obj"), 3, "broken.obj/x.obj"), (job(106, out="a.obj"), (2, 3), "a.obj"),
            (job(107, **{"in": "folder.obj"}), 3, "folder.obj"), (job(108, lattice="half.json", options={"outside": "error"}), 5, "a.obj"),
            (job(109, lattice="half.json", options={"fail-on": "outside"}), 1, "a.obj"),
            (job(110, options={"only": "group:none"}), (2, 4), "")]
@@ -232,6 +232,37 @@ def force_and_in_place(run):
     run.write("m.jsonl", lines_of([{"in": "q.obj", "lattice": "l.json", "out": "z.obj", "options": {"in-place": True}}]))
     batch(run, "m.jsonl", failed=["z.obj|out"])
     equal((run.read("q.obj"), run.exists("z.obj")), (single, False))
+
+
+@case
+def folders_of_outputs_are_made(run):
+    start(run, [job(0, out="x/y/o.obj"), job(1, out="x/z/o.obj"), job(2, out="w/o.obj", **{"in": "none.obj"}),
+                job(3, out="v/o.obj", options={"fail-on": "outside"})])
+    run.write("half.json", lattice(high=(2, 2, 0), moves=MOVE))
+    run.ffd("batch", "m.jsonl", "--dry-run", code=NO, err=lambda said: None, data=True)
+    equal(names(run), ["a.obj", "half.json", "l.json", "m.jsonl"], "a dry run makes none")
+    run.write("m.jsonl", run.text("m.jsonl").replace('"l.json", "out": "v/', '"half.json", "out": "v/'))
+    batch(run, "m.jsonl", "-j4", "--view", "p/q", "--positions", "n/m/all.npy", done=2, failed=["none.obj", "a.obj"])
+    equal(names(run), ["a.obj", "half.json", "l.json", "m.jsonl", "n", "p", "x"], "jobs that fail leave none")
+    equal([run.names(folder) for folder in ("x/y", "x/z", "n/m")], [["o.obj"], ["o.obj"], ["all.json", "all.npy"]])
+    check(run.exists("p/q/index.html") and run.exists("p/q/x/y/o.obj.png"), run.names("p/q"))
+    run.write("in/b.obj", CUBE)
+    batch(run, "--in", "in/*.obj", "-l", "l.json", "--out-dir", "many/of", done=1)
+    equal(run.names("many/of"), ["b.obj"])
+
+
+@case
+def folders_of_other_files_are_not_made(run):
+    start(run, [job(0, out="x/o.obj")])
+    for option in ("--report", "--depfile", "--journal"):
+        run.ffd("batch", "m.jsonl", option, "none/f", code=IO)
+        equal(names(run), ["a.obj", "l.json", "m.jsonl"], option)
+    # What stands in the place of a folder is seen by a dry run.
+    run.write("f", "a file")
+    run.write("m.jsonl", lines_of([job(0, out="f/o.obj"), job(1, out="f/x/o.obj")]))
+    run.ffd("batch", "m.jsonl", "--dry-run", code=NO, err=lambda said: check(len(said) == 3, said), data=True)
+    run.ffd("batch", "--in", "a.obj", "-l", "l.json", "--positions", "f/all.npy", code=IO)
+    run.ffd("batch", "--in", "a.obj", "-l", "l.json", "--positions", "f/all.npy", "--dry-run", code=IO)
 
 
 @case

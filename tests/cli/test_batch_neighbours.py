@@ -225,7 +225,7 @@ def images_in_a_depfile(run):
         run.ffd("deform", mesh, out, "-l", "l.json", "--force", "--depfile", "s.d",
                 *[x for name, value in options.items() for x in ("--" + name, value)], **anything)
         single.update(rules(run, "s.d"))
-    check("in/t.png" in single["out/m.gltf"], single)
+    check("in/t.png" in next(inputs for outputs, inputs in single.items() if outputs.startswith("out/m.gltf ")), single)
     equal(rules(run, "b.d"), single)
 
 

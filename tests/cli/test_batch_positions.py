@@ -143,14 +143,14 @@ def a_job_that_fails_leaves_its_row(run):
     """A gate, a value of the wrong kind, a mesh that is missing, a crash of the disk: their rows are NaN, the others are whole."""
     start(run, [job(out="o0.obj"), {"in": "a.obj", "lattice": "fold.json", "options": {"fail-on": "folds"}},
                 {"in": "gone.obj", "lattice": "l.json"}, "not JSON", {"in": "a.obj", "lattice": "l.json"},
-                {"in": "a.obj", "lattice": "l.json", "out": "nowhere/o.obj"}])
+                {"in": "a.obj", "lattice": "l.json", "out": "l.json/o.obj"}])
     run.write("fold.json", lattice(moves=[{"at": [1, 1, 1], "by": [30, 30, 30]}]))
-    batch(run, "m.jsonl", "--positions", "all.npy", done=2, failed=["folds", "^gone.obj: ", "m.jsonl:4:", "^nowhere/o.obj"])
+    batch(run, "m.jsonl", "--positions", "all.npy", done=2, failed=["folds", "^gone.obj: ", "m.jsonl:4:", "^l.json/o.obj"])
     expected = as_floats([[x + 0.5, y + 0.25, z + 0.125] for x, y, z in CUBE_CORNERS])
     equal(array(run)[1], [expected, NAN, NAN, NAN, expected, NAN])
     equal([(e["row"], e["status"], e["output"]) for e in entries(run)],
           [(0, "ok", "o0.obj"), (1, "failed", None), (2, "failed", None), (3, "failed", None), (4, "ok", None),
-           (5, "failed", "nowhere/o.obj")])
+           (5, "failed", "l.json/o.obj")])
     check(run.exists("o0.obj"), "the mesh of a job with out")
 
 

@@ -5,10 +5,11 @@ figures of the run that made their outputs, and entries and messages say the lin
 import json
 import os
 import signal
+import struct
 import subprocess
 
 from batches import batch, case, check, equal, job, lattice, lines_of, main, report, start, statuses
-from harness import CUBE, FFD, IO, NO, OK, SANITIZED, SECONDS, wait_until
+from harness import CUBE, CUBE_CORNERS, FFD, IO, NO, OK, PNG, SANITIZED, SECONDS, wait_until
 
 HEIGHT = [{"by": [0, {"$": "H"}, 0]}]
 
@@ -174,7 +175,7 @@ def figures_that_a_dry_run_does_not_know(run):
     check(done["vertices"] == 8 and "seconds" in done, done)
     equal([e["status"] for e in planned], ["ok"] * 3)
     for e in planned:
-        equal({name for name, value in e.items() if value is not None}, {"line", "input", "output", "set", "status", "exit"})
+        equal({name for name, value in e.items() if value is not None}, {"line", "input", "output", "outputs", "set", "status", "exit"})
         check("seconds" not in e and set(done) - set(e) == {"seconds"}, e)
 
 
@@ -247,6 +248,77 @@ def a_report_of_several_meshes_grows_too(run):
     os.chmod(run.path("r.json"), 0o440)
     run.ffd("check", "a.obj", "a.obj", "-l", "l.json", "--report", "r.json", err=lambda said: None)
     equal((len(report(run)), os.stat(run.path("r.json")).st_mode & 0o777), (2, 0o440))
+
+
+def files_of(run):
+    """All files with their times, but those of the run itself."""
+    found = {os.path.relpath(os.path.join(folder, name), run.folder) for folder, _, names in os.walk(run.folder) for name in names}
+    return {name for name in found if not name.startswith("cache/") and name not in ("r.json", "d", "v/index.html", "n/all.json")}
+
+
+def asset_of(run):
+    """A model with two buffers and an image below its folder, and an OBJ with a library and a map."""
+    data = struct.pack("<24f", *[x for p in CUBE_CORNERS for x in p])
+    views = [{"buffer": b, "byteLength": 96} for b in range(2)]
+    accessors = [{"bufferView": b, "componentType": 5126, "count": 8, "type": "VEC3", "min": [-1] * 3, "max": [1] * 3} for b in range(2)]
+    run.write("m/a.gltf", {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}], "nodes": [{"mesh": 0}, {"mesh": 1}],
+                           "meshes": [{"primitives": [{"attributes": {"POSITION": b}, "mode": 0}]} for b in range(2)], "accessors": accessors,
+                           "bufferViews": views, "buffers": [{"uri": f"b{b}.bin", "byteLength": 96} for b in range(2)],
+                           "images": [{"uri": "t/wood.png"}, {"uri": "gone.png"}]})
+    for b in range(2):
+        run.write(f"m/b{b}.bin", data)
+    run.write("m/t/wood.png", PNG)
+    run.write("m/c.mtl", "newmtl a\nmap_Kd t/wood.png\n")
+    run.write("m/c.obj", "mtllib c.mtl\n" + CUBE)
+
+
+@case
+def outputs_are_all_files_that_jobs_write(run):
+    start(run)
+    asset_of(run)
+    mesh = {"in": "../m/a.gltf", "lattice": "../l.json"}
+    run.write("j/m.jsonl", lines_of([{**mesh, "out": "../o/a.gltf"}, {**mesh, "out": "b/a.glb"}, {**mesh, "in": "../m/c.obj", "out": "../p/c.obj"},
+                                     {**mesh, "in": "../m/c.obj", "out": "../p/c2.gltf"}, {**mesh, "in": "none.obj", "out": "x.obj"},
+                                     {**mesh, "out": "../o/e.gltf"}, {**mesh, "out": "../q/e.gltf", "options": {"fail-on": "outside", "only": "mesh:none"}}]))
+    expected = [["../o/a.gltf", "../o/a.bin", "../o/a-1.bin", "../o/t/wood.png"], ["b/a.glb"], ["../p/c.obj", "../p/c.mtl", "../p/t/wood.png"],
+                ["../p/c2.gltf", "../p/c2.bin"], [], ["../o/e.gltf", "../o/e.bin", "../o/e-1.bin", "../o/t/wood.png"], []]
+    before, quiet = files_of(run), {"err": lambda said: None}
+    for words in (["--dry-run"], ["--depfile", "d", "-j3"], ["--resume"], ["--resume", "--dry-run"]):
+        run.ffd("batch", "j/m.jsonl", *words, "--report", "r.json", code=NO, data=True, **quiet)
+        found = [e["outputs"] for e in report(run)]
+        # A dry run does not open the meshes of all jobs for what a selector names.
+        equal(found[:6] + found[6:] * ("--dry-run" not in words), expected[:6] + expected[6:] * ("--dry-run" not in words), words)
+        if "--depfile" in words:
+            named = {os.path.normpath(os.path.join("j", name)) for names in expected for name in names}
+            equal(files_of(run) - before, named)
+    # What is up to date is a target too.
+    run.write("j/m.jsonl", "".join(run.text("j/m.jsonl").splitlines(True)[:4]))
+    run.ffd("batch", "j/m.jsonl", "--resume", "--depfile", "d", "--view", "v", **quiet)
+    targets = [line.split(": ")[0].split(" ") for line in run.text("d").splitlines()]
+    equal([[os.path.normpath(name) for name in names] for names in targets],
+          [[os.path.normpath("j/" + name) for name in names] + [f"v/{os.path.normpath('j/' + names[0])[-len(names[0].lstrip('./')):]}.png"]
+           for names in expected[:4]])
+
+
+@case
+def outputs_of_one_mesh(run):
+    start(run)
+    asset_of(run)
+    quiet = {"err": lambda said: None}
+    before = files_of(run)
+    run.ffd("deform", "m/a.gltf", "m/c.obj", "--out-dir", "o", "-l", "l.json", "--report", "r.json", **quiet)
+    equal([e["outputs"] for e in report(run)], [["o/a.gltf", "o/a.bin", "o/a-1.bin", "o/t/wood.png"], ["o/c.obj", "o/c.mtl", "o/t/wood.png"]])
+    equal(files_of(run) - before, {name for e in report(run) for name in e["outputs"]})
+    for words, outputs in ((["m/a.gltf", "./x.gltf", "--resources", "reference"], ["./x.gltf", "./x.bin", "./x-1.bin"]),
+                           (["m/a.gltf", "-", "--output-format", "glb"], []), (["m/a.gltf", "--in-place"], ["m/a.gltf", "m/a.bin", "m/a-1.bin"])):
+        run.ffd("deform", *words, "-l", "l.json", "--report", "r.json", **quiet)
+        equal(report(run)[0]["outputs"], outputs, words)
+    for words, outputs in (([], []), (["--picture", "p.png"], ["p.png"])):
+        run.ffd("check", "m/c.obj", "-l", "l.json", *words, "--report", "r.json", "-q", **quiet)
+        equal(report(run)[0]["outputs"], outputs, words)
+    run.write("m.jsonl", lines_of([{"in": "m/c.obj", "lattice": "l.json"}, {"in": "m/c.obj", "lattice": "l.json", "out": "y/c.ply"}]))
+    batch(run, "m.jsonl", "--positions", "n/all.npy", "--view", "v", "--report", "r.json", done=2)
+    equal([e["outputs"] for e in report(run)], [["n/all.npy", "v/row-0.png"], ["y/c.ply", "n/all.npy", "v/y/c.ply.png"]])
 
 
 main()

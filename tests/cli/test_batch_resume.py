@@ -257,4 +257,26 @@ def a_folder_for_journals_that_cannot_be_had(run):
     check(run.exists("o0.obj"), "nothing was made")
 
 
+@case
+def a_journal_moves_with_its_manifest(run):
+    """Names in it are relative to the manifest's folder: the whole may be moved, copied or mounted elsewhere."""
+    start(run)
+    for name in ("a.obj", "l.json"):
+        run.write("one/in/" + name, run.read(name))
+    lines = lines_of([{"in": "../in/a.obj", "lattice": "../in/l.json", "out": "../out/o.obj"}, {"in": "../in/a.obj", "lattice": "../in/l.json"}])
+    run.write("one/jobs/m.jsonl", lines)
+    words = ("--resume", "--view", "{}/v", "--positions", "{}/all.npy", "--journal", "{}/j")
+    batch(run, "one/jobs/m.jsonl", *[word.format("one") for word in words], done=2)
+    run.folder_of("far/away")
+    os.rename(run.path("one"), run.path("far/away/two"))
+    batch(run, "far/away/two/jobs/m.jsonl", *[word.format("far/away/two") for word in words], kept=2)
+    os.symlink("far/away/two", run.path("link"))
+    batch(run, "link/jobs/m.jsonl", *[word.format("link") for word in words], kept=2)
+    # Another manifest beside it sees the same outputs; one elsewhere does not.
+    run.write("far/away/two/other/m.jsonl", lines.replace("../in", "../in"))
+    batch(run, "far/away/two/other/m.jsonl", *[word.format("far/away/two") for word in words], kept=2)
+    run.write("far/away/two/m.jsonl", lines.replace("../", ""))
+    batch(run, "far/away/two/m.jsonl", *[word.format("far/away/two") for word in words], done=2)
+
+
 main()

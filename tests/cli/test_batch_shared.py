@@ -34,7 +34,7 @@ def a_batch_gives_what_single_runs_give(run):
                        else one["lattice"]) for x in ("-l", grid)], *words(one.get("options", {})), "--report", "s.json",
                        "--report-stable", code=tuple(range(8)), err=lambda said: None)
         alone = report(run, "s.json")[0]
-        alone["output"] = one["out"]
+        alone["output"], alone["outputs"] = one["out"], [name.replace("single/", "", 1) for name in alone["outputs"]]
         if alone["error"]:
             alone["error"] = alone["error"].replace("single/", "")
         del entry["line"], entry["set"]

@@ -38,7 +38,7 @@ def alone(run, mesh, name, target, *options):
     run.ffd("deform", mesh, "single/" + target, "-l", name, *options, "--report", "s.json", "--report-stable",
             code=(OK, NO), err=lambda said: None)
     entry = report(run, "s.json")[0]
-    entry["output"] = target
+    entry["output"], entry["outputs"] = target, [name.replace("single/", "", 1) for name in entry["outputs"]]
     return entry
 
 

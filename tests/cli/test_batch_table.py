@@ -473,7 +473,7 @@ def a_dry_run_sees_what_would_be_refused(run):
     """Of every job its lattices with their values; of the first all but the writing."""
     begin(run)
     rows = ["a.obj,p.json,x1.obj,0.5", "a.obj,p.json,x2.obj,", "a.obj,p.json,x3.obj,abc", "none.obj,p.json,x4.obj,1", "a.obj,none.json,x5.obj,1",
-            "a.obj,p.json,no/x6.obj,1"]
+            "a.obj,p.json,p.json/x6.obj,1"]
     run.write("t.csv", "in,lattice,out,H\n" + "\n".join(rows) + "\n")
     failed = [rf"^t\.csv:{i}: " for i in range(3, 8)]
     batch(run, "--csv", "t.csv", "--dry-run", done=1, failed=failed, out="to do: a.obj -> x1.obj\n")

@@ -278,12 +278,12 @@ def a_picture_that_fails_fails_its_job(run):
     entry = report(run)[0]
     equal(("picture" in entry, entry["exit"]), (False, IO))
     equal(index(run).rows[0]["picture"], None)
-    # A folder that cannot be made is seen when the output is there.
+    # So is a folder that cannot be made.
     run.write("m.jsonl", lines_of([{**job(), "out": "d/o2.obj"}]))
     run.folder_of("d")
     run.write("v/d", "a file")
     batch(run, "m.jsonl", "--view", "v", "--resume", "--report", "r.json", failed=["v/d"])
-    check(run.exists("d/o2.obj"), "the output is complete")
+    check(not run.exists("d/o2.obj"), "what can be seen before is refused before")
     os.remove(run.path("v/d"))
     batch(run, "m.jsonl", "--view", "v", "--resume", done=1)
     is_picture(run, "v/d/o2.obj.png")

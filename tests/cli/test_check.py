@@ -160,7 +160,7 @@ def where_text_and_report_go(run):
 def members_of_the_report(run):
     work = start(run, high=(2, 2, 0), moves=SHIFT)
     job = checked(run, *work, lines=1)
-    equal(list(job), ["input", "output", "status", "exit", "error", "vertices", "inside", "outside", "multiple", "singular",
+    equal(list(job), ["input", "output", "outputs", "status", "exit", "error", "vertices", "inside", "outside", "multiple", "singular",
                       "invalid", "unused", "hidden", "morph_targets", "moved", "shared_faces", "residual", "iterations", "folds", "flipped_faces", "tear", "volume", "area", "det", "edges", "bounds",
                       "displacement", "behind", "seconds"])
     equal(list(job["folds"]), ["verdict", "cells", "min_det", "relative_to", "folded_cells", "unknown_cells", "witness"])
@@ -529,7 +529,7 @@ def figures_are_those_of_deform(run):
         deformed = json.loads(run.read("r.json"))["jobs"][0]
         judged = checked(run, "a.obj", "-l", "l.json", *options, "--report-stable", lines=1)
         for job in (deformed, judged):
-            del job["output"], job["edges"]
+            del job["output"], job["outputs"], job["edges"]
         equal(judged, deformed)
 
 

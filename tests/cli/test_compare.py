@@ -684,4 +684,52 @@ def models_are_equal_to_themselves(run):
         equal((list(counts(found)), found["complete"]), (["position"], True), name)
 
 
+@case
+def folders_are_compared_mesh_by_mesh(run):
+    run.write("A/x.obj", CUBE)
+    run.write("A/sub/y.OBJ", CUBE)
+    run.write("A/sub/notes.txt", "A")
+    for name in ("B/x.obj", "B/sub/y.OBJ"):
+        run.write(name, CUBE.replace("v -1 -1 -1", "v -1.0 -1 -1"))
+    run.write("B/sub/notes.txt", "B")
+    run.ffd("compare", "A", "B", "--recursive", out="")
+    found = run.ffd("compare", "A/", "B", "--recursive", "--json").json
+    equal([found["equal"], found["a"], found["b"], [(f["name"], f["equal"], f["error"]) for f in found["files"]], found["only_a"], found["only_b"]],
+          [True, "A/", "B", [("sub/y.OBJ", True, None), ("x.obj", True, None)], [], []])
+    run.write("B/x.obj", CUBE.replace("v -1 -1 -1", "v -1.25 -1 -1"))
+    run.write("A/broken.obj", "v 1")
+    run.write("B/broken.obj", CUBE)
+    run.write("A/only.ply", "")
+    run.write("B/sub/deep/only.off", "")
+    os.symlink("..", run.path("B/sub/loop"))
+    os.symlink("../B/x.obj", run.path("B/link.obj"))
+    found = run.ffd("compare", "A", "B", "--recursive", "--json", code=NO).json
+    equal((found["equal"], found["only_a"], found["only_b"]), (False, ["only.ply"], ["link.obj", "sub/deep/only.off"]))
+    broken, moved, same = sorted(found["files"], key=lambda file: file["name"] != "broken.obj" and file["name"] != "x.obj")[:2] + [found["files"][1]]
+    equal(broken, {"name": "broken.obj", "equal": False, "error": "A/broken.obj:1: a vertex needs 3 numbers, found 1"})
+    equal((same["name"], same["equal"]), ("sub/y.OBJ", True))
+    single = run.ffd("compare", "A/x.obj", "B/x.obj", "--json", code=NO).json
+    equal(moved, {"name": "x.obj", "error": None, **{name: value for name, value in single.items() if name not in ("format", "version", "a", "b")}})
+    done = run.ffd("compare", "A", "B", "--recursive", code=NO, err="A/broken.obj:1: a vertex needs 3 numbers, found 1")
+    lines = done.text.splitlines()
+    equal(lines[-1], "1 the same, 1 different, 1 only in A, 2 only in B, 1 not readable")
+    equal([line.split(":")[0] for line in lines[:-1]], ["only in B", "only in A", "only in B", "x.obj"])
+    run.ffd("compare", "A", "B", "--recursive", "-q", code=NO, err="A/broken.obj:1: a vertex needs 3 numbers, found 1", out="")
+    run.remove("A/broken.obj")
+    for name in ("A/only.ply", "B/broken.obj", "B/link.obj", "B/sub/deep/only.off"):
+        run.remove(name)
+    run.ffd("compare", "A", "B", "--recursive", "--tolerance", "0.25", out="")
+
+
+@case
+def folders_that_cannot_be_compared(run):
+    run.write("A/x.obj", CUBE)
+    run.write("E/notes.txt", "")
+    run.ffd("compare", "A", "none", "--recursive", code=IO, err=re.compile("^none: cannot be read as a folder"))
+    run.ffd("compare", "A/x.obj", "A", "--recursive", code=IO, err=re.compile("^A/x.obj: cannot be read as a folder"))
+    for words in (["A"], ["A", "-"], ["-", "A"], ["A", "A", "--input-format", "obj"], ["A", "A", "A"]):
+        run.ffd("compare", *words, "--recursive", code=USAGE)
+    run.ffd("compare", "E", "E", "--recursive", err="E and E: neither has a mesh: nothing was compared")
+
+
 main()

@@ -424,13 +424,36 @@ def equal_names_are_refused_before_any_work(run):
 
 
 @case
-def a_missing_folder_is_said_once(run):
+def the_folder_of_many_is_made(run):
     start(run)
     run.write("b.obj", CUBE)
-    run.ffd("deform", "a.obj", "b.obj", "--out-dir", "none", "-l", "l.json", code=IO, err="none: there is no such folder")
-    run.ffd("deform", "a.obj", "b.obj", "--out-dir", "b.obj", "-l", "l.json", code=IO, err="b.obj: there is no such folder")
-    run.ffd("deform", "a.obj", "--out-dir", "none", "-l", "l.json", code=IO)
-    check(not run.exists("none"), "the folder was made")
+    run.ffd("deform", "a.obj", "b.obj", "--out-dir", "x/y", "-l", "l.json")
+    equal(run.names("x/y"), ["a.obj", "b.obj"])
+    run.ffd("deform", "a.obj", "--out-dir", "one/", "-l", "l.json")
+    equal(run.names("one"), ["a.obj"])
+    run.ffd("deform", "a.obj", "b.obj", "--out-dir", "b.obj", "-l", "l.json", code=IO, err="b.obj: is not a folder")
+    run.ffd("deform", "a.obj", "--out-dir", "b.obj/c", "-l", "l.json", code=IO)
+    equal(run.text("b.obj"), CUBE)
+
+
+@case
+def other_folders_are_not_made(run):
+    """Those of OUT, of a report and of a depfile: who mistypes one gets no file in a place that nobody looks at."""
+    start(run)
+    for words in (["none/b.obj"], ["b.obj", "--report", "none/r.json"], ["b.obj", "--depfile", "none/b.d"],
+                  ["--out-dir", "out", "--report", "none/r.json"], ["--out-dir", "out", "--depfile", "none/b.d"]):
+        run.ffd("deform", "a.obj", *words, "-l", "l.json", code=IO)
+        equal(run.names(), ["a.obj", "l.json"], words)
+
+
+@case
+def a_job_that_fails_leaves_no_folder(run):
+    start(run)
+    run.write("broken.obj", "v 1 2\n")
+    run.ffd("deform", "a.obj", "--out-dir", "x/y", "-l", "l.json", "--only", "group:none", code=USAGE)
+    run.ffd("deform", "broken.obj", "--out-dir", "x/y", "-l", "l.json", code=INVALID)
+    run.ffd("deform", "a.obj", "broken.obj", "--out-dir", "x/y", "-l", "l.json", "--timeout", "1e-9", code=NO, lines=2)
+    equal(run.names(), ["a.obj", "broken.obj", "l.json"])
 
 
 @case
@@ -466,7 +489,7 @@ def the_report_counts_what_was_told(run):
     report = json.loads(run.read("r.json"))
     equal([report["format"], report["version"], len(report["jobs"])], ["ffd-report", 1, 1])
     job = report["jobs"][0]
-    equal(list(job), ["input", "output", "status", "exit", "error", "vertices", "inside", "outside", "multiple", "singular",
+    equal(list(job), ["input", "output", "outputs", "status", "exit", "error", "vertices", "inside", "outside", "multiple", "singular",
                       "invalid", "unused", "hidden", "morph_targets", "moved", "shared_faces", "residual", "iterations", "folds", "flipped_faces", "tear", "volume", "area", "det", "edges",
                       "bounds", "displacement", "behind", "seconds"])
     equal([job[key] for key in ("input", "output", "status", "exit", "error")], ["a.obj", "b.obj", "ok", 0, None])

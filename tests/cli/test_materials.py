@@ -172,7 +172,7 @@ def what_the_output_was_made_from(run):
     """Depfiles have them, and --resume looks at them."""
     start(run, "mtllib m.mtl\n", **{"m.mtl": MTL + "map_Kd t.png\n", "t.png": PNG})
     deform(run, "--depfile", "d")
-    equal(run.text("d"), "out/m.obj: in/m.obj in/m.mtl in/t.png l.json\n")
+    equal(run.text("d"), "out/m.obj out/m.mtl out/t.png: in/m.obj in/m.mtl in/t.png l.json\n")
     deform(run, "--depfile", "d", "--force", "--resources", "reference")
     equal(run.text("d"), "out/m.obj: in/m.obj l.json\n")
     for name in tree(run):

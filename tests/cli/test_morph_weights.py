@@ -273,7 +273,7 @@ def grid(run, plain, offsets, weights):
 
 def figures(job, *left_out):
     """What a report says of the deformation."""
-    names = ("line", "input", "output", "seconds", "picture", "row", "positions", "set", *left_out)
+    names = ("line", "input", "output", "outputs", "seconds", "picture", "row", "positions", "set", *left_out)
     return {name: value for name, value in job.items() if name not in names}
 
 

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Help, version, and everything that is a mistake on the command line (exit 2, one line, before any work)."""
+import os
 import re
+import subprocess
 
-from harness import CUBE, LIMIT, USAGE, case, check, equal, lattice, main
+from harness import CUBE, LIMIT, SECONDS, USAGE, case, check, equal, lattice, main
 
-COMMANDS = ["deform", "check", "embed", "compare", "info", "view", "lattice new", "report merge"]
+COMMANDS = ["deform", "check", "embed", "compare", "info", "view", "lattice new", "report merge", "report junit"]
 OPTIONS = {
     "deform": {"--lattice", "--set", "--shared-box", "--out-dir", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--rig", "--only", "--space", "--embedding", "--as-morph", "--fail-on",
                "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict", "--allow-extension",
@@ -14,7 +16,7 @@ OPTIONS = {
     "embed": {"--lattice", "--set", "--output", "--status", "--space", "--snap", "--threads", "--force", "--input-format", "--memory", "--strict", "--allow-extension"},
     "jacobian": {"--lattice", "--output", "--wrt", "--components", "--of", "--times", "--transposed", "--check", "--set", "--outside", "--falloff", "--snap", "--space",
                  "--only", "--threads", "--isa", "--memory", "--allow-extension", "--strict", "--input-format", "--force"},
-    "compare": {"--tolerance", "--normal-tolerance", "--json", "--input-format", "--memory", "--strict"},
+    "compare": {"--recursive", "--tolerance", "--normal-tolerance", "--json", "--input-format", "--memory", "--strict"},
     "info": {"--json", "--parts", "--set", "--input-format", "--memory", "--strict"},
     "view": {"--output", "--size", "--camera", "--color", "--frames", "--animation", "--full", "--lattice", "--set", "--shared-box", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--rig", "--only", "--space", "--embedding",
              "--as-morph", "--fail-on", "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict",
@@ -22,6 +24,7 @@ OPTIONS = {
     "lattice new": {"--output", "--size", "--degree", "--knots", "--margin", "--spacing", "--shape", "--axis", "--axes", "--only",
                     "--force", "--input-format", "--memory", "--strict", "--allow-extension"},
     "report merge": {"--output", "--interleave", "--force"},
+    "report junit": {"--output", "--force"},
 }
 COMMON = {"--quiet", "--verbose", "--help"}
 
@@ -43,7 +46,7 @@ def refused(run, *arguments, says=None):
 
 @case
 def the_version_is_three_numbers(run):
-    check(re.fullmatch(r"ffd \d+\.\d+\.\d+\n", run.ffd("--version").text), "the version")
+    check(re.fullmatch(r"ffd \d+\.\d+\.\d+( \([0-9a-f]{12}\+?\))?\n", run.ffd("--version").text), "the version")
     refused(run, "--version", "x")
 
 
@@ -68,9 +71,9 @@ def help_of_each_command(run):
     for command in [*COMMANDS, "batch", "jacobian"]:
         lines = run.ffd("help", *command.split()).text.splitlines()
         check(all(len(line) < 130 for line in lines), f"{command}: a line too long")
-    for group, command in (("lattice", "new"), ("report", "merge")):
-        equal(run.ffd("help", group).text, run.ffd("help", group, command).text)
-        equal(run.ffd(group, "--help").text, run.ffd("help", group, command).text)
+    for group, commands in (("lattice", ["new"]), ("report", ["merge", "junit"])):
+        equal(run.ffd("help", group).text, "".join(run.ffd("help", group, command).text for command in commands))
+        equal(run.ffd(group, "--help").text, run.ffd("help", group).text)
 
 
 @case
@@ -86,7 +89,8 @@ def an_unknown_command_gets_the_nearest_one_proposed(run):
     refused(run, "lattice", says="lattice new")
     refused(run, "lattice", "nwe", "a.obj", says="lattice new")
     refused(run, "report", says="report merge")
-    refused(run, "report", "join", "a.json", says="report merge")
+    refused(run, "report", "junt", "a.json", says="report junit")
+    refused(run, "report", "mrge", "a.json", says="report merge")
     refused(run, "help", "deform", "x", says="x")
     refused(run, "DEFORM", says="DEFORM")
     refused(run, "", says="nearest")
@@ -305,6 +309,34 @@ def color_is_never_printed(run):
     for environment in ({}, {"NO_COLOR": "1"}):
         done = run.ffd("deform", code=USAGE, env=environment)
         check("\x1b" not in done.err[0], "an escape sequence")
+
+
+@case
+def the_commit_of_a_build(run):
+    """Of a clone, with + where it is changed; of an archive what its file says; of another repository around it nothing."""
+    script = os.path.join(os.environ["FFD_DATA"], "../src/base/commit.sh")
+
+    def commit(folder):
+        return subprocess.run(["sh", script, run.path(folder)], capture_output=True, text=True, check=True, timeout=SECONDS).stdout
+
+    def git(*words):
+        subprocess.run(["git", "-C", run.path("clone"), "-c", "user.name=a", "-c", "user.email=a@b", *words], check=True, capture_output=True, timeout=SECONDS)
+
+    run.write("clone/a.c", "1")
+    git("init", "-q")
+    equal(commit("clone"), "", "before the first commit")
+    git("add", "a.c")
+    git("commit", "-qm", "a")
+    head = run.text("clone/.git/refs/heads/" + os.listdir(run.path("clone/.git/refs/heads"))[0])[:12]
+    equal(commit("clone"), f"\\040({head})\n")
+    run.write("clone/new.c", "")
+    equal(commit("clone"), f"\\040({head})\n", "a file that is not of it")
+    run.write("clone/a.c", "2")
+    equal(commit("clone"), f"\\040({head}+)\n")
+    run.write("clone/sub/b.c", "")
+    equal((commit("clone/sub"), commit("none")), ("", ""))
+    run.write("clone/sub/COMMIT", "0123456789ab\n")
+    equal(commit("clone/sub"), "\\040(0123456789ab)\n")
 
 
 main()

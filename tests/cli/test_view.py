@@ -195,7 +195,7 @@ def a_violated_gate_still_has_its_page(run):
         page = read_page(run, "p.html")
         equal([page.report["jobs"][0]["status"], page.report["jobs"][0]["exit"]], ["failed", 1], gate)
         told = json.loads(run.text("r.json"))
-        equal(told["jobs"][0].pop("picture"), "p.html", "what was written")
+        equal([told["jobs"][0].pop("picture"), told["jobs"][0]["outputs"].pop()], ["p.html"] * 2, "what was written")
         equal(page.report, told, "the report on its own")
     equal(len(page.before), 8, "the mesh is there")
 
@@ -674,7 +674,7 @@ def a_check_has_its_picture(run):
     run.ffd("check", *work, "--picture", "p.png", "--report", "p.json", "--report-stable", out=plain)
     equal(struct.unpack_from(">II", run.read("p.png"), 16), (1600, 900), "the picture")
     found = json.loads(run.text("p.json"))
-    equal(found["jobs"][0].pop("picture"), "p.png", "the report's picture")
+    equal([found["jobs"][0].pop("picture"), found["jobs"][0]["outputs"].pop()], ["p.png"] * 2, "the report's picture")
     equal(found, told, "the figures")
     run.ffd("check", *work, "--picture", "p.png", code=IO, err=re.compile("p.png.*--force"))
     run.ffd("check", *work, "--picture", "p.png", "--force", "-q", out="")

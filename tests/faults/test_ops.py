@@ -6,9 +6,13 @@
 
 import json
 import os
+import re
+import shutil
 import subprocess
 
-from harness import FFD, case, equal, lattice, main
+from harness import FFD, IO, NO, case, check, equal, lattice, main
+
+HERE = os.path.dirname(os.path.abspath(__file__))
 
 
 def most_at_once(run, *arguments):
@@ -42,6 +46,101 @@ def ops_05_threads_and_workers_follow_affinity(run):
         equal(most_at_once(run, "batch", "m.jsonl"), (1, 1), "threads and workers of batch")
     finally:
         os.sched_setaffinity(0, allowed)
+
+
+QUIET = {"err": lambda said: None}
+
+
+def start_edits(run):
+    """The mesh, with its texture, and the OBJ with its library; both made once by a batch."""
+    os.environ["XDG_CACHE_HOME"] = run.path("cache")
+    shutil.copytree(os.path.join(HERE, "ops-09-edited-texture-stops-the-build"), run.folder, dirs_exist_ok=True)
+    run.write("jobs.jsonl", "".join(json.dumps({"in": name, "lattice": "twist.json", "out": f"out/{name}"}) + "\n" for name in ("box.gltf", "m.obj")))
+    run.ffd("batch", "jobs.jsonl", "--resume", "--journal", "j", **QUIET)
+
+
+def edit(run, by="x"):
+    run.write("m.mtl", "newmtl a\nKd 0 1 0\n# " + by)
+    run.write("wood.png", run.read("wood.png") + by.encode())
+
+
+def check_copies(run):
+    for name in ("m.mtl", "wood.png"):
+        equal(run.read("out/" + name), run.read(name), name)
+
+
+@case
+def ops_09_edited_textures_are_copied_anew(run):
+    start_edits(run)
+    edit(run)
+    run.ffd("batch", "jobs.jsonl", "--resources", "refresh", "--resume", "--journal", "j", **QUIET)
+    run.ffd("deform", "m.obj", "out/m.obj", "-l", "twist.json", "--resources", "refresh", "--force")
+    run.ffd("deform", "box.gltf", "out/box.gltf", "-l", "twist.json", "--resources", "refresh", "--if-changed", "--depfile", "out/box.d")
+    check_copies(run)
+    # Each run has noted what it has made: deform in the folder of the default journals.
+    edit(run, "y")
+    for name in ("m.obj", "box.gltf"):
+        run.ffd("deform", name, "out/" + name, "-l", "twist.json", "--resources", "refresh", "--force")
+    check_copies(run)
+
+
+@case
+def without_refresh_a_message_names_it(run):
+    start_edits(run)
+    for name in ("m.obj", "box.gltf"):
+        run.ffd("deform", name, "out/" + name, "-l", "twist.json", "--force")
+    edit(run)
+    for name, copy in (("m.obj", "m.mtl"), ("box.gltf", "wood.png")):
+        run.ffd("deform", name, "out/" + name, "-l", "twist.json", "--force", code=IO,
+                err=re.compile(f"^out/{re.escape(copy)}: is the copy of an earlier run.*--resources refresh"))
+    said = run.ffd("batch", "jobs.jsonl", "--resume", "--journal", "j", code=NO, **QUIET).err
+    equal(sum("--resources refresh" in line for line in said), 2, said)
+
+
+@case
+def copies_of_others_stay(run):
+    """One that somebody has changed, that was there before, or of which nothing is noted."""
+    start_edits(run)
+    edit(run)
+    run.write("out/wood.png", run.read("wood.png") + b"!")
+    run.write("out/m.mtl", "newmtl b\n")
+    before = {name: run.read("out/" + name) for name in run.names("out")}
+    for words in (["--journal", "j", "--resume"], ["--journal", "j", "--force"], ["--journal", "new", "--force"], ["--dry-run", "--journal", "j", "--force"]):
+        run.ffd("batch", "jobs.jsonl", "--resources", "refresh", *words, code=NO, data=True, **QUIET)
+    for name in ("m.obj", "box.gltf"):
+        run.ffd("deform", name, "out/" + name, "-l", "twist.json", "--resources", "refresh", "--force", code=IO)
+    equal({name: run.read("out/" + name) for name in run.names("out")}, before)
+    # A batch's journal is not that of deform.
+    run.write("wood.png", run.read("wood.png")[:-1])
+    run.write("out/wood.png", run.read("wood.png"))
+    edit(run, "z")
+    run.ffd("deform", "box.gltf", "out/box.gltf", "-l", "twist.json", "--resources", "refresh", "--force", code=IO)
+    # Nowhere to keep notes: the copies are made all the same.
+    os.environ["XDG_CACHE_HOME"] = "/dev/null/none"
+    run.ffd("deform", "box.gltf", "n/../x.gltf", "-l", "twist.json", code=IO)
+    run.ffd("deform", "box.gltf", "m.obj", "--out-dir", "fresh", "-l", "twist.json", **QUIET)
+    equal(run.names("fresh"), ["box.bin", "box.gltf", "m.mtl", "m.obj", "wood.png"])
+
+
+@case
+def a_shared_texture_is_refreshed_once(run):
+    """Several jobs copy it; a copy that is gone is made again, a read-only one replaced; a dry run writes nothing."""
+    start_edits(run)
+    jobs = [{"in": "box.gltf", "lattice": "twist.json", "out": f"out/box{i}.gltf"} for i in range(8)]
+    run.write("jobs.jsonl", "".join(json.dumps(job) + "\n" for job in jobs))
+    run.ffd("batch", "jobs.jsonl", "--journal", "j", "--resources", "refresh", **QUIET)
+    for by in "ab":
+        edit(run, by)
+        os.chmod(run.path("out/wood.png"), 0o444)
+        before = run.read("out/wood.png")
+        run.ffd("batch", "jobs.jsonl", "--journal", "j", "--resources", "refresh", "--resume", "--dry-run", data=True, **QUIET)
+        equal(run.read("out/wood.png"), before, "a dry run")
+        run.ffd("batch", "jobs.jsonl", "--journal", "j", "--resources", "refresh", "--resume", "-j4", "--report", "r.json", **QUIET)
+        equal(run.read("out/wood.png"), run.read("wood.png"))
+        equal([entry["outputs"][-1] for entry in json.loads(run.text("r.json"))["jobs"]], ["out/wood.png"] * 8)
+    run.remove("out/wood.png")
+    run.ffd("batch", "jobs.jsonl", "--journal", "j", "--resources", "refresh", "--resume", **QUIET)
+    check(run.exists("out/wood.png"), "a copy that is gone")
 
 
 main()

@@ -120,6 +120,7 @@ def main():
             if entry.pop("line") != number + 1 or entry.pop("output") != "batch/" + job[1]:
                 findings.append(f"{job}: the entry of another job")
             alone.pop("output")
+            alone["outputs"] = [name.replace(os.path.join(folder, "alone"), "batch") for name in alone["outputs"]]
             for side in (entry, alone):
                 side["error"] = side["error"] and side["error"].replace(os.path.join(folder, "alone"), "batch")
                 side["error"] = side["error"] and side["error"].replace(os.path.join(folder, "batch"), "batch")

@@ -24,7 +24,7 @@ CASES = [
     ("ffd lat", {"lattice"}),
     ("ffd lattice ", {"new"}),
     ("ffd help lattice ", {"new"}),
-    ("ffd report ", {"merge"}),
+    ("ffd report ", {"junit", "merge"}),
     ("ffd report merge be", {"bend.json"}),
     ("ffd deform ", MESHES),
     ("ffd deform cow", {"cow.obj"}),

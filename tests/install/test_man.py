@@ -54,7 +54,7 @@ def main():
         # Where a terminal cannot say it otherwise a bold letter is printed twice.
         shown = squeezed(re.sub(r".\x08", "", shown))
         texts = stage.commands(installed.path("bindir", "ffd"))
-        version = stage.run([installed.path("bindir", "ffd"), "--version"]).strip()
+        version = stage.run([installed.path("bindir", "ffd"), "--version"]).strip().split(" (")[0]
     for name, text in texts.items():
         for piece in pieces(text) if name else [version]:
             checked += 1

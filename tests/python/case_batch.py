@@ -45,8 +45,9 @@ class Batches(unittest.TestCase):
             expected = ffd.deform_file(SPOT, name, TWIST, quality=True, **own)
             self.assertTrue(filecmp.cmp(name, results[number].output, shallow=False))
             differing = [key for key, value in expected.__dict__.items()
-                         if key != "seconds" and repr(value) != repr(results[number].__dict__[key])]
+                         if key not in ("seconds", "outputs") and repr(value) != repr(results[number].__dict__[key])]
             self.assertEqual(differing, [])
+            self.assertEqual((expected.outputs, results[number].outputs), ([name], [results[number].output]))
         self.assertEqual(results[0].folds.verdict, "none")
 
     def test_an_iterator_is_asked_for_what_can_begin_and_resume_leaves_what_is_done(self):

@@ -154,6 +154,39 @@ class Files(unittest.TestCase):
                 ffd.deform_file(SPOT, None, lattices, **options)
             self.assertEqual(refused.exception.message, message)
 
+    def test_the_caller_watches_and_ends_a_job(self):
+        seen = []
+        result = ffd.deform_file(SPOT, "new/a.gltf", TWIST, make_folders=True, progress=seen.append)
+        self.assertEqual((seen[-1], seen), (1, sorted(seen)))
+        self.assertEqual(result.outputs, ["new/a.gltf", "new/a.bin"])
+        self.assertEqual(sorted(os.listdir("new")), ["a.bin", "a.gltf"])
+        with self.assertRaises(ffd.Cancelled):
+            ffd.deform_file(SPOT, "b.obj", TWIST, progress=lambda done: False)
+        with self.assertRaisesRegex(KeyError, "of the caller"):
+            ffd.deform_file(SPOT, "b.obj", TWIST, progress=lambda done: {}["of the caller"])
+        with self.assertRaisesRegex(TypeError, "progress must be a function"):
+            ffd.deform_file(SPOT, "b.obj", TWIST, progress=3)
+        self.assertFalse(os.path.exists("b.obj"))
+
+    def test_outputs_are_named(self):
+        self.assertEqual(ffd.check_file(SPOT, TWIST).outputs, [])
+        self.assertEqual(ffd.deform_file(SPOT, "c.obj", TWIST, dry_run=True).outputs, ["c.obj"])
+        with self.assertRaises(ffd.Error):
+            ffd.deform_file(SPOT, "none/c.obj", TWIST)
+        jobs = [{"in": SPOT, "lattice": TWIST, "out": f"o/{name}"} for name in ("a.gltf", "b.obj")] + [{"in": "none.obj", "lattice": TWIST, "out": "c.obj"}]
+        self.assertEqual([job.outputs for job in ffd.batch(jobs)], [["o/a.gltf", "o/a.bin"], ["o/b.obj"], []])
+
+    def test_folders_are_compared(self):
+        for folder in "ab":
+            ffd.deform_file(SPOT, f"{folder}/x.obj", TWIST, make_folders=True)
+        self.assertEqual(ffd.compare_folders("a", "b")["equal"], True)
+        ffd.deform_file(SPOT, "b/y.obj", TWIST)
+        found = ffd.compare_folders("a", "b", tolerance="1e-6r")
+        self.assertEqual((found["equal"], [file["name"] for file in found["files"]], found["only_a"], found["only_b"]),
+                         (False, ["x.obj"], [], ["y.obj"]))
+        with self.assertRaises(ffd.FileError):
+            ffd.compare_folders("a", "none")
+
     def test_placeholders(self):
         text = json.loads(part_of_spot().text)
         del text["deformed"]

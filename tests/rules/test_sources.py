@@ -13,8 +13,8 @@ import sys
 import tree
 
 TOP = {
-    ".ci", ".clang-format", ".editorconfig", ".gitattributes", ".github", ".gitignore", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE", "README.md",
-    "data", "doc", "include", "meson.build", "meson_options.txt", "pyproject.toml", "src", "subprojects", "tests",
+    ".ci", ".clang-format", ".editorconfig", ".gitattributes", ".github", ".gitignore", ".pre-commit-hooks.yaml", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE",
+    "README.md", "data", "doc", "include", "meson.build", "meson_options.txt", "pyproject.toml", "src", "subprojects", "tests",
 }
 
 # C++ is for adapters to C++ libraries, behind a C header.

@@ -532,6 +532,21 @@ static void new_folders_go_unless_committed(void **state)
     assert_true(ffd_file_exists(in_folder("new/a/b/file")));
 }
 
+/* Another job, which fails, has made the folder and removes it because it is empty. */
+static void folders_that_others_remove_are_made_again(void **state)
+{
+    (void)state;
+    file_output *output;
+    assert_int_equal(ffd_output_create(&output, NULL), FFD_OK);
+    assert_int_equal(mkdir(in_folder("others"), 0777), 0);
+    assert_int_equal(ffd_output_folder(output, in_folder("others/a"), NULL), FFD_OK);
+    assert_int_equal(rmdir(in_folder("others/a")), 0);
+    assert_int_equal(rmdir(in_folder("others")), 0);
+    assert_int_equal(ffd_output_begin(output, in_folder("others/a/file"), false, NULL), FFD_OK);
+    ffd_output_destroy(&output);
+    assert_false(ffd_file_exists(in_folder("others")));
+}
+
 static void a_full_disk_is_reported(void **state)
 {
     file_output *output;
@@ -634,6 +649,7 @@ int main(void)
         cmocka_unit_test(files_of_a_set_are_all_committed),
         cmocka_unit_test(written_files_are_known_by_any_name),
         cmocka_unit_test(new_folders_go_unless_committed),
+        cmocka_unit_test(folders_that_others_remove_are_made_again),
         cmocka_unit_test(a_full_disk_is_reported),
         cmocka_unit_test(a_failed_close_leaves_the_old_file),
     };

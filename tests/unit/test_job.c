@@ -11,6 +11,7 @@
 #include "base/memory/memory.h"
 #include <ffd/job.h>
 #include <math.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -360,6 +361,95 @@ static void only_what_a_selector_names_is_counted(void **state)
     (void)state;
 }
 
+/* A caller who watches a job. */
+typedef struct watcher {
+    pthread_t thread;
+    int calls, cancels_at; /* the call that answers false; 0: none */
+    double done;
+    bool is_wrong; /* called by another thread, with a fraction that falls, or after it has cancelled */
+} watcher;
+
+static bool watch(void *user, double done)
+{
+    watcher *const w = user;
+    w->is_wrong = w->is_wrong || !pthread_equal(w->thread, pthread_self()) || done < w->done || done < 0 ||
+                  done > 1 || (w->cancels_at && w->calls >= w->cancels_at);
+    w->done = done;
+    return ++w->calls != w->cancels_at;
+}
+
+static void the_caller_watches_a_job(void **state)
+{
+    (void)state;
+    const ffd_deform_desc plain = describe();
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_error error;
+    for (int check = 0; check < 2; check++) {
+        watcher w = {.thread = pthread_self()};
+        ffd_deform_desc desc = plain;
+        desc.threads = 3;
+        desc.progress = watch;
+        desc.progress_user = &w;
+        assert_int_equal((check ? ffd_check_run : ffd_deform_run)(&desc, &result, &error), FFD_OK);
+        assert_false(w.is_wrong);
+        assert_true(w.calls >= 2 && w.done == 1);
+    }
+    assert_int_equal(remove(output), 0);
+}
+
+static void the_caller_cancels_a_job(void **state)
+{
+    (void)state;
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_error error;
+    ffd_output_list *outputs;
+    watcher w = {.thread = pthread_self(), .cancels_at = 1};
+    assert_int_equal(ffd_output_list_create(&outputs, NULL), FFD_OK);
+    ffd_deform_desc desc = describe();
+    desc.progress = watch;
+    desc.progress_user = &w;
+    desc.output_list = outputs;
+    assert_int_equal(ffd_deform_run(&desc, &result, &error), FFD_E_CANCELLED);
+    assert_int_equal(result.status, FFD_E_CANCELLED);
+    assert_false(w.is_wrong);
+    assert_int_equal(w.calls, 1);
+    assert_int_equal(ffd_output_list_count(outputs), 0);
+    assert_int_not_equal(access(output, F_OK), 0);
+    /* With a time limit besides. */
+    w = (watcher){.thread = pthread_self(), .cancels_at = 1};
+    desc.timeout = 1000;
+    assert_int_equal(ffd_deform_run(&desc, &result, &error), FFD_E_CANCELLED);
+    w = (watcher){.thread = pthread_self()};
+    desc.timeout = 1e-9;
+    assert_int_equal(ffd_deform_run(&desc, &result, &error), FFD_E_LIMIT);
+    ffd_output_list_destroy(&outputs);
+}
+
+static void outputs_are_listed(void **state)
+{
+    (void)state;
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_output_list *outputs;
+    assert_int_equal(ffd_output_list_create(&outputs, NULL), FFD_OK);
+    ffd_deform_desc desc = describe();
+    desc.output_list = outputs;
+    desc.dry_run = true;
+    for (int i = 0; i < 2; i++, desc.dry_run = false) {
+        assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_OK);
+        assert_ptr_equal(result.outputs, outputs);
+        assert_int_equal(ffd_output_list_count(outputs), 1);
+        assert_string_equal(ffd_output_list_name(outputs, 0), output);
+        assert_null(ffd_output_list_name(outputs, 1));
+    }
+    desc.force = false;
+    assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_E_EXISTS);
+    assert_int_equal(ffd_output_list_count(outputs), 0);
+    assert_int_equal(ffd_check_run(&desc, &result, NULL), FFD_OK);
+    assert_int_equal(ffd_output_list_count(outputs), 0);
+    ffd_output_list_destroy(&outputs);
+    assert_int_equal(remove(output), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -371,6 +461,9 @@ int main(void)
         cmocka_unit_test(wrong_morph_targets_are_refused),
         cmocka_unit_test(each_failed_allocation_is_reported),
         cmocka_unit_test(only_what_a_selector_names_is_counted),
+        cmocka_unit_test(the_caller_watches_a_job),
+        cmocka_unit_test(the_caller_cancels_a_job),
+        cmocka_unit_test(outputs_are_listed),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

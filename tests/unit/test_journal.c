@@ -68,7 +68,7 @@ static job_journal *opened(const char *path)
 static void records_are_found_after_reopening(void **state)
 {
     const unsigned count = 5000;
-    job_journal *journal = opened(in_folder("made/too/journal"));
+    job_journal *journal = opened(in_folder("reopened"));
     job_record record;
     assert_false(ffd_journal_find(journal, target_of(0), &record, NULL));
     for (unsigned i = 0; i < count; i++)
@@ -80,7 +80,7 @@ static void records_are_found_after_reopening(void **state)
             assert_true(holds(journal, i, i % 3 ? i : i + count));
         assert_false(ffd_journal_find(journal, target_of(count), &record, NULL));
         ffd_journal_close(&journal);
-        journal = opened(in_folder("made/too/journal"));
+        journal = opened(in_folder("reopened"));
     }
     ffd_journal_close(&journal);
     (void)state;
@@ -207,6 +207,7 @@ static void a_file_that_is_no_journal_is_refused(void **state)
     assert_int_equal(ffd_journal_open(in_folder("letter"), &journal, NULL), FFD_E_INVALID);
     assert_null(journal);
     assert_int_equal(ffd_journal_open(in_folder("letter/journal"), &journal, NULL), FFD_E_IO);
+    assert_int_equal(ffd_journal_open(in_folder("no folder/journal"), &journal, NULL), FFD_E_IO);
     (void)state;
 }
 

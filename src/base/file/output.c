@@ -21,6 +21,9 @@
 /* Size of the write buffer. */
 #define BLOCK ((size_t)1 << 16)
 
+/* How often folders are made again that other runs remove. */
+#define FOLDER_TRIES 20
+
 typedef struct output_file {
     char *target;    /* final path, with symbolic links resolved */
     char *temporary; /* NULL if bytes go directly to the target: standard output, devices */
@@ -234,23 +237,38 @@ static ffd_status check_target(const char *path, bool force, struct stat *info, 
     return force ? check_replaceable(path, info, error) : fail_exists(path, error);
 }
 
-ffd_status ffd_output_check(const char *path, bool force, ffd_error *error)
+/* Refuses a missing folder, or with `makes` one that cannot be made. */
+static ffd_status check_folder(const char *path, bool makes, ffd_error *error)
+{
+    char *const folder = ffd_path_folder(path);
+    TRY(folder ? FFD_OK : ffd_fail_memory(error));
+    const ffd_status status =
+        makes ? ffd_folder_check(folder, error)
+        : ffd_folder_is_there(folder)
+            ? FFD_OK
+            : ffd_fail_file(error, FFD_E_IO, path, "cannot be written: there is no folder \"%s\"", folder);
+    ffd_free(folder);
+    return status;
+}
+
+static ffd_status check_output(const char *path, bool force, bool makes_folder, ffd_error *error)
 {
     struct stat info;
     bool exists;
     if (ffd_output_is_stream(path))
         return FFD_OK;
     TRY(check_target(path, force, &info, &exists, error));
-    if (exists)
-        return FFD_OK;
-    char *folder = ffd_path_folder(path);
-    if (!folder)
-        return ffd_fail_memory(error);
-    ffd_status result = FFD_OK;
-    if (stat(folder, &info) != 0 || !S_ISDIR(info.st_mode))
-        result = ffd_fail_file(error, FFD_E_IO, path, "cannot be written: there is no folder \"%s\"", folder);
-    ffd_free(folder);
-    return result;
+    return exists ? FFD_OK : check_folder(path, makes_folder, error);
+}
+
+ffd_status ffd_output_check(const char *path, bool force, ffd_error *error)
+{
+    return check_output(path, force, false, error);
+}
+
+ffd_status ffd_output_check_with_folder(const char *path, bool force, ffd_error *error)
+{
+    return check_output(path, force, true, error);
 }
 
 /* Opens a character device without blocking. */
@@ -264,15 +282,34 @@ static ffd_status open_device(output_file *file, const char *path, ffd_error *er
     return S_ISCHR(info.st_mode) ? FFD_OK : ffd_fail_file(error, FFD_E_IO, path, "is not a device any more");
 }
 
-/* Opens the temporary file. *busy: another run is writing the target. */
-static ffd_status open_temporary(output_file *file, const char *path, const struct stat *old, bool *busy,
-                                 ffd_error *error)
+/* Makes the folders of the set again: another run has removed what it had made, because it was empty. */
+static ffd_status remake_folders(file_output *output, ffd_error *error)
+{
+    for (size_t i = 0; i < output->folder_count; i++) {
+        output_folder *const folder = &output->folders[i];
+        size_t made;
+        TRY(ffd_folder_make(folder->path, &made, error));
+        if (!made || (folder->made && folder->made <= made))
+            continue;
+        folder->made = made;
+        ffd_cleanup_strike(&folder->noted);
+        folder->noted = ffd_cleanup_note_folder(folder->path, made);
+    }
+    return FFD_OK;
+}
+
+/* Opens the temporary file. output->was_busy: another run is writing the target. */
+static ffd_status open_temporary(file_output *output, output_file *file, const char *path,
+                                 const struct stat *old, ffd_error *error)
 {
     file->temporary = ffd_temporary_name(file->target);
     if (!file->temporary)
         return ffd_fail_memory(error);
     ffd_cleanup_hold();
     file->fd = ffd_temporary_open(file->temporary);
+    for (int again = 0; file->fd < 0 && errno == ENOENT && output->folder_count && again < FOLDER_TRIES;
+         again++)
+        file->fd = remake_folders(output, NULL) ? -1 : ffd_temporary_open(file->temporary);
     const int reason = errno;
     file->noted = file->fd < 0 ? NULL : ffd_cleanup_note(file->temporary);
     ffd_cleanup_release();
@@ -282,7 +319,7 @@ static ffd_status open_temporary(output_file *file, const char *path, const stru
         const ffd_status status = ffd_temporary_fail(reason, file->temporary, path, error);
         ffd_free(file->temporary); /* it belongs to another run */
         file->temporary = NULL;
-        *busy = reason == EBUSY;
+        output->was_busy = reason == EBUSY;
         return status;
     }
     /* Only root can change the owner of a file. */
@@ -375,7 +412,7 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
     if (exists && !S_ISREG(info.st_mode))
         return open_device(file, path, error);
     ffd_status status;
-    TRY_END(open_temporary(file, path, exists ? &info : NULL, &output->was_busy, error));
+    TRY_END(open_temporary(output, file, path, exists ? &info : NULL, error));
     /* Another run may have created the target before this one got the lock. */
     if (!force && lstat(file->target, &info) == 0) {
         drop_temporary(file);

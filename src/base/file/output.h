@@ -34,7 +34,8 @@ bool ffd_output_is_stream(const char *path);
    an existing target are kept. A character device (/dev/null) is written to directly; a pipe, a socket,
    another device and a dangling symbolic link are FFD_E_IO. */
 ffd_status ffd_output_begin(file_output *output, const char *path, bool force, ffd_error *error);
-/* Creates a folder for the next file, and its parents. They are removed if the set is not committed. */
+/* Creates a folder for the next file, and its parents. They are removed if the set is not committed, as far
+   as they are empty. */
 ffd_status ffd_output_folder(file_output *output, const char *path, ffd_error *error);
 /* Appends bytes to the file begun last. */
 ffd_status ffd_output_write(file_output *output, const void *bytes, size_t size, ffd_error *error);
@@ -56,5 +57,8 @@ void ffd_output_destroy(file_output **output);
 ffd_status ffd_file_check_name(const char *name, ffd_error *error);
 /* Makes the checks of ffd_output_begin before any work is done. */
 ffd_status ffd_output_check(const char *path, bool force, ffd_error *error);
+/* The same for a file whose folders are made before it is begun (ffd_output_folder): only a place where they
+   cannot be made is refused. */
+ffd_status ffd_output_check_with_folder(const char *path, bool force, ffd_error *error);
 
 #endif

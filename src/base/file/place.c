@@ -108,7 +108,8 @@ static hash128 hash_of(const char *folder, const char *name)
     return ffd_hash_blocks(blocks, 2);
 }
 
-static hash128 find_place(file_places *places, const char *path)
+/* base: NULL, or the folder that the place is seen from. */
+static hash128 find_place(file_places *places, const char *base, const char *path)
 {
     char *const target = is_link(path) ? resolve(path) : NULL;
     const char *const whole = target ? target : path;
@@ -117,7 +118,9 @@ static hash128 find_place(file_places *places, const char *path)
     while (length > 1 && whole[length - 1] == '/')
         length--;
     const char *const folder = find_folder(places, whole, length);
-    const hash128 hash = hash_of(folder ? folder : "", name);
+    char *const seen = base && folder ? ffd_path_relative(base, folder) : NULL;
+    const hash128 hash = hash_of(seen ? seen : folder ? folder : "", name);
+    ffd_free(seen);
     ffd_free(target);
     return hash;
 }
@@ -125,7 +128,15 @@ static hash128 find_place(file_places *places, const char *path)
 hash128 ffd_place_of(file_places *places, const char *path)
 {
     file_places own = {0};
-    const hash128 hash = find_place(places ? places : &own, path);
+    const hash128 hash = find_place(places ? places : &own, NULL, path);
+    ffd_places_free(&own);
+    return hash;
+}
+
+hash128 ffd_place_relative(const char *base, const char *path)
+{
+    file_places own = {0};
+    const hash128 hash = find_place(&own, base, path);
     ffd_places_free(&own);
     return hash;
 }

@@ -1,16 +1,26 @@
 #include "base/system/deadline.h"
 #include "base/system/clock.h"
 #include <limits.h>
+#include <math.h>
 #include <stddef.h>
 
-static _Thread_local const deadline *current = NULL;
+/* Seconds between two calls of a watch. */
+#define PAUSE 0.1
 
-const deadline *ffd_deadline_begin(deadline *own, double seconds)
+static _Thread_local const deadline *current = NULL;
+static _Thread_local const char this_thread = 0; /* its address names the thread */
+
+const deadline *ffd_deadline_begin(deadline *own, double seconds, work_watch *watch)
 {
     const deadline *const before = current;
-    own->at = ffd_clock_seconds() + seconds;
-    own->seconds = seconds;
-    if (seconds > 0 && (!before || own->at < before->at))
+    const double limit = seconds > 0 ? ffd_clock_seconds() + seconds : INFINITY;
+    const bool is_earlier = limit < (before ? before->at : INFINITY);
+    const bool watches = watch && watch->progress;
+    *own = is_earlier || !before ? (deadline){.at = limit, .seconds = seconds} : *before;
+    own->watch = watches ? watch : before ? before->watch : NULL;
+    if (watches)
+        watch->thread = &this_thread;
+    if (is_earlier || watches)
         current = own;
     return before;
 }
@@ -30,22 +40,46 @@ void ffd_deadline_set(const deadline *shared)
     current = shared;
 }
 
+void ffd_deadline_done(double done)
+{
+    work_watch *const watch = current ? current->watch : NULL;
+    if (watch && watch->thread == &this_thread && done > watch->done)
+        watch->done = done;
+}
+
+/* Whether the caller has cancelled the work; asks him if it is time. */
+static bool is_cancelled(work_watch *watch)
+{
+    if (watch->thread == &this_thread && !atomic_load(&watch->is_cancelled) &&
+        ffd_clock_seconds() >= watch->next) {
+        if (!watch->progress(watch->user, watch->done))
+            atomic_store(&watch->is_cancelled, true);
+        watch->next = ffd_clock_seconds() + PAUSE;
+    }
+    return atomic_load(&watch->is_cancelled);
+}
+
 bool ffd_deadline_passed(void)
 {
-    return current && ffd_clock_seconds() >= current->at;
+    return current &&
+           ((current->watch && is_cancelled(current->watch)) || ffd_clock_seconds() >= current->at);
 }
 
 ffd_status ffd_deadline_check(ffd_error *error)
 {
-    return ffd_deadline_passed() ? ffd_fail(error, FFD_E_LIMIT, "took longer than %g %s ({timeout})",
-                                            current->seconds, current->seconds == 1 ? "second" : "seconds")
-                                 : FFD_OK;
+    if (!ffd_deadline_passed())
+        return FFD_OK;
+    if (current->watch && atomic_load(&current->watch->is_cancelled))
+        return ffd_fail(error, FFD_E_CANCELLED, "the caller has ended the job");
+    return ffd_fail(error, FFD_E_LIMIT, "took longer than %g %s ({timeout})", current->seconds,
+                    current->seconds == 1 ? "second" : "seconds");
 }
 
 int ffd_deadline_left(void)
 {
     if (!current)
         return -1;
-    const double left = 1000 * (current->at - ffd_clock_seconds());
-    return left <= 0 ? 0 : left < INT_MAX - 1 ? (int)left + 1 : INT_MAX;
+    const double left = 1000 * (current->at - ffd_clock_seconds()),
+                 most = current->watch ? 1000 * PAUSE : INT_MAX - 1;
+    return left <= 0 ? 0 : left < most ? (int)left + 1 : (int)most;
 }

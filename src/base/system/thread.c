@@ -77,6 +77,8 @@ static int workers_for(size_t tiles, int threads)
 static void call(tile_function function, const tiling *of, size_t index, int worker)
 {
     const size_t begin = index * of->tile_size, rest = of->count - begin;
+    (void)ffd_deadline_passed(); /* the caller is told how far it is; the work looks itself whether it is to
+                                    end */
     function(of->context, index, begin, begin + (rest < of->tile_size ? rest : of->tile_size), worker);
 }
 

@@ -447,7 +447,7 @@ static bool make_job(job_maker *maker)
 /* Hashes what determines the output, except the bytes of files. */
 static bool hash_content(batch_job *job)
 {
-    const char *const version = ffd_version(), *const output = job->output ? job->output : "";
+    const char *const version = ffd_version_build(), *const output = job->output ? job->output : "";
     byte_buffer bytes = {0};
     ffd_settings_write(&job->desc, SETTINGS_CONTENT, &bytes);
     const hash_block blocks[] = {{version, strlen(version) + 1},

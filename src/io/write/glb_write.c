@@ -210,6 +210,8 @@ static ffd_status put_files(gltf_writer *w, const mesh_save_options *options, co
         TRY_END(ffd_fail_memory(w->error));
     if (w->total > 0)
         TRY_END(put_bin_file(w, options, path));
+    if (w->total > 0 && options->outputs)
+        TRY_END(ffd_paths_add(options->outputs, path, w->error));
     TRY_END(ffd_output_begin(w->sink.output, options->path, options->force, w->error));
     TRY_END(ffd_output_write(w->sink.output, w->text.data, w->text.size, w->error));
 end:

@@ -11,7 +11,7 @@ static const char *const outside_words[] = {"keep", "extend", "error", NULL};
 static const char *const normals_words[] = {"transform", "keep", "recompute", NULL};
 static const char *const space_words[] = {"scene", "mesh", NULL};
 static const char *const rig_words[] = {"keep", "follow", NULL};
-static const char *const resources_words[] = {"copy", "reference", NULL};
+static const char *const resources_words[] = {"copy", "reference", "refresh", NULL};
 static const char *const isa_words[] = {"auto", "scalar", "sse2", "avx2", "avx512", NULL};
 static const char *const format_words[] = {"auto", "obj", "gltf", "glb", "ply", "off", "stl", NULL};
 
@@ -50,6 +50,9 @@ static const ffd_member members[] = {
     {"if_changed", "if-changed", FFD_MEMBER_FLAG, AT(if_changed), 0, NULL, FFD_MEMBER_IS_IDLE},
     {"in_place", "in-place", FFD_MEMBER_FLAG, AT(in_place), 0, NULL, 0},
     {"dry_run", NULL, FFD_MEMBER_FLAG, AT(dry_run), 0, NULL, FFD_MEMBER_IS_IDLE},
+    {"make_folders", NULL, FFD_MEMBER_FLAG, AT(make_folders), 0, NULL, FFD_MEMBER_IS_IDLE},
+    {"output_list", NULL, FFD_MEMBER_OBJECT, AT(output_list), 0, NULL, FFD_MEMBER_IS_IDLE},
+    {"progress", NULL, FFD_MEMBER_OBJECT, AT(progress), 0, NULL, FFD_MEMBER_IS_IDLE},
     {"depfile", NULL, FFD_MEMBER_OBJECT, AT(depfile), 0, NULL, FFD_MEMBER_IS_IDLE},
     {"positions", NULL, FFD_MEMBER_OBJECT, AT(positions), 0, NULL, 0},
     {"timeout", "timeout", FFD_MEMBER_TIME, AT(timeout), 0, NULL, FFD_MEMBER_IS_IDLE},

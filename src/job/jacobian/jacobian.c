@@ -161,7 +161,7 @@ ffd_status ffd_jacobian_run(const ffd_jacobian_desc *callers, ffd_jacobian_resul
     deadline limit;
     ffd_status status;
     TRY_END(take(&memory, callers, callers_result, &desc, &job, &own));
-    const deadline *const before = ffd_deadline_begin(&limit, job.timeout);
+    const deadline *const before = ffd_deadline_begin(&limit, job.timeout, NULL);
     status = differentiate(&desc, &result, &own);
     ffd_deadline_end(before);
     if (callers_result)

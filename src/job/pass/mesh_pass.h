@@ -6,6 +6,12 @@
 #include "job/input/embedding_file.h"
 #include "mesh/mesh.h"
 
+/* Fractions of a job that are done (ffd_deadline_done): the mesh is read, its vertices are deformed, the
+   result is judged. */
+#define JOB_IS_OPEN 0.1
+#define JOB_HAS_PASSED 0.7
+#define JOB_IS_JUDGED 0.9
+
 /* Which selected vertices count for the bounds in the totals. */
 typedef enum pass_bounds {
     PASS_BOUNDS_VISIBLE, /* those of visible nodes */

@@ -502,6 +502,7 @@ typedef struct part_work {
     tile_scratch *scratch; /* one for each worker */
     pass_totals *tiles;    /* figures of each tile */
     atomic_bool stopped;   /* a tile has failed: skip the others */
+    double vertices;       /* of all parts */
 } part_work;
 
 /* Returns a tile with vertices [first, last) of the part, without scratch memory. */
@@ -528,6 +529,8 @@ static void run_tile(void *context, size_t index, size_t first, size_t last, int
     scratch->status = deform_tile(&tile, &scratch->error);
     if (scratch->status)
         atomic_store(&work->stopped, true);
+    ffd_deadline_done(JOB_IS_OPEN + (JOB_HAS_PASSED - JOB_IS_OPEN) * (double)(tile.first_index + tile.count) /
+                                        work->vertices);
 }
 
 /* Parts with fewer full tiles than this use smaller tiles, to keep many threads busy. */
@@ -649,7 +652,9 @@ static tile_scratch *make_scratch(const mesh_pass *pass, int workers)
 
 ffd_status ffd_pass_over_mesh(const mesh_pass *pass, pass_totals *totals, ffd_error *error)
 {
-    part_work work = {.whole = {.pass = pass}, .workers = worker_count(pass)};
+    part_work work = {.whole = {.pass = pass},
+                      .workers = worker_count(pass),
+                      .vertices = fmax((double)ffd_mesh_vertex_count(pass->document), 1)};
     ffd_totals_clear(totals);
     atomic_init(&work.stopped, false);
     work.scratch = make_scratch(pass, work.workers);

@@ -10,19 +10,31 @@ struct ffd_depfile {
     byte_buffer rules;
 };
 
-/* Whether a file looks like a depfile: its first word ends in a colon. */
+/* Whether a file looks like a depfile: each of its lines names targets, the last of which ends in a colon,
+   and is no comment or JSON. */
 static bool is_depfile(const file_input *old)
 {
-    const char *text = (const char *)old->data;
+    const char *const text = (const char *)old->data;
+    size_t word = 0; /* characters of the word so far */
+    bool has_colon = false, is_empty = true;
     for (size_t i = 0; i < old->size; i++) {
-        if (text[i] == '#' || (text[i] == '{' && i + 1 < old->size && text[i + 1] == '"'))
-            return false; /* a comment, or JSON */
-        if (text[i] == '\\')
+        const bool is_json = text[i] == '{' && i + 1 < old->size && text[i + 1] == '"';
+        if (text[i] == 0 || (is_empty && (text[i] == '#' || is_json)))
+            return false;
+        if (text[i] == '\n' && !has_colon && !is_empty && !(word > 1 && text[i - 1] == ':'))
+            return false;
+        if (text[i] == '\n')
+            has_colon = false;
+        else if (strchr(" \t\r", text[i]))
+            has_colon = has_colon || (word > 1 && text[i - 1] == ':');
+        is_empty = text[i] == '\n' || (is_empty && strchr(" \t\r", text[i]));
+        word = strchr(" \t\r\n", text[i]) ? 0 : word + 1;
+        if (text[i] == '\\') { /* the next character is escaped, be it a line break */
             i++;
-        else if (strchr(" \t\r\n", text[i])) /* also excludes NUL */
-            return i > 1 && text[i - 1] == ':';
+            word++;
+        }
     }
-    return false;
+    return is_empty || has_colon || (word > 1 && text[old->size - 1] == ':');
 }
 
 ffd_status ffd_depfile_create(const char *path, ffd_depfile **depfile, ffd_error *error)
@@ -102,25 +114,14 @@ end:
     return status;
 }
 
-ffd_status ffd_depfile_common_rule(const path_list *outputs, const path_list *inputs, byte_buffer *rules,
-                                   ffd_error *error)
+ffd_status ffd_depfile_rule(const path_list *outputs, const path_list *inputs, byte_buffer *rules,
+                            ffd_error *error)
 {
     TRY(put_names(rules, outputs, false, error));
     ffd_buffer_text(rules, inputs->count ? ": " : ":");
     TRY(put_names(rules, inputs, true, error));
     ffd_buffer_text(rules, "\n");
     return !rules->failed ? FFD_OK : ffd_fail_memory(error);
-}
-
-ffd_status ffd_depfile_rule(const char *output, const path_list *inputs, byte_buffer *rules, ffd_error *error)
-{
-    path_list outputs = {0};
-    ffd_status status;
-    TRY_END(ffd_paths_add(&outputs, output, error));
-    TRY_END(ffd_depfile_common_rule(&outputs, inputs, rules, error));
-end:
-    ffd_paths_free(&outputs);
-    return status;
 }
 
 void ffd_depfile_add(ffd_depfile *depfile, const byte_buffer *rules)

@@ -6,13 +6,10 @@
 #include "base/text/buffer.h"
 #include <ffd/job.h>
 
-/* Appends the rule "OUT: INPUT INPUT ..." to rules, each input once. Errors: FFD_E_IO for a name with a line
-   break, which a depfile cannot hold. */
-ffd_status ffd_depfile_rule(const char *output, const path_list *inputs, byte_buffer *rules,
+/* Appends the rule "OUT OUT ...: INPUT INPUT ..." to rules, each input once. Errors: FFD_E_IO for a name with
+   a line break, which a depfile cannot hold. */
+ffd_status ffd_depfile_rule(const path_list *outputs, const path_list *inputs, byte_buffer *rules,
                             ffd_error *error);
-/* Appends the rule "OUT OUT ...: INPUT INPUT ..." to rules. Errors: as of ffd_depfile_rule. */
-ffd_status ffd_depfile_common_rule(const path_list *outputs, const path_list *inputs, byte_buffer *rules,
-                                   ffd_error *error);
 /* Whether a name contains a character that make or ninja cannot read in a depfile, however it is escaped. */
 bool ffd_depfile_troubles(const char *name);
 /* Adds complete rules. Lack of memory is reported later, by ffd_depfile_write. */

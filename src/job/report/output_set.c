@@ -23,3 +23,28 @@ void ffd_output_set_destroy(ffd_output_set **output_set)
     ffd_free(*output_set);
     *output_set = NULL;
 }
+
+ffd_status ffd_output_list_create(ffd_output_list **list, ffd_error *error)
+{
+    *list = ffd_alloc_zero(1, sizeof **list);
+    return *list ? FFD_OK : ffd_fail_memory(error);
+}
+
+void ffd_output_list_destroy(ffd_output_list **list)
+{
+    if (!list || !*list)
+        return;
+    ffd_paths_free(&(*list)->names);
+    ffd_free(*list);
+    *list = NULL;
+}
+
+size_t ffd_output_list_count(const ffd_output_list *list)
+{
+    return list->names.count;
+}
+
+const char *ffd_output_list_name(const ffd_output_list *list, size_t index)
+{
+    return index < list->names.count ? list->names.paths[index] : NULL;
+}

@@ -1,9 +1,10 @@
-/* output_set.h - the record of a run's outputs (public: ffd/job.h), and which models share buffers with
-   them. */
+/* output_set.h - the record of a run's outputs and the names of a job's (public: ffd/job.h), and which models
+   share buffers with them. */
 #ifndef FFD_JOB_REPORT_OUTPUT_SET_H
 #define FFD_JOB_REPORT_OUTPUT_SET_H
 
 #include "base/file/file_users.h"
+#include "base/file/path_list.h"
 #include "base/file/written_files.h"
 #include <ffd/job.h>
 
@@ -17,6 +18,11 @@ typedef struct known_users {
 struct ffd_output_set {
     written_files files;
     known_users users;
+    const struct copy_notes *notes; /* mesh/resource/copy_notes.h: of the run; NULL: those of the user */
+};
+
+struct ffd_output_list {
+    path_list names;
 };
 
 /* Frees the users; leaves all zeros. */

@@ -1,4 +1,5 @@
 #include "job/report/report.h"
+#include "base/file/output.h"
 #include "base/memory/memory.h"
 #include "job/report/report_figures.h"
 #include "json/json_parse.h"
@@ -46,6 +47,16 @@ static bool copy_figures(json_text *json, const char *figures, bool stable)
     return true;
 }
 
+static void write_outputs(json_text *json, const report_entry *entry)
+{
+    ffd_json_array(json, "outputs", true);
+    for (size_t i = 0; entry->outputs && i < entry->outputs->count; i++)
+        ffd_json_string(json, NULL, entry->outputs->paths[i]);
+    if (!entry->outputs && entry->output && !entry->result->status && !ffd_output_is_stream(entry->output))
+        ffd_json_string(json, NULL, entry->output);
+    ffd_json_end(json, ']');
+}
+
 static void write_entry(json_text *json, const report_entry *entry)
 {
     ffd_json_object(json, NULL, false);
@@ -53,6 +64,7 @@ static void write_entry(json_text *json, const report_entry *entry)
         ffd_json_count(json, "line", entry->line);
     ffd_json_string(json, "input", entry->input);
     ffd_json_string(json, "output", entry->output);
+    write_outputs(json, entry);
     if (entry->positions) {
         ffd_json_string(json, "positions", entry->positions);
         ffd_json_count(json, "row", entry->row);

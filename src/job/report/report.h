@@ -2,6 +2,7 @@
 #ifndef FFD_JOB_REPORT_REPORT_H
 #define FFD_JOB_REPORT_REPORT_H
 
+#include "base/file/path_list.h"
 #include "base/text/buffer.h"
 #include <ffd/job.h>
 
@@ -17,6 +18,8 @@ typedef struct report_entry {
     const char *input, *output; /* names; may be NULL */
     const char *positions;      /* array file that holds the job's positions, in row `row`; NULL: none */
     uint64_t row;
+    const path_list
+        *outputs;    /* names of the files that the job has written; NULL: `output`, unless it failed */
     const char *set; /* values of placeholders as a JSON object; NULL: not written */
     const ffd_job_result *result;
     const char *figures; /* in place of the result's, those of an earlier run that made the output

@@ -142,7 +142,7 @@ static ffd_status check_kind(const char *path, ffd_error *error)
 ffd_status ffd_report_check(const char *path, ffd_error *error)
 {
     TRY(check_kind(path, error));
-    return ffd_output_check(path, true, error);
+    return ffd_output_check_with_folder(path, true, error);
 }
 
 ffd_status ffd_report_create(const char *path, bool stable, ffd_output_set *output_set, ffd_report **report,
@@ -267,7 +267,11 @@ static ffd_status take_result(const ffd_job_result *callers, ffd_job_result *res
 static ffd_status add_entry(ffd_report *report, const char *input, const char *output,
                             const ffd_job_result *result, ffd_error *error)
 {
-    const report_entry entry = {.input = input, .output = output, .result = result, .stable = report->stable};
+    const report_entry entry = {.input = input,
+                                .output = output,
+                                .outputs = result->outputs ? &result->outputs->names : NULL,
+                                .result = result,
+                                .stable = report->stable};
     byte_buffer text = {0};
     ffd_report_entry_text(&entry, &text);
     const ffd_status status = text.failed

@@ -8,7 +8,7 @@
 
 /* Whether the name has the ending of JSON Lines. */
 bool ffd_report_has_lines(const char *path);
-/* Makes the checks of ffd_report_create without writing, for a dry run. */
+/* Makes the checks of ffd_report_create without writing, for a report whose folders will be made. */
 ffd_status ffd_report_check(const char *path, ffd_error *error);
 /* Whether entries must be added in the order of the jobs: a stream cannot be reordered. */
 bool ffd_report_is_ordered(const ffd_report *report);

@@ -378,10 +378,16 @@ static ffd_status view(const ffd_view_desc *desc, ffd_job_result *result, ffd_er
 {
     view_work work = {.desc = desc, .scene = {.animation = RIG_NONE}};
     ffd_error own;
+    ffd_output_list *const outputs = desc->job->output_list;
+    if (outputs)
+        ffd_paths_free(&outputs->names);
     ffd_status status;
     TRY_END(ffd_deform_job_begin(&work.job, desc->job, true, result));
+    result->outputs = outputs;
     work.job.stored = desc->as_stored;
     status = make_view(&work, result, &own);
+    if (!status && outputs && !ffd_output_is_stream(desc->output))
+        status = ffd_paths_add(&outputs->names, desc->output, &own);
     if (status) {
         result->error = own;
     } else {
@@ -422,7 +428,8 @@ static ffd_status view_in_time(ffd_view_desc *desc, ffd_deform_desc *job, ffd_jo
     ffd_source deformed;
     job_memory memory = {0};
     deadline own;
-    const deadline *const before = ffd_deadline_begin(&own, job->timeout);
+    work_watch watch = {.progress = job->progress, .user = job->progress_user};
+    const deadline *const before = ffd_deadline_begin(&own, job->timeout, &watch);
     ffd_status status;
     TRY_END(take_memory(&memory, desc, &deformed, job, &result->error));
     TRY_END(view(desc, result, &result->error));

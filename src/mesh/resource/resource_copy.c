@@ -18,16 +18,29 @@ static bool is_there(const resource_copier *c, const char *target)
     return !c->sink_name && ffd_file_exists(target);
 }
 
-/* Begins the file of a copy, unless it exists. If another process is writing the same copy, waits for it.
-   There is no deadlock, because all processes write copies in the order of their paths. */
-static ffd_status begin_copy(const resource_copier *c, const char *target, bool *exists, ffd_error *error)
+/* Finds whether a file is there, and whether it has these bytes. */
+static ffd_status inspect(const resource_copier *c, const char *target, const file_input *bytes,
+                          bool *is_file, bool *is_same, ffd_error *error)
+{
+    *is_same = false;
+    *is_file = is_there(c, target);
+    return *is_file ? ffd_file_compare(target, bytes, is_same, error) : FFD_OK;
+}
+
+/* Begins the file of a copy, unless it exists, as it should be where an old copy is replaced. If another
+   process is writing the same copy, waits for it. There is no deadlock, because all processes write copies in
+   the order of their paths. */
+static ffd_status begin_copy(const resource_copier *c, const char *target, const file_input *bytes,
+                             bool replaces, bool *exists, ffd_error *error)
 {
     const double begin = ffd_clock_seconds();
     for (;;) {
-        *exists = is_there(c, target);
+        bool is_file, is_same;
+        TRY(inspect(c, target, bytes, &is_file, &is_same, error));
+        *exists = replaces ? is_same : is_file;
         if (*exists)
             return FFD_OK;
-        const ffd_status status = ffd_output_begin(c->output, target, false, error);
+        const ffd_status status = ffd_output_begin(c->output, target, replaces, error);
         /* The file may also have been created between these two calls. */
         const bool waits = status && (ffd_output_was_busy(c->output) || status == FFD_E_EXISTS);
         if (!waits || ffd_clock_seconds() - begin > MOST_WAITING)
@@ -36,33 +49,41 @@ static ffd_status begin_copy(const resource_copier *c, const char *target, bool 
     }
 }
 
-static ffd_status compare_copy(const resource_kind *kind, const char *target, const file_input *bytes,
-                               ffd_error *error)
+/* Judges a file that is there. *replaces: it is an earlier run's copy and is to be replaced. */
+static ffd_status judge_copy(const resource_copier *c, const resource_kind *kind, const char *target,
+                             const file_input *bytes, bool *replaces, ffd_error *error)
 {
-    bool same = false;
-    TRY(ffd_file_compare(target, bytes, &same, error));
-    if (same)
+    bool is_file, is_same;
+    *replaces = false;
+    TRY(inspect(c, target, bytes, &is_file, &is_same, error));
+    if (is_same || !is_file)
         return FFD_OK;
-    return ffd_fail_file(
-        error, FFD_E_IO, target,
-        "already exists and is not the %s to be copied there ({resources=reference} copies none)",
-        kind->name);
+    const bool is_own = c->noted && ffd_copies_are_own(c->noted, target);
+    *replaces = is_own && c->refreshes;
+    if (*replaces)
+        return FFD_OK;
+    return ffd_fail_file(error, FFD_E_IO, target,
+                         is_own
+                             ? "is the copy of an earlier run, and the %s has changed since "
+                               "({resources=refresh} copies it anew)"
+                             : "already exists and is not the %s to be copied there ({resources=reference} "
+                               "copies none)",
+                         kind->name);
 }
 
 static ffd_status write_copy(const resource_copier *c, const resource_kind *kind, const char *target,
                              const file_input *bytes, ffd_error *error)
 {
-    bool exists;
-    if (is_there(c, target))
-        return compare_copy(kind, target, bytes, error);
-    if (!c->output)
+    bool exists = is_there(c, target), replaces;
+    TRY(judge_copy(c, kind, target, bytes, &replaces, error));
+    if ((exists && !replaces) || !c->output)
         return FFD_OK;
     char *folder = ffd_path_folder(target);
     const ffd_status status = folder ? ffd_output_folder(c->output, folder, error) : ffd_fail_memory(error);
     ffd_free(folder);
     TRY(status);
-    TRY(begin_copy(c, target, &exists, error));
-    return exists ? compare_copy(kind, target, bytes, error)
+    TRY(begin_copy(c, target, bytes, replaces, &exists, error));
+    return exists ? judge_copy(c, kind, target, bytes, &replaces, error)
                   : ffd_output_write(c->output, bytes->data, bytes->size, error);
 }
 
@@ -155,6 +176,17 @@ ffd_status ffd_resource_note(const resource_copier *c, const mesh_resource *reso
     return status;
 }
 
+/* Adds the name of a copy beside the output. */
+static ffd_status note_output(const resource_copier *c, const mesh_resource *resource, ffd_error *error)
+{
+    if (!c->outputs)
+        return FFD_OK;
+    char *const name = ffd_path_sibling(c->path, resource->path);
+    const ffd_status status = name ? ffd_paths_add(c->outputs, name, error) : ffd_fail_memory(error);
+    ffd_free(name);
+    return status;
+}
+
 static ffd_status copy_loaded(const resource_copier *c, const mesh_resource *resource,
                               const file_input *bytes, ffd_error *error)
 {
@@ -163,6 +195,9 @@ static ffd_status copy_loaded(const resource_copier *c, const mesh_resource *res
     ffd_status status;
     TRY_END(target ? write_copy(c, resource->kind, target, bytes, error) : ffd_fail_memory(error));
     TRY_END(ffd_resource_note(c, resource, error));
+    TRY_END(note_output(c, resource, error));
+    if (c->noted && !c->sink_name)
+        TRY_END(ffd_copies_add(c->noted, target, bytes->data, bytes->size, error));
 end:
     ffd_free(target);
     return status;

@@ -7,6 +7,7 @@
 #include "base/file/output.h"
 #include "base/file/path_list.h"
 #include "mesh/mesh_log.h"
+#include "mesh/resource/copy_notes.h"
 #include "mesh/resource/resource_list.h"
 
 /* Capacity for a path in a message, including the final 0: what follows it has room too. */
@@ -21,6 +22,10 @@ typedef struct resource_copier {
     const mesh_log *log;
     path_list
         *copied; /* receives the paths of files that are copied, embedded, or exist already; may be NULL */
+    const char *path;   /* the output's */
+    path_list *outputs; /* as in mesh_save_options */
+    bool refreshes;     /* replace copies of earlier runs */
+    noted_copies *noted;
 } resource_copier;
 
 /* Loads a file that a mesh names, if it may be copied. *left: NULL, or the reason why it is not copied: its

@@ -15,7 +15,7 @@ from ._embed import EmbeddedBytes, embed_bytes, embed_file
 from ._embedding import Embedding, Status
 from ._errors import (ArgumentError, Cancelled, EmbeddingError, Error, ExistsError, FileError, GateError, InvalidError,
                       LimitError, OutOfMemoryError, UnsupportedError)
-from ._facts import compare_bytes, compare_files, info, info_bytes
+from ._facts import compare_bytes, compare_files, compare_folders, info, info_bytes
 from ._jacobian import JacobianBytes, jacobian_bytes, jacobian_file
 from ._jobs import (DeformedBytes, Positions, check_bytes, check_file, deform_bytes, deform_file, positions_bytes,
                     positions_file)
@@ -33,7 +33,7 @@ __all__ = [
     "ArgumentError", "Cancelled", "Csr", "Deformed", "DeformedBytes", "EmbeddedBytes", "Embedding", "EmbeddingError", "Error",
     "ExistsError", "FileError", "Folds", "GateError", "InvalidError", "JacobianBytes", "Lattice", "LimitError",
     "OutOfMemoryError", "Parameter", "Positions", "Result", "Status", "UnsupportedError", "ViewBytes", "batch", "check_bytes",
-    "check_file", "compare_bytes", "compare_files", "deform_bytes", "deform_file", "deform_mesh", "embed_bytes", "embed_file",
+    "check_file", "compare_bytes", "compare_files", "compare_folders", "deform_bytes", "deform_file", "deform_mesh", "embed_bytes", "embed_file",
     "info", "info_bytes", "jacobian_bytes", "jacobian_file", "parameters", "positions_bytes", "positions_file", "schema",
     "view_bytes", "view_file",
 ]

@@ -133,11 +133,12 @@ def _iterated(jobs: Any) -> Callable[[int], bytes | None]:
     return following
 
 
-def _result(row: int, line: int, source: str | None, output: str | None, skipped: int, log: str, data: bytes) -> Result:
+def _result(row: int, line: int, source: str | None, output: str | None, skipped: int, log: str, outputs: list[str],
+            data: bytes) -> Result:
     found = declared.ffd_job_result.from_buffer_copy(data)
     error: Error | None = failure(found.status, found.error) if found.status else None
     lines = log.splitlines()
-    result = Result(found, lines[:-1] if error else lines)
+    result = Result(found, lines[:-1] if error else lines, outputs)
     result.error, result.input, result.output = error, source, output
     result.skipped, result.line, result.row = bool(skipped), line, row
     if error:

@@ -97,6 +97,23 @@ def compare_files(a: Path, b: Path, *, tolerance: float | str = 0.0, normal_tole
                     memory=memory, strict=strict)
 
 
+def compare_folders(a: Path, b: Path, *, tolerance: float | str = 0.0, normal_tolerance: float | None = None,
+                    memory: int | None = None, strict: bool = False) -> dict[str, Any]:
+    """Compares the meshes of two folders, paired by their relative names, as `ffd compare --recursive --json` does.
+
+    Returns a dict with "equal", "files" (each with "name", "equal", "error" and the members of `compare_files`), "only_a", "only_b".
+    A mesh that cannot be read differs. tolerance, ..: as in `compare_files`. Raises `Error` if a folder cannot be read.
+    """
+    desc, result = library.filled("ffd_compare_desc"), library.empty("ffd_folder_comparison")
+    for path, structure in ((a, desc.a), (b, desc.b)):
+        _place(path, structure, None, memory, strict)
+    _set_tolerances(desc, tolerance, normal_tolerance)
+    with _text() as text:
+        with library.logged(desc):
+            library.call(lib.ffd_compare_folders_json, ctypes.byref(desc), ctypes.byref(result), ctypes.byref(text))
+        return json.loads(ctypes.string_at(text))
+
+
 def compare_bytes(a: Any, b: Any, *, name: str, other_name: str | None = None, files: Files | None = None,
                   other_files: Files | None = None, tolerance: float | str = 0.0, normal_tolerance: float | None = None,
                   input_format: str | None = None, memory: int | None = None, strict: bool = False) -> dict[str, Any]:

@@ -8,12 +8,12 @@ import numpy as np
 
 from . import _library as library
 from ._description import AnyLattice, Files, Memory, Path, described
-from ._library import lib
+from ._library import Progress, lib
 from ._result import Result, beside, finish, run
 
 
 def deform_file(source: Path, output: Path | None, lattices: AnyLattice | Sequence[AnyLattice] | Mapping[str, AnyLattice],
-                **options: Any) -> Result:
+                *, progress: Progress | None = None, **options: Any) -> Result:
     """Deforms a mesh file, as `ffd deform` does. The output is complete or absent.
 
     source, output: paths; output None: in place
@@ -23,9 +23,11 @@ def deform_file(source: Path, output: Path | None, lattices: AnyLattice | Sequen
       set={"NAME": value}, outside="keep" | "extend" | "error", falloff=, snap=LENGTH or "0.001r", blocks=True,
       normals="transform" | "keep" | "recompute", as_morph="NAME", only=["node:NAME"], embedding="uvw.npy" or its bytes,
       fail_on=["folds", "tear=0.1"], quality=True (fills the figures of `check_file`), space="scene" | "mesh",
-      resources="copy" | "reference", rig="keep" | "follow", force=True (replace the output), if_changed=True, dry_run=True, threads=,
-      memory=BYTES, strict=True, allow_extensions=["NAME"], input_format="ply", output_format="glb", isa="auto",
+      resources="copy" | "reference" | "refresh", rig="keep" | "follow", force=True (replace the output), if_changed=True, dry_run=True,
+      make_folders=True (those of output), threads=, memory=BYTES, strict=True, allow_extensions=["NAME"], input_format="ply", output_format="glb", isa="auto",
       timeout=SECONDS (a job that takes longer raises an `Error`, and writes nothing)
+    progress: called from time to time with the finished fraction, 0 to 1; returning False ends the job, which writes nothing and
+      raises `Cancelled`. Its exceptions do the same, and are passed on
     Raises `Error`. Threads may call it at the same time.
     """
     with described(source, lattices, options) as (desc, warnings):
@@ -33,7 +35,8 @@ def deform_file(source: Path, output: Path | None, lattices: AnyLattice | Sequen
             desc.in_place = True
         else:
             desc.output = library.path(output)
-        found, raised = run(lib.ffd_deform_run, desc)
+        with library.progress_into(desc, progress):
+            found, raised = run(lib.ffd_deform_run, desc)
     return finish(found, raised, warnings)
 
 

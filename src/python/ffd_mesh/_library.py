@@ -131,6 +131,17 @@ def filled(name: str) -> Any:
     return structure
 
 
+@contextlib.contextmanager
+def output_list() -> Iterator[Any]:
+    """Yields a list for the names of a job's outputs."""
+    outputs = ctypes.c_void_p()
+    call(lib.ffd_output_list_create, ctypes.byref(outputs))
+    try:
+        yield outputs
+    finally:
+        lib.ffd_output_list_destroy(ctypes.byref(outputs))
+
+
 def call(function: Any, *arguments: Any) -> None:
     """Calls a function whose last argument is an ffd_error; raises an exception if it fails."""
     error = declared.ffd_error()
@@ -167,6 +178,19 @@ class Run:
             raise
         if len(self._lent) > 1:
             raise self._lent[1]
+
+
+@contextlib.contextmanager
+def progress_into(desc: Any, progress: Progress | None) -> Iterator[None]:
+    """Gives a job the caller's progress function; the exception that it raises is passed on."""
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress must be a function, not {type(progress).__name__}")
+    said: list[Any] = [progress]
+    if progress is not None:
+        desc.progress, desc.progress_user = _native.progress, id(said)
+    yield
+    if len(said) > 1:
+        raise said[1] from None
 
 
 _LEVELS = {0: logging.WARNING, 1: logging.INFO, 2: logging.DEBUG}

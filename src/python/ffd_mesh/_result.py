@@ -10,6 +10,7 @@ from typing import Any
 from . import _declarations as declared
 from . import _library as library
 from ._errors import Error, GateError, failure
+from ._library import lib
 from ._values import Folds, folds_of
 
 
@@ -21,6 +22,7 @@ class Result:
     """The result of a job: the members of ffd_job_result (ffd/result.h) as attributes, and
 
     warnings: the warnings that the program would print, one string each (also logged as "ffd_mesh")
+    outputs: names of the files that the job has written or, with dry_run, would write; also those that were up to date
     counts: number of vertices by status: "inside", "outside", "multiple", "singular", "invalid"
     folds: a `Folds`
     tear, det, edges, displacement, ..: groups of figures, as result.tear.largest; tear.cause is a word: "stays", "blocks", ..
@@ -28,6 +30,7 @@ class Result:
     """
 
     warnings: list[str]
+    outputs: list[str]
     counts: dict[str, int]
     folds: Folds | None
     vertices: int
@@ -44,9 +47,9 @@ class Result:
     line: int
     row: int
 
-    def __init__(self, found: Any, warnings: list[str]) -> None:
+    def __init__(self, found: Any, warnings: list[str], outputs: list[str] | None = None) -> None:
         for name, _ in found._fields_:
-            if name not in ("struct_size", "status", "error", "picture", "morphs") and not name.endswith("_room"):
+            if name not in ("struct_size", "status", "error", "picture", "morphs", "outputs") and not name.endswith("_room"):
                 self.__dict__[name] = figures(getattr(found, name))
         words = [word.removeprefix("point_") for word in library.WORDS["ffd_vertex_status"]]
         self.counts = dict(zip(words, found.counts))
@@ -54,6 +57,7 @@ class Result:
         self.flaws = self.flaws[:found.flaw_count]
         self.folds = folds_of(found.folds) if found.folds.is_known else None
         self.warnings = warnings
+        self.outputs = outputs or []
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{count} {word}" for word, count in self.counts.items() if count)
@@ -92,15 +96,21 @@ def beside(taken: list[Any], output: str) -> dict[str, bytes]:
 
 
 def run(function: Any, desc: Any) -> tuple[Any, Error | None]:
-    """Runs a job. Returns its ffd_job_result, and the exception if it failed."""
+    """Runs a job. Returns its ffd_job_result, which gets the names of the outputs, and the exception if it failed."""
     result, error = library.empty("ffd_job_result"), declared.ffd_error()
-    status = function(ctypes.byref(desc), ctypes.byref(result), ctypes.byref(error))
+    job = desc.job.contents if hasattr(desc, "job") else desc
+    with library.output_list() as outputs:
+        if hasattr(job, "output_list"):
+            job.output_list = outputs
+        status = function(ctypes.byref(desc), ctypes.byref(result), ctypes.byref(error))
+        count = lib.ffd_output_list_count(outputs)
+        result.output_names = [os.fsdecode(lib.ffd_output_list_name(outputs, i)) for i in range(count)]
     return result, (failure(status, error) if status else None)
 
 
 def finish(found: Any, raised: Error | None, warnings: list[str]) -> Result:
     """Returns the result of a job, or raises its exception. A `GateError` gets the result."""
-    result = Result(found, warnings)
+    result = Result(found, warnings, found.output_names)
     if raised is None:
         return result
     if isinstance(raised, GateError):

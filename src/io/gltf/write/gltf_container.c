@@ -156,10 +156,12 @@ static ffd_status give_name(gltf_saver *saver, size_t b, sidecar_names *names, f
     ffd_free(old);
     TRY(status);
     saver->buffers[b].target = target;
+    if (saver->options->outputs)
+        TRY(ffd_paths_add(saver->options->outputs, target, error));
     if (!saver->in_place)
         TRY(refuse_own_file(saver, target, error));
     if (!saver->in_place && !saver->options->to_sink)
-        TRY(ffd_output_check(target, saver->options->force, error));
+        TRY(ffd_output_check_with_folder(target, saver->options->force, error));
     return set_uri(saver, b, ffd_path_name(target), error);
 }
 

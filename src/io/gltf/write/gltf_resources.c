@@ -362,7 +362,7 @@ end:
 ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error)
 {
     const gltf_document *d = saver->document;
-    const bool copies = saver->options->resources == FFD_RESOURCES_COPY;
+    const bool copies = saver->options->resources != FFD_RESOURCES_REFERENCE;
     const bool embeds = copies && saver->binary && !d->binary;
     if (ffd_file_is_stream(d->path) && !ffd_output_is_stream(saver->options->path))
         return warn_of_stream(saver, error);
@@ -379,7 +379,11 @@ ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error)
                                  .sink_name = saver->options->to_sink ? saver->options->path : NULL,
                                  .output = saver->output,
                                  .log = saver->log,
-                                 .copied = saver->options->copied};
+                                 .copied = saver->options->copied,
+                                 .path = saver->options->path,
+                                 .outputs = saver->options->outputs,
+                                 .refreshes = saver->options->resources == FFD_RESOURCES_REFRESH,
+                                 .noted = saver->options->noted};
     ffd_status status;
     TRY_END(r.from && r.to ? FFD_OK : ffd_fail_memory(error));
     const bool stay = saver->in_place || ffd_save_meets(saver->options, r.from, r.to);

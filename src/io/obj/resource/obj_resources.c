@@ -105,7 +105,7 @@ end:
 static ffd_status bring(const resource_copier *c, const file_input *input, const mesh_save_options *options,
                         bool is_stay, ffd_error *error)
 {
-    const bool copies = options->resources == FFD_RESOURCES_COPY;
+    const bool copies = options->resources != FFD_RESOURCES_REFERENCE;
     resource_list list = {0};
     ffd_status status;
     TRY_END(list_all(&c->mesh, input, copies || is_stay, &list, error));
@@ -174,8 +174,17 @@ ffd_status ffd_obj_bring_resources(const file_input *input, const file_folder *f
         ffd_save_meets(options, mesh, options->path))
         return FFD_OK;
     char *const from = ffd_path_folder(mesh), *const to = ffd_path_folder(options->path);
-    const resource_copier copier = {
-        *folder, from, to, options->to_sink ? options->path : NULL, output, log, options->copied};
+    const resource_copier copier = {.mesh = *folder,
+                                    .from = from,
+                                    .to = to,
+                                    .sink_name = options->to_sink ? options->path : NULL,
+                                    .output = output,
+                                    .log = log,
+                                    .copied = options->copied,
+                                    .path = options->path,
+                                    .outputs = options->outputs,
+                                    .refreshes = options->resources == FFD_RESOURCES_REFRESH,
+                                    .noted = options->noted};
     ffd_status status;
     TRY_END(from && to ? FFD_OK : ffd_fail_memory(error));
     const bool is_stay = ffd_save_meets(options, from, to);
