@@ -84,19 +84,24 @@ def stem(path):
     return os.path.basename(path).split(".")[0]
 
 
+def without_version(text, version):
+    """version: "0.3.0", or with the commit behind it, which some outputs leave out"""
+    return text.replace(version, b"VERSION").replace(version.split()[0], b"VERSION")
+
+
 def run(program, command, folder, version, before):
     """The sum of what a command does, and what it did as text."""
     done = subprocess.run([*program, *words(command)], cwd=folder, capture_output=True, stdin=subprocess.DEVNULL, timeout=SECONDS,
                           check=False)
     after = snapshot(folder)
     # What differs from one version, or one run, to the next.
-    told = [re.sub(rb"\b\d+\.\d+ s\b", b"N s", text).replace(version, b"VERSION") for text in (done.stdout, done.stderr)]
+    told = [without_version(re.sub(rb"\b\d+\.\d+ s\b", b"N s", text), version) for text in (done.stdout, done.stderr)]
     digest = hashlib.sha256()
     for part in (str(done.returncode).encode(), *told):
         digest.update(b"%d:" % len(part) + part)
     changed = sorted(name for name in after if before.get(name) != after[name])
     for name in changed:
-        content = after[name].replace(version, b"VERSION") if not name.endswith(".journal") else b""
+        content = without_version(after[name], version) if not name.endswith(".journal") else b""
         digest.update(name.encode() + hashlib.sha256(content).digest())
     return digest.hexdigest()[:16], after, f"exit {done.returncode}, files: {' '.join(changed) or 'none'}; " + \
         told[1].decode(errors="replace").strip()[:300]
