@@ -258,7 +258,8 @@ static void spell(const char *member, const char *value, char *text, size_t capa
 PyMODINIT_FUNC PyInit__native(void);
 PyMODINIT_FUNC PyInit__native(void)
 {
-    static PyModuleDef definition = {PyModuleDef_HEAD_INIT, .m_name = "_native", .m_doc = "Callbacks of the library ffd."};
+    static PyModuleDef definition = {PyModuleDef_HEAD_INIT, .m_name = "_native",
+                                     .m_doc = "Callbacks of the library ffd."};
     PyObject *const module = PyModule_Create(&definition);
     if (!module || (add_address(module, "progress", (uintptr_t)progress) == 0 &&
                     add_address(module, "spell", (uintptr_t)spell) == 0 &&
