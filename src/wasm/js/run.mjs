@@ -1,0 +1,41 @@
+// Runs the program once: an instance of its module with files and streams, and main.
+
+// What a caller throws with a code, as emscripten throws it.
+export function attempt(FS, ERRNO_CODES, call) {
+  try {
+    return call();
+  } catch (problem) {
+    throw new FS.ErrnoError(ERRNO_CODES[problem.code] ?? ERRNO_CODES.EIO);
+  }
+}
+
+// The streams of an instance. input(bytes) -> how many it has put there; output(bytes), failure(bytes) -> how many they took.
+function connect(FS, ERRNO_CODES, {input, output, failure}) {
+  [input, output, failure].forEach((act, fd) => {
+    const call = (_, heap, offset, length) => attempt(FS, ERRNO_CODES, () => act(heap.subarray(offset, offset + length)));
+    Object.assign(FS.getStream(fd), {tty: undefined, seekable: false, stream_ops: fd === 0 ? {read: call} : {write: call}});
+  });
+}
+
+// prepare(FS, ERRNO_CODES) lays out files.
+export async function runProgram(create, module, words, {prepare, ...streams}) {
+  const program = await new Promise((resolve, reject) => create({
+    thisProgram: 'ffd',
+    instantiateWasm(imports, done) {
+      WebAssembly.instantiate(module, imports).then(done, reject);
+      return {};
+    },
+  }).then(resolve, reject));
+  const {FS, ERRNO_CODES} = program;
+  connect(FS, ERRNO_CODES, streams);
+  // Whoever keeps the files knows who may do what.
+  FS.ignorePermissions = true;
+  prepare(FS, ERRNO_CODES);
+  try {
+    return {FS, code: program.callMain(words)};
+  } catch (problem) {
+    if (!(problem instanceof WebAssembly.RuntimeError) && !(problem instanceof RangeError)) throw problem;
+    streams.failure(new TextEncoder().encode(`ffd: out of memory: ${problem.message}\n`));
+    return {FS, code: 7};
+  }
+}
