@@ -79,7 +79,7 @@ def main():
     write(os.path.join(folder, "bin", "ffd-mesh.mjs"), read(os.path.join(own, "command.mjs")))
     write(os.path.join(folder, "package.json"), read(os.path.join(own, "package.json")).replace("@VERSION@", version))
     write(os.path.join(folder, "examples", "index.html"), read(os.path.join(npm, "index.html")))
-    write(os.path.join(folder, "README.md"), read(os.path.join(npm, "README.md")))
+    write(os.path.join(folder, "README.md"), read(os.path.join(root, "data", "npm.md")))
     write(os.path.join(folder, "LICENSE"), read(os.path.join(root, "LICENSE")))
     write(os.path.join(folder, "THIRD-PARTY.md"), "".join(read(os.path.join(place, "THIRD-PARTY.md")) for place in (packaging, npm)))
     for place in (packaging, npm):
