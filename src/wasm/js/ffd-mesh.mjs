@@ -25,8 +25,7 @@ export async function init({wasm, programWasm} = {}) {
       return {};
     },
   }).then(resolve, reject));
-  const Lattice = defineLattice(core);
   let program;
   const getProgram = () => program ??= moduleOf(programWasm, 'program.wasm').catch((problem) => { program = undefined; throw problem; });
-  return {Lattice, FfdError, ...defineJobs(createProgram, getProgram, Lattice)};
+  return {Lattice: defineLattice(core), FfdError, ...defineJobs(createProgram, getProgram)};
 }

@@ -43,6 +43,7 @@ export function showFiles(FS, ERRNO_CODES) {
     },
     rename(node, folder, name) {
       attempt(() => fs.renameSync(pathOf(node), join(pathOf(folder), name)));
+      node.parent = folder;
       node.name = name;
     },
     unlink(parent, name) {

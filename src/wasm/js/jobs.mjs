@@ -53,13 +53,13 @@ function writeAll(FS, files) {
   }
 }
 
-// All files of a folder, by their names in it.
-function readAll(FS, folder, found = {}, prefix = '') {
+// All files of a folder but those that a map names, by their names in it.
+function readAll(FS, folder, known = new Map(), found = {}, prefix = '') {
   for (const name of FS.readdir(folder)) {
     const path = `${folder}/${name}`;
     if (name === '.' || name === '..') continue;
-    if (FS.isDir(FS.stat(path).mode)) readAll(FS, path, found, prefix + name + '/');
-    else found[prefix + name] = FS.readFile(path);
+    if (FS.isDir(FS.stat(path).mode)) readAll(FS, path, known, found, prefix + name + '/');
+    else if (!known.has(prefix + name)) found[prefix + name] = FS.readFile(path);
   }
   return found;
 }
@@ -82,20 +82,22 @@ function failureOf(code, said, names, report) {
   const line = lines.pop() || 'ffd: it failed without a word';
   const file = names.filter((name) => line.startsWith(`ffd: ${name}:`)).sort((a, b) => b.length - a.length)[0];
   const behind = file === undefined ? '' : line.slice(`ffd: ${file}:`.length);
-  const pointer = /^(?:\d+:)? ?(\/\S*): /.exec(behind)?.[1];
+  const pointer = /^(?:\d+:)? ?(\/.*?): /.exec(behind)?.[1];
   return Object.assign(new FfdError(code, line, {file, pointer}), {warnings: lines}, report && {report});
 }
 
+// The text of a Lattice, of whatever instance, of an object, or a text.
+const textOf = (lattice) => typeof lattice === 'string' ? lattice : typeof lattice.text === 'function' ? lattice.text() : JSON.stringify(lattice);
+
 // The functions of an instance. getModule() -> the program's module.
-export function defineJobs(createProgram, getModule, Lattice) {
+export function defineJobs(createProgram, getModule) {
   // Names of lattices for messages, which no file of the mesh has.
   function nameLattices(lattices, taken) {
     const named = new Map();
     lattices.forEach((lattice, i) => {
       let name = lattices.length > 1 ? `lattice ${i + 1}` : 'lattice';
       while (taken.has(name)) name += '_';
-      named.set(name, new TextEncoder().encode(
-        lattice instanceof Lattice ? lattice.text() : typeof lattice === 'string' ? lattice : JSON.stringify(lattice)));
+      named.set(name, new TextEncoder().encode(textOf(lattice)));
     });
     return named;
   }
@@ -120,8 +122,7 @@ export function defineJobs(createProgram, getModule, Lattice) {
           FS.chdir(IN);
         },
       });
-    const made = Object.entries(readAll(FS, IN)).filter(([file]) => !given.has(file) && !lattices.has(file));
-    const all = {...Object.fromEntries(made), ...readAll(FS, OUT)};
+    const all = {...readAll(FS, IN, new Map([...given, ...lattices])), ...readAll(FS, OUT)};
     const report = FS.analyzePath('/report.json').exists ? JSON.parse(FS.readFile('/report.json', {encoding: 'utf8'})) : undefined;
     if (code) throw failureOf(code, said.text(), [...given.keys(), ...lattices.keys()], report);
     return {files: all, report, text: printed.text(), warnings: said.text().split('\n').filter(Boolean)};

@@ -9,11 +9,17 @@ export function attempt(FS, ERRNO_CODES, call) {
   }
 }
 
-// The streams of an instance. input(bytes) -> how many it has put there; output(bytes), failure(bytes) -> how many they took.
+// The streams of an instance, also by their names in /dev. input(bytes) -> how many it has put there; output(bytes), failure(bytes) ->
+// how many they took.
 function connect(FS, ERRNO_CODES, {input, output, failure}) {
-  [input, output, failure].forEach((act, fd) => {
+  [['stdin', input], ['stdout', output], ['stderr', failure]].forEach(([name, act], fd) => {
     const call = (_, heap, offset, length) => attempt(FS, ERRNO_CODES, () => act(heap.subarray(offset, offset + length)));
-    Object.assign(FS.getStream(fd), {tty: undefined, seekable: false, stream_ops: fd === 0 ? {read: call} : {write: call}});
+    const operations = fd === 0 ? {read: call} : {write: call};
+    Object.assign(FS.getStream(fd), {tty: undefined, seekable: false, stream_ops: operations});
+    const device = FS.makedev(64, fd), path = '/dev/' + name;
+    FS.registerDevice(device, {...operations, open: (stream) => { stream.seekable = false; }});
+    FS.unlink(path);
+    FS.mkdev(path, 0o666, device);
   });
 }
 
