@@ -33,14 +33,17 @@ SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH-$(git -C "$root" log -1 --format=%ct)}
 export SOURCE_DATE_EPOCH
 # Debian's libraries of emscripten are complete, and their folder is not ours to write to.
 export EM_FROZEN_CACHE=1
+# Where Debian has what emscripten's own scripts need: another node does not look there.
+export NODE_PATH="/usr/share/nodejs${NODE_PATH:+:$NODE_PATH}"
 if command -v ccache >/dev/null 2>&1; then
     export EM_COMPILER_WRAPPER=ccache CCACHE_DEPEND=1
 fi
 
 if [ ! -f "$build/build.ninja" ]; then
-    printf "[constants]\nroot = '%s'\n" "$root" >"$work/root.ini"
-    meson setup "$build" "$root" --cross-file "$root/data/packaging/npm/emscripten.ini" --cross-file "$work/root.ini" \
-        --wrap-mode=forcefallback -Dbuildtype=release -Dstatic=true -Ddefault_library=static -Dtests=disabled >&2
+    # Meson reads it again where a build file has changed.
+    printf "[constants]\nroot = '%s'\n" "$root" >"$build.ini"
+    meson setup "$build" "$root" --cross-file "$root/data/packaging/npm/emscripten.ini" --cross-file "$build.ini" \
+        --wrap-mode=forcefallback -Dbuildtype=release -Doptimization=s -Dstatic=true -Ddefault_library=static -Dtests=disabled >&2
 fi
 ninja -C "$build" src/wasm/core.js src/wasm/program.js >&2
 

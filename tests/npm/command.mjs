@@ -2,7 +2,7 @@
 // vectors of arguments, for a folder in which the files of `prepare` lie; FFD_JOBS names a JSON file of further vectors.
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
-import {cpSync, lstatSync, mkdirSync, readdirSync, readFileSync, readlinkSync, symlinkSync, writeFileSync} from 'node:fs';
+import {cpSync, lstatSync, mkdirSync, readdirSync, readFileSync, readlinkSync, rmSync, symlinkSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {native, packageFolder, root, runAll, test} from './tools.mjs';
 
@@ -87,7 +87,8 @@ test('every job gives what the native program gives', (folder) => {
       wrong.push(`${JSON.stringify(job)}: code ${got.code} (${wanted.code}), ${got.out === wanted.out ? 'same' : 'other'} output, ` +
         `files: ${files.join(' ')}\n  ${got.said}  (native) ${wanted.said}`);
       // The next jobs begin with the same files again.
-      cpSync(theirs, ours, {recursive: true, force: true});
+      rmSync(ours, {recursive: true});
+      cpSync(theirs, ours, {recursive: true, verbatimSymlinks: true});
     }
   }
   assert.equal(wrong.length, 0, '\n' + wrong.join('\n'));

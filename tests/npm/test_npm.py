@@ -81,7 +81,7 @@ def run_types(package, folder):
     lend("property-graph", package)
     shutil.copy(os.path.join(HERE, "types.ts"), os.path.join(folder, "types.mts"))
     return subprocess.run(["node", os.path.join(compiler, "bin", "tsc"), "--noEmit", "--strict", "--target", "es2022", "--lib", "es2022,dom",
-                           "--module", "nodenext", "--types", "", "types.mts"], cwd=folder, check=False).returncode
+                           "--module", "nodenext", "types.mts"], cwd=folder, check=False).returncode
 
 
 def run_page(package, folder, ffd, root):

@@ -54,7 +54,7 @@ test('nodes that shared a mesh get their own where they differ', async (folder) 
 
 test('options for more than attributes are refused, and errors are those of the package', async () => {
   assert.throws(() => ffd({lattice: LATTICE, rig: 'follow'}), {name: 'FfdError', code: 2});
-  await assert.rejects(twins().transform(ffd({lattice: LATTICE, only: ['node:none']})), {name: 'FfdError', code: 2, message: /node:none/});
+  await assert.rejects(twins().transform(ffd({lattice: LATTICE, only: ['node:none']})), {name: 'FfdError', code: 2, message: /no node is called "none"/});
 });
 
 await runAll();

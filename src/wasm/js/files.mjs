@@ -4,6 +4,7 @@ import fs from 'node:fs';
 import {attempt as attemptOf} from './run.mjs';
 
 // musl's numbers, which are those of all emscripten programs.
+const CREATE = 0o100, NO_FOLLOW = 0o400000;
 const FLAGS = [[0o1, 'O_WRONLY'], [0o2, 'O_RDWR'], [0o2000, 'O_APPEND']];
 
 export function showFiles(FS, ERRNO_CODES) {
@@ -100,6 +101,13 @@ export function showFiles(FS, ERRNO_CODES) {
   const place = FS.lookupPath('/dev').node;
   place.mounted = {root: devices, mountpoint: '/dev', mounts: []};
   FS.chdir(process.cwd());
+
+  // Tells why a file cannot be opened; emscripten says of all that there is none.
+  const open = FS.open;
+  FS.open = (path, flags, ...others) => {
+    if (typeof flags === 'number' && !(flags & CREATE)) FS.lookupPath(path, {follow: !(flags & NO_FOLLOW)});
+    return open(path, flags, ...others);
+  };
 }
 
 const nap = new Int32Array(new SharedArrayBuffer(4));

@@ -152,7 +152,7 @@ export function defineJobs(createProgram, getModule) {
     },
     async view(mesh, lattice, {output = mesh.name + '.html', ...options} = {}) {
       const done = await run(mesh, lattice, (name, lattices) =>
-        ['view', name, ...lattices, '-o', `${OUT}/${checkName(output)}`, ...REPORT, ...wordsOf(options)]);
+        ['view', name, ...lattices, '-o', `${OUT}/${checkName(output)}`, ...lattices.length > 0 ? REPORT : [], ...wordsOf(options)]);
       return resultOf(done, output);
     },
   };

@@ -14,12 +14,13 @@ export function attempt(FS, ERRNO_CODES, call) {
 function connect(FS, ERRNO_CODES, {input, output, failure}) {
   [['stdin', input], ['stdout', output], ['stderr', failure]].forEach(([name, act], fd) => {
     const call = (_, heap, offset, length) => attempt(FS, ERRNO_CODES, () => act(heap.subarray(offset, offset + length)));
-    const operations = fd === 0 ? {read: call} : {write: call};
-    Object.assign(FS.getStream(fd), {tty: undefined, seekable: false, stream_ops: operations});
     const device = FS.makedev(64, fd), path = '/dev/' + name;
-    FS.registerDevice(device, {...operations, open: (stream) => { stream.seekable = false; }});
+    FS.registerDevice(device, {[fd === 0 ? 'read' : 'write']: call, open: (stream) => { stream.seekable = false; }});
     FS.unlink(path);
     FS.mkdev(path, 0o666, device);
+    // In place of emscripten's, which take lines of text.
+    FS.close(FS.getStream(fd));
+    FS.open(path, fd === 0 ? 'r' : 'w');
   });
 }
 
