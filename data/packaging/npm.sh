@@ -43,7 +43,7 @@ if [ ! -f "$build/build.ninja" ]; then
     # Meson reads it again where a build file has changed.
     printf "[constants]\nroot = '%s'\n" "$root" >"$build.ini"
     meson setup "$build" "$root" --cross-file "$root/data/packaging/npm/emscripten.ini" --cross-file "$build.ini" \
-        --wrap-mode=forcefallback -Dbuildtype=release -Doptimization=s -Dstatic=true -Ddefault_library=static -Dtests=disabled >&2
+        --wrap-mode=forcefallback -Dbuildtype=release -Doptimization=2 -Dstatic=true -Ddefault_library=static -Dtests=disabled >&2
 fi
 ninja -C "$build" src/wasm/core.js src/wasm/program.js >&2
 

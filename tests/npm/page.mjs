@@ -6,7 +6,7 @@ import {join} from 'node:path';
 import {pathToFileURL} from 'node:url';
 import {folder, launch, runAll, watch} from '../view/browser.mjs';
 
-const browser = await launch();
+const browser = await launch(['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--webgl-antialiasing-mode=none']);
 const url = (name) => String(pathToFileURL(join(folder, name)));
 const isFile = (address) => /^(file|blob|data|about):/.test(address);
 const read = (name) => readFileSync(join(folder, name), 'utf8');
@@ -31,13 +31,13 @@ async function classicScript() {
 }
 
 async function examplePage() {
-  const {page, end} = await watch(browser, url('package/examples/index.html'), isFile, {name: 'npm-example'});
+  const {page, end} = await watch(browser, url('package/examples/index.html'), isFile, {name: 'npm-example', reducedMotion: 'reduce'});
   await page.setInputFiles('#file', join(folder, 'lattice.json'));
   await page.setInputFiles('#model', join(folder, 'spot.obj'));
   await page.waitForFunction(() => /vertices moved/.test(document.getElementById('said').textContent));
   const result = () => page.evaluate(async () => (await fetch(document.getElementById('result').href)).text());
   assert.equal(await result(), read('spot-out.obj'));
-  await page.frameLocator('#view').locator('canvas').first().waitFor();
+  await page.frameLocator('#view').locator('html[data-ready]').waitFor();
   await page.fill('#twist', '90');
   await page.locator('#twist').blur();
   await page.waitForFunction((before) => document.getElementById('lattice').href && document.getElementById('said').textContent !== 'Working ..' &&

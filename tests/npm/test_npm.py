@@ -80,7 +80,7 @@ def run_types(package, folder):
     lend("@gltf-transform/core", package)
     lend("property-graph", package)
     shutil.copy(os.path.join(HERE, "types.ts"), os.path.join(folder, "types.mts"))
-    return subprocess.run(["node", os.path.join(compiler, "bin", "tsc"), "--noEmit", "--strict", "--target", "es2022", "--lib", "es2022,dom",
+    return subprocess.run(["node", os.path.join(compiler, "bin", "tsc"), "--noEmit", "--strict", "--target", "es2022", "--lib", "esnext,dom",
                            "--module", "nodenext", "types.mts"], cwd=folder, check=False).returncode
 
 
