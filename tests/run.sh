@@ -6,6 +6,7 @@
 #                                     or one tag (threads compilers text), or peers (other packages; fetches 280 MB)
 #     sh tests/run.sh --all           in a bare root of Debian 12: data/demo.sh, then this script, then its other stages (tests/install/all.sh)
 #     sh tests/run.sh --stages        the stages that only --all has: slow suites, release, clang with sanitizers, valgrind, fuzzing, npm, the wraps
+#     sh tests/run.sh --release       every artefact of data/packaging/release.sh, made twice: the same bytes, and the whole job list
 #     sh tests/run.sh --soak          the gcc build, what takes hours, with other random numbers every time
 #     --keep                          keeps the build folders of the stages that only --all has, and its root
 # FFD_MODELS names a folder of sample models (default: shared/models beside the checkout); without it the tests
@@ -13,7 +14,7 @@
 set -u
 
 usage() {
-    echo "usage: sh tests/run.sh [--all | --stages | --soak | --suite NAME] [--keep]" >&2
+    echo "usage: sh tests/run.sh [--all | --stages | --release | --soak | --suite NAME] [--keep]" >&2
     exit 2
 }
 
@@ -22,7 +23,7 @@ suite=
 keep=
 while [ $# -gt 0 ]; do
     case "$1" in
-    --all | --stages | --soak) mode=$mode$1 ;;
+    --all | --stages | --release | --soak) mode=$mode$1 ;;
     --keep) keep=--keep ;;
     --suite)
         [ $# -ge 2 ] || usage
@@ -40,6 +41,7 @@ case "$mode$suite" in
 '' | --suite?*) ;;
 --all | --stages) all=1 ;;
 --soak) soak=1 ;;
+--release) ;;
 *) usage ;;
 esac
 [ "$suite" != soak ] || usage
@@ -62,7 +64,7 @@ logs=$work/logs
 mkdir -p "$logs" || exit 1
 case "$mode$suite" in
 --suitepeers | --soak) needs=peers ;;
---suiteslow | --suitepython | --suitepackages | --suitenpm | --stages) needs=stages ;;
+--suiteslow | --suitepython | --suitepackages | --suitenpm | --stages | --release) needs=stages ;;
 *) needs=test ;;
 esac
 sh "$root/.ci/setup" $needs || exit 1
@@ -271,7 +273,7 @@ test_npm() {
 }
 
 # The libraries that a system may lack, each compiled by its wrap, from sources that .ci/wraps gets: every module links, and the
-# program, with modules and without, gives the bytes that the golden suite remembers. A machine may not reach the sources.
+# program, with modules and as one static file, gives the bytes that the golden suite remembers. A machine may not reach the sources.
 wraps='--wrap-mode=nodownload --force-fallback-for=draco,meshoptimizer,openmesh,tinygltf'
 test_wraps() {
     clock=$(date +%s)
@@ -281,9 +283,11 @@ test_wraps() {
         return
     fi
     for kind in both static; do
+        options=-Ddefault_library=both
+        [ "$kind" = both ] || options=-Dstatic=true
         # shellcheck disable=SC2086 # options
         if build "wraps-$kind" golden gcc g++ -Dbuildtype=release -Dc_args="$delivered" -Dcpp_args="$delivered" \
-            -Ddefault_library=$kind $wraps; then
+            $options $wraps; then
             chosen='--suite golden --no-suite node --no-suite part_of_corpus --no-suite slow'
             [ "$kind" = both ] || chosen=golden
             # shellcheck disable=SC2086 # words
@@ -293,11 +297,27 @@ test_wraps() {
     done
 }
 
+# What is delivered, from the last commit, by two runs in folders of their own.
+release_twice() {
+    sh "$root/data/packaging/release.sh" "$work/artefacts" && sh "$root/data/packaging/release.sh" "$work/artefacts-again" &&
+        cmp "$work/artefacts/SHA256SUMS" "$work/artefacts-again/SHA256SUMS"
+}
+test_release() {
+    rm -rf "$work/artefacts" "$work/artefacts-again"
+    step release setup sh "$root/.ci/setup" release || return
+    case_of release twice release_twice || return
+    for name in sums sbom wheel wheel-musl static source deb; do
+        case_of release "$name" python3 "$root/tests/release/test_artefacts.py" "$work/artefacts" "$name"
+    done
+    sed 's/^/    /' "$work/artefacts/SHA256SUMS"
+}
+
 export FFD_NODE="$work/node"
+[ "$mode" != --release ] || test_release
 step node npm install_node_packages
 
 # Debug information tells lines only: a trace needs no more.
-if build gcc '' gcc g++ -Dbuildtype=debugoptimized -Dc_args=-g1 -Dcpp_args=-g1; then
+if [ "$mode" != --release ] && build gcc '' gcc g++ -Dbuildtype=debugoptimized -Dc_args=-g1 -Dcpp_args=-g1; then
     if [ "$suite" = peers ]; then
         suites gcc gcc --suite peers
     elif [ "$suite" = npm ]; then

@@ -31,8 +31,8 @@ typedef ffd_status (*ffd_batch_next_function)(void *user, uint64_t index, const 
 
 /* A job that has ended. All of it is valid during the call only. */
 typedef struct ffd_batch_job {
-    uint64_t line;      /* of the manifest or table, from 1; of others the number of the job, from 1 */
-    uint64_t row;       /* number among the jobs of all shards, from 0 */
+    uint64_t line;      /* of the manifest or table, from 1; of others the ordinal of the job, from 1 */
+    uint64_t row;       /* index among the jobs of all shards, from 0 */
     const char *input;  /* as the job names it; NULL: it names none */
     const char *output; /* likewise; of a job in place its input; NULL: it writes no mesh */
     bool skipped;       /* resume has found its output up to date */

@@ -46,8 +46,8 @@ typedef struct ffd_run_options {
     void *user; /* passed to progress */
 } ffd_run_options;
 
-/* Sets run to defaults. size: sizeof(ffd_run_options) in the caller's header. */
-FFD_API void ffd_run_options_init(ffd_run_options *run, size_t size);
+/* Sets options to defaults. size: sizeof(ffd_run_options) in the caller's header. */
+FFD_API void ffd_run_options_init(ffd_run_options *options, size_t size);
 
 /* What to embed. Fill with ffd_embedding_desc_init, then set lattice and points. */
 typedef struct ffd_embedding_desc {
@@ -71,11 +71,11 @@ FFD_API void ffd_embedding_desc_init(ffd_embedding_desc *desc, size_t size);
 typedef struct ffd_embedding ffd_embedding;
 
 /* Finds u,v,w of all points, with the statuses and guarantees of ffd_locator_locate (ffd/embedding.h). The
-   caller destroys *embedding. run may be NULL. Memory: 25 bytes a point, plus the search structure of the
+   caller destroys *embedding. options may be NULL. Memory: 25 bytes a point, plus the search structure of the
    lattice; with FFD_OUTSIDE_EXTEND 140 more bytes for each point outside. Thread-safe. Errors:
    FFD_E_ARGUMENT, FFD_E_INVALID (a lattice with a cell without volume), FFD_E_EMBEDDING (FFD_OUTSIDE_ERROR;
    the message names the point), FFD_E_CANCELLED, FFD_E_MEMORY, FFD_E_LIMIT. */
-FFD_API ffd_status ffd_embedding_create(const ffd_embedding_desc *desc, const ffd_run_options *run,
+FFD_API ffd_status ffd_embedding_create(const ffd_embedding_desc *desc, const ffd_run_options *options,
                                         ffd_embedding **embedding, ffd_error *error);
 
 /* Destroys the embedding and sets *embedding to NULL. embedding and *embedding may be NULL. */
@@ -98,14 +98,14 @@ FFD_API const uint8_t *ffd_embedding_get_status(const ffd_embedding *embedding);
      moved control points.
    - in: the N points that were embedded. out: N points; may be the same array as in.
    - gradients: NULL, or N x 9 doubles, row-major, d displacement_r / d p_c; F = I + gradient.
-   - run: may be NULL.
+   - options: may be NULL.
 
    A point that does not move (outside, invalid, or in the support of no moved control point) keeps its bits
    if in and out have the same type, and its gradient is 0. Finite points never give NaN. Thread-safe. Errors:
    FFD_E_ARGUMENT, FFD_E_INVALID (also if a result is too large for the type of out: the message names the
    first such point), FFD_E_CANCELLED, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_embedding_deform(const ffd_embedding *embedding, const ffd_lattice *moved, ffd_span in,
-                                        ffd_span out, double *gradients, const ffd_run_options *run,
+                                        ffd_span out, double *gradients, const ffd_run_options *options,
                                         ffd_error *error);
 
 /* As ffd_embedding_deform, for some of the points: vertices holds count indices below N in strictly ascending
@@ -113,7 +113,7 @@ FFD_API ffd_status ffd_embedding_deform(const ffd_embedding *embedding, const ff
    written. */
 FFD_API ffd_status ffd_embedding_deform_some(const ffd_embedding *embedding, const ffd_lattice *moved,
                                              const uint32_t *vertices, size_t count, ffd_span in,
-                                             ffd_span out, double *gradients, const ffd_run_options *run,
+                                             ffd_span out, double *gradients, const ffd_run_options *options,
                                              ffd_error *error);
 
 /* Lists the points that may move with any of the given control points (count indices, u fastest): all points
@@ -141,31 +141,31 @@ typedef struct ffd_csr {
    - weights: those of the deformed volume, n doubles; NULL: the weights at rest. If the lattice has moved
      weights, pass ffd_lattice_get_weights(moved, FFD_VOLUME_DEFORMED).
    - matrix: filled; the caller frees it with ffd_csr_free. It is empty after a failure.
-   - run: may be NULL.
+   - options: may be NULL.
 
    Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_INVALID (weights that are not positive and finite),
    FFD_E_CANCELLED, FFD_E_MEMORY, FFD_E_LIMIT. */
 FFD_API ffd_status ffd_embedding_basis(const ffd_embedding *embedding, const double *weights, ffd_csr *matrix,
-                                       const ffd_run_options *run, ffd_error *error);
+                                       const ffd_run_options *options, ffd_error *error);
 
 /* Frees the arrays of a matrix and sets it to zeros. */
 FFD_API void ffd_csr_free(ffd_csr *matrix);
 
 /* Multiplies that matrix with displacements of the control points, without storing it: dx = (dX/dQ) dq. dq: 3
-   doubles for each control point, u fastest. dx: N x 3 doubles; 0 for points that do not move. weights, run,
-   threads and errors: as for ffd_embedding_basis. */
+   doubles for each control point, u fastest. dx: N x 3 doubles; 0 for points that do not move. weights,
+   options, threads and errors: as for ffd_embedding_basis. */
 FFD_API ffd_status ffd_embedding_basis_times(const ffd_embedding *embedding, const double *weights,
-                                             const double *dq, double *dx, const ffd_run_options *run,
+                                             const double *dq, double *dx, const ffd_run_options *options,
                                              ffd_error *error);
 
 /* Multiplies the transposed matrix with a gradient, as adjoint methods need it, without storing the matrix:
    dfdq = (dX/dQ)^T dfdx. dfdx: N x 3 doubles; rows of points that do not move are not read. dfdq: 3 doubles
    for each control point, u fastest. Sums are formed in blocks of 4096 points, which are added in their
-   order: the result does not depend on the number of threads. weights, run, threads and errors: as for
+   order: the result does not depend on the number of threads. weights, options, threads and errors: as for
    ffd_embedding_basis. */
 FFD_API ffd_status ffd_embedding_basis_transposed(const ffd_embedding *embedding, const double *weights,
                                                   const double *dfdx, double *dfdq,
-                                                  const ffd_run_options *run, ffd_error *error);
+                                                  const ffd_run_options *options, ffd_error *error);
 
 /* Serialises an embedding, for the same version of the library on machines of the same byte order. *bytes are
  *size bytes; the caller frees them with ffd_free. Thread-safe. Errors: FFD_E_MEMORY. */
@@ -185,20 +185,20 @@ FFD_API ffd_status ffd_embedding_load(const void *bytes, size_t size, const ffd_
    - normals: the deformed unit normals at the tangents; count 0: none.
    - out: as many elements as in; may be the same array.
    - collapsed: NULL, or receives the number of elements whose result has no direction; they are copied.
-   - run: may be NULL.
+   - options: may be NULL.
 
    Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_CANCELLED, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_normals_deform(const double *gradients, ffd_span in, ffd_span out, size_t *collapsed,
-                                      const ffd_run_options *run, ffd_error *error);
+                                      const ffd_run_options *options, ffd_error *error);
 FFD_API ffd_status ffd_tangents_deform(const double *gradients, ffd_span normals, ffd_span in, ffd_span out,
-                                       size_t *collapsed, const ffd_run_options *run, ffd_error *error);
+                                       size_t *collapsed, const ffd_run_options *options, ffd_error *error);
 
 /* Evaluates C and, unless jacobians is NULL, its Jacobian at count u,v,w, as ffd_lattice_evaluate does. uvw
-   and xyz: count x 3 doubles; jacobians: count x 9 doubles, row-major. run may be NULL. Thread-safe. Errors:
-   FFD_E_ARGUMENT, FFD_E_CANCELLED, FFD_E_MEMORY. */
+   and xyz: count x 3 doubles; jacobians: count x 9 doubles, row-major. options may be NULL. Thread-safe.
+   Errors: FFD_E_ARGUMENT, FFD_E_CANCELLED, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_lattice_evaluate_many(const ffd_lattice *lattice, ffd_volume volume, const double *uvw,
                                              size_t count, double *xyz, double *jacobians,
-                                             const ffd_run_options *run, ffd_error *error);
+                                             const ffd_run_options *options, ffd_error *error);
 
 #ifdef __cplusplus
 }

@@ -16,7 +16,7 @@ extern "C" {
 /* The type of a member, and its range. */
 typedef enum ffd_member_kind {
     FFD_MEMBER_FLAG = 0, /* bool */
-    FFD_MEMBER_CHOICE,   /* an enum: the number of one of its words */
+    FFD_MEMBER_CHOICE,   /* an enum: the index of one of its words */
     FFD_MEMBER_FORMAT,   /* ffd_format, likewise */
     FFD_MEMBER_COUNT,    /* int, at least 0 */
     FFD_MEMBER_LENGTH,   /* double: at least 0 and finite */
@@ -25,7 +25,7 @@ typedef enum ffd_member_kind {
     FFD_MEMBER_BYTES,    /* uint64_t: a size in bytes */
     FFD_MEMBER_GATES,    /* unsigned: ffd_gate flags, with the limits of fail_on */
     FFD_MEMBER_TEXT,     /* const char * */
-    /* Lists: an array, and the number of its elements, size_t. */
+    /* Lists: an array, and the count of its elements, size_t. */
     FFD_MEMBER_TEXTS,
     FFD_MEMBER_SELECTORS, /* of texts (ffd_selector_check) */
     FFD_MEMBER_CLIPS,     /* of texts (ffd_clip_check) */
@@ -47,13 +47,13 @@ typedef struct ffd_member {
     const char *option; /* in manifests and for the program: "space"; NULL: neither has it */
     ffd_member_kind kind;
     size_t offset;            /* in ffd_deform_desc */
-    size_t second;            /* offset of a list's number, or of a distance's bool; else 0 */
+    size_t second;            /* offset of a list's count, or of a distance's bool; else 0 */
     const char *const *words; /* of a choice or format: in the order of the enum; of gates: their names, with
                                  "=" where a limit follows; ended by NULL; else NULL */
     unsigned traits;          /* ffd_member_trait flags */
 } ffd_member;
 
-/* Returns a member of the table, by its number from 0; NULL behind the last. Thread-safe. */
+/* Returns a member of the table, by its index from 0; NULL behind the last. Thread-safe. */
 FFD_API const ffd_member *ffd_deform_member(size_t index);
 
 /* Returns the member of an option, or NULL. Thread-safe. */

@@ -5,9 +5,9 @@
 #include <ffd/export.h>
 
 #define FFD_VERSION_MAJOR 0
-#define FFD_VERSION_MINOR 2
+#define FFD_VERSION_MINOR 3
 #define FFD_VERSION_PATCH 0
-#define FFD_VERSION "0.2.0"
+#define FFD_VERSION "0.3.0"
 
 #ifdef __cplusplus
 extern "C" {

@@ -1,7 +1,7 @@
-/* names.c - the names of numbers in public headers, as options, reports, pages and messages have them. */
+/* names.c - the names of values in public headers, as options, reports, pages and messages have them. */
 #include <ffd/job.h>
 
-#define NAME_OF(names, number) ((size_t)(number) < sizeof(names) / sizeof *(names) ? (names)[number] : NULL)
+#define NAME_OF(names, value) ((size_t)(value) < sizeof(names) / sizeof *(names) ? (names)[value] : NULL)
 
 const char *ffd_vertex_status_name(ffd_vertex_status status)
 {

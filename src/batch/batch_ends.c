@@ -170,7 +170,7 @@ static ffd_status report_task(const batch_run *run, ffd_report *report, pool_tas
 {
     const ffd_status status = complete_entry(run, task, error);
     return status ? status
-                  : ffd_report_add_text(report, task->number, task->entry.data, task->entry.size, error);
+                  : ffd_report_add_text(report, task->index, task->entry.data, task->entry.size, error);
 }
 
 static ffd_status show_task(batch_run *run, pool_task *task, ffd_error *error)

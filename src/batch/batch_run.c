@@ -38,7 +38,7 @@ static void add_task(batch_run *run, pool_task *task)
     batch_job *const job = &task->job;
     file_stamp stamp; /* of the mesh */
     run->tasks[run->count++] = task;
-    task->number = run->jobs++;
+    task->index = run->jobs++;
     check_row(run, job);
     if (job->error.status) {
         ffd_run_fail_task(task);

@@ -86,9 +86,9 @@ static bool is_whole(const journal_slot *slot)
     return ffd_hash_equal(&check, &slot->check);
 }
 
-static uint64_t slot_begin(uint64_t number)
+static uint64_t slot_begin(uint64_t index)
 {
-    return HEAD + number * sizeof(journal_slot);
+    return HEAD + index * sizeof(journal_slot);
 }
 
 static uint64_t figures_begin(uint64_t slots)
@@ -96,9 +96,9 @@ static uint64_t figures_begin(uint64_t slots)
     return slot_begin(slots);
 }
 
-static bool read_slot(const update_file *file, uint64_t number, journal_slot *slot)
+static bool read_slot(const update_file *file, uint64_t index, journal_slot *slot)
 {
-    return ffd_update_read(file, slot_begin(number), slot, sizeof *slot);
+    return ffd_update_read(file, slot_begin(index), slot, sizeof *slot);
 }
 
 /* Returns the first slot to try for a target. */
@@ -108,12 +108,12 @@ static uint64_t first_slot(const hash128 *target, uint64_t slots)
 }
 
 /* Finds the target's slot, or the free slot where it belongs. Returns false if there is none. */
-static bool find_slot(const update_file *file, uint64_t slots, const hash128 *target, uint64_t *number,
+static bool find_slot(const update_file *file, uint64_t slots, const hash128 *target, uint64_t *index,
                       journal_slot *slot)
 {
-    *number = first_slot(target, slots);
-    for (uint64_t i = 0; i < slots && !is_interrupted(i); i++, *number = (*number + 1) % slots) {
-        if (!read_slot(file, *number, slot))
+    *index = first_slot(target, slots);
+    for (uint64_t i = 0; i < slots && !is_interrupted(i); i++, *index = (*index + 1) % slots) {
+        if (!read_slot(file, *index, slot))
             return false;
         if (is_free(slot) || (is_whole(slot) && ffd_hash_equal(&slot->target, target)))
             return true;
@@ -121,9 +121,9 @@ static bool find_slot(const update_file *file, uint64_t slots, const hash128 *ta
     return false;
 }
 
-static bool write_slot(update_file *file, uint64_t number, const journal_slot *slot)
+static bool write_slot(update_file *file, uint64_t index, const journal_slot *slot)
 {
-    return ffd_update_write(file, slot_begin(number), slot, sizeof *slot);
+    return ffd_update_write(file, slot_begin(index), slot, sizeof *slot);
 }
 
 /* Returns the number of slots in the next read or write, from `first` on. */
@@ -262,8 +262,8 @@ ffd_status ffd_journal_open(const char *path, job_journal **journal, ffd_error *
 bool ffd_journal_find(job_journal *journal, const hash128 *target, job_record *record, byte_buffer *figures)
 {
     journal_slot slot;
-    uint64_t number;
-    if (!find_slot(journal->file, journal->slots, target, &number, &slot) || is_free(&slot))
+    uint64_t index;
+    if (!find_slot(journal->file, journal->slots, target, &index, &slot) || is_free(&slot))
         return false;
     *record = slot.record;
     return !figures || read_figures(journal->file, &slot, figures);
@@ -273,16 +273,16 @@ bool ffd_journal_find(job_journal *journal, const hash128 *target, job_record *r
 static bool copy_table(const job_journal *journal, job_journal *copy)
 {
     journal_slot slot, other;
-    uint64_t number;
+    uint64_t index;
     byte_buffer figures = {0};
     bool copied = write_empty(copy->file, copy->slots);
     for (uint64_t i = 0; i < journal->slots && copied; i++) {
         copied = !is_interrupted(i) && read_slot(journal->file, i, &slot);
         if (!copied || is_free(&slot) || !is_whole(&slot) || !read_figures(journal->file, &slot, &figures))
             continue;
-        copied = find_slot(copy->file, copy->slots, &slot.target, &number, &other) &&
+        copied = find_slot(copy->file, copy->slots, &slot.target, &index, &other) &&
                  write_figures(copy, figures.data, figures.size, &slot) &&
-                 write_slot(copy->file, number, &slot);
+                 write_slot(copy->file, index, &slot);
         copy->used++;
         copy->live += slot.size;
     }
@@ -323,14 +323,14 @@ bool ffd_journal_put(job_journal *journal, const hash128 *target, const job_reco
                      const char *figures, size_t size)
 {
     journal_slot slot = {.target = *target, .record = *record}, there;
-    uint64_t number;
+    uint64_t index;
     if (size > FIGURES_MOST || !reserve_slot(journal) ||
-        !find_slot(journal->file, journal->slots, target, &number, &there))
+        !find_slot(journal->file, journal->slots, target, &index, &there))
         return false;
     journal->used += is_free(&there);
     journal->live += size - (is_free(&there) ? 0 : there.size);
     /* Write the figures before the slot that refers to them. */
-    return write_figures(journal, figures, size, &slot) && write_slot(journal->file, number, &slot);
+    return write_figures(journal, figures, size, &slot) && write_slot(journal->file, index, &slot);
 }
 
 void ffd_journal_close(job_journal **journal)

@@ -31,7 +31,7 @@ typedef enum task_state {
 /* A job of the batch, from reading to its end. */
 typedef struct pool_task {
     batch_job job;
-    uint64_t number;        /* in the run, from 0 */
+    uint64_t index;         /* in the run, from 0 */
     hash128 target;         /* identity of the output */
     hash128 picture_target; /* the journal's key for the picture of a job without an output */
     hash128 mesh;           /* hash of the input's name: a worker prefers the mesh that it has */

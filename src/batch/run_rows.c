@@ -82,10 +82,10 @@ ffd_status ffd_run_rows_place(run_rows *rows, const batch_desc *desc, ffd_error 
 
 hash128 ffd_run_rows_target(const run_rows *rows, uint64_t row, const hash128 *output)
 {
-    unsigned char number[8];
-    store_u64(number, row);
+    unsigned char index[8];
+    store_u64(index, row);
     const hash_block blocks[] = {{rows->file.bytes, sizeof rows->file.bytes},
-                                 {number, sizeof number},
+                                 {index, sizeof index},
                                  {output, output ? sizeof *output : 0}};
     return ffd_hash_blocks(blocks, 3);
 }

@@ -137,7 +137,7 @@ ffd_status ffd_run_view_add(run_view *view, const pool_task *task, const byte_bu
     TRY(ffd_index_entry_read(text, &entry, error));
     ffd_settings_show(&task->job.desc, &settings);
     char *const shown = ffd_buffer_finish(&settings);
-    entry.row.number = task->job.line;
+    entry.row.line = task->job.line;
     entry.row.settings = shown;
     entry.row.picture = task->end.has_picture ? task->picture_name : NULL;
     ffd_status status = shown ? ffd_index_add(&view->index, &entry.row, error) : ffd_fail_memory(error);

@@ -121,7 +121,7 @@ static void log_error(batch_worker *worker, const ffd_error *error)
 /* The row for a job's positions. */
 typedef struct job_row {
     row_array array;
-    uint64_t number;
+    uint64_t index;
     bool dry;          /* write nothing */
     ffd_error failure; /* why it was not written */
 } job_row;
@@ -131,7 +131,7 @@ static ffd_status take_positions(void *user, const double *positions, size_t cou
 {
     job_row *const row = user;
     return row->dry ? ffd_row_check(&row->array, positions, count, &row->failure)
-                    : ffd_row_write(&row->array, row->number, positions, count, &row->failure);
+                    : ffd_row_write(&row->array, row->index, positions, count, &row->failure);
 }
 
 /* Hashes the results of a job: the output (known: its hash; NULL: read it) and the row. */
@@ -145,7 +145,7 @@ static bool hash_results(const ffd_deform_desc *desc, const hash128 *known, cons
         if (ffd_fingerprint_output(desc, &parts[count++], NULL))
             return false;
     }
-    if (row && ffd_row_hash(&row->array, row->number, &parts[count++], NULL))
+    if (row && ffd_row_hash(&row->array, row->index, &parts[count++], NULL))
         return false;
     *hash = count == 1 ? parts[0] : ffd_hash(parts, count * sizeof *parts);
     return true;
@@ -256,12 +256,12 @@ static ffd_status take_row(const wire_task *task, const job_row *row, const ffd_
     if (!row)
         return FFD_OK;
     answer->end.took_row =
-        task->wishes.resume || desc->force || desc->if_changed || !ffd_row_is_done(&row->array, row->number);
+        task->wishes.resume || desc->force || desc->if_changed || !ffd_row_is_done(&row->array, row->index);
     return answer->end.took_row
                ? FFD_OK
                : ffd_fail_file(error, FFD_E_EXISTS, row->array.path,
                                "row %" PRIu64 " is there already ({force} replaces it, {resume} goes on)",
-                               row->number);
+                               row->index);
 }
 
 /* Refuses to replace a picture, before anything is written. */
@@ -449,7 +449,7 @@ static ffd_status run_task(batch_worker *worker, const wire_task *task, wire_ans
                            ffd_job_result *result)
 {
     ffd_deform_desc *const desc = &worker->desc;
-    job_row row = {.array = task->rows, .number = task->row, .dry = task->wishes.dry};
+    job_row row = {.array = task->rows, .index = task->row, .dry = task->wishes.dry};
     job_log log = {&worker->log, desc->input.path, task->wishes.quiet, task->wishes.verbose};
     row.array.path = worker->texts.rows;
     desc->log = log_line;

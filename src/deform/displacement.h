@@ -48,13 +48,13 @@ typedef struct kept_cells {
                                     memory, 0 is 1 */
     const ffd_lattice *lattice;  /* the lattice of the cells; NULL: empty */
     cell_use use;                /* what the numbers are for */
-    size_t count, numbers;       /* capacity in cells, and numbers for each cell */
+    size_t count, width;         /* capacity in cells, and numbers for each cell */
     size_t keys[KEPT_CELLS];     /* 1 + the key of a batch_cell; 0: none */
     uint16_t places[KEPT_CELLS]; /* index of its numbers; assigned in ascending order, so that few pages are
                                     touched */
     uint16_t used;               /* number of used places */
     cell_motion motions[KEPT_CELLS];
-    double all_numbers[KEPT_NUMBERS];
+    double values[KEPT_NUMBERS];
 } kept_cells;
 
 /* A cache of cell_turns: the answers for many cells take little memory. */

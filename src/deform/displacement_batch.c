@@ -31,7 +31,7 @@ static size_t take_cell(const size_t span[3], size_t key, displacement_scratch *
 
 /* A non-empty span, with its two knots. */
 typedef struct span_range {
-    size_t number;
+    size_t index;
     double first, last;
 } span_range;
 
@@ -57,7 +57,7 @@ static size_t find_cell(const ffd_lattice *lattice, const double uvw[3], displac
             const double *const span = knots[a].t + knots[a].spans[index];
             cell[a] = (span_range){index, span[0], span[1]};
         }
-    const size_t span[3] = {cell[0].number, cell[1].number, cell[2].number};
+    const size_t span[3] = {cell[0].index, cell[1].index, cell[2].index};
     return take_cell(span, (span[2] * knots[1].span_count + span[1]) * knots[0].span_count + span[0],
                      scratch);
 }
@@ -137,12 +137,12 @@ static void begin_cells(const ffd_lattice *lattice, cell_use use, kept_cells *ke
 {
     if (kept->lattice == lattice && kept->use == use)
         return;
-    const size_t numbers = ffd_displacement_cell_numbers(lattice, use) + 1;
+    const size_t width = ffd_displacement_cell_width(lattice, use) + 1;
     kept->lattice = lattice;
     kept->use = use;
-    kept->numbers = numbers;
+    kept->width = width;
     const size_t share = KEPT_IN_ALL / (size_t)(kept->threads > 2 ? kept->threads : 2);
-    kept->count = share / numbers < KEPT_CELLS ? share / numbers : KEPT_CELLS;
+    kept->count = share / width < KEPT_CELLS ? share / width : KEPT_CELLS;
     if (kept->count == 0)
         kept->count = 1;
     kept->used = 0;
@@ -168,7 +168,7 @@ static cell_motion find_numbers(const ffd_lattice *lattice, extraction_kernel *e
     const size_t slot = (cell->key * 0x9e3779b97f4a7c15u >> 40) % kept->count;
     if (kept->keys[slot] == 0)
         kept->places[slot] = kept->used++;
-    double *const kept_numbers = kept->all_numbers + kept->places[slot] * kept->numbers;
+    double *const kept_numbers = kept->values + kept->places[slot] * kept->width;
     *numbers = kept_numbers;
     if (kept->keys[slot] == cell->key + 1)
         return kept->motions[slot];

@@ -215,7 +215,7 @@ static bool needs_rest(const ffd_lattice *lattice, cell_use use)
 }
 
 /* Return the number of doubles for the points and for the slopes of a field in a cell. */
-static size_t point_numbers(const ffd_lattice *lattice)
+static size_t point_width(const ffd_lattice *lattice)
 {
     size_t count = 3;
     for (int a = 0; a < 3; a++)
@@ -223,22 +223,22 @@ static size_t point_numbers(const ffd_lattice *lattice)
     return count;
 }
 
-static size_t slope_numbers(const ffd_lattice *lattice)
+static size_t slope_width(const ffd_lattice *lattice)
 {
     const size_t degree = (size_t)lattice->knots[0].degree;
-    return point_numbers(lattice) / (degree + 1) * degree;
+    return point_width(lattice) / (degree + 1) * degree;
 }
 
-static size_t field_numbers(const ffd_lattice *lattice, cell_use use)
+static size_t field_width(const ffd_lattice *lattice, cell_use use)
 {
-    return point_numbers(lattice) + (use == CELL_VALUES ? 0 : slope_numbers(lattice));
+    return point_width(lattice) + (use == CELL_VALUES ? 0 : slope_width(lattice));
 }
 
 /* Brings the control points of a field, which numbers hold, into the form of the kernel. */
 static void extract_field(const ffd_lattice *lattice, extraction_kernel *extract, const size_t index[3],
                           cell_use use, double *numbers)
 {
-    const size_t count = point_numbers(lattice);
+    const size_t count = point_width(lattice);
     int degree[3];
     const double *extraction[3];
     for (int a = 0; a < 3; a++) {
@@ -251,9 +251,9 @@ static void extract_field(const ffd_lattice *lattice, extraction_kernel *extract
     extract(degree, extraction, numbers, use == CELL_VALUES ? NULL : numbers + count);
 }
 
-size_t ffd_displacement_cell_numbers(const ffd_lattice *lattice, cell_use use)
+size_t ffd_displacement_cell_width(const ffd_lattice *lattice, cell_use use)
 {
-    return (needs_rest(lattice, use) ? 2 : 1) * field_numbers(lattice, use);
+    return (needs_rest(lattice, use) ? 2 : 1) * field_width(lattice, use);
 }
 
 cell_motion ffd_displacement_cell_points(const ffd_lattice *lattice, extraction_kernel *extract,
@@ -267,7 +267,7 @@ cell_motion ffd_displacement_cell_points(const ffd_lattice *lattice, extraction_
     ffd_lattice_cell_points(lattice, lattice->difference, span, numbers);
     extract_field(lattice, extract, index, use, numbers);
     if (needs_rest(lattice, use)) {
-        double *const rest = numbers + field_numbers(lattice, use);
+        double *const rest = numbers + field_width(lattice, use);
         ffd_lattice_cell_points(lattice, lattice->rest, span, rest);
         extract_field(lattice, extract, index, use, rest);
     }
@@ -284,8 +284,8 @@ void ffd_displacement_cell_begin(const ffd_lattice *lattice, const size_t index[
         cell->first[a] = knots->t[span];
         cell->width[a] = knots->t[span + 1] - knots->t[span];
     }
-    const size_t points = point_numbers(lattice);
-    const double *const rest = numbers + field_numbers(lattice, use);
+    const size_t points = point_width(lattice);
+    const double *const rest = numbers + field_width(lattice, use);
     cell->difference = (kernel_field){numbers, numbers + points};
     cell->rest = needs_rest(lattice, use) ? (kernel_field){rest, rest + points} : (kernel_field){NULL, NULL};
     cell->inverse = lattice->has_uvw_by_p ? lattice->uvw_by_p : NULL;

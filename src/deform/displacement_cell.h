@@ -35,7 +35,7 @@ typedef enum cell_use {
 } cell_use;
 
 /* Returns the number of doubles that the kernel's fields need for a cell of the lattice. */
-size_t ffd_displacement_cell_numbers(const ffd_lattice *lattice, cell_use use);
+size_t ffd_displacement_cell_width(const ffd_lattice *lattice, cell_use use);
 /* Returns how the cell with these indices of non-empty spans moves. If its points have different
    displacements, also fills numbers, with room for one more that the kernel may write. */
 cell_motion ffd_displacement_cell_points(const ffd_lattice *lattice, extraction_kernel *extract,

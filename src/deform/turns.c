@@ -100,7 +100,7 @@ static void take_steps(const double *points, int a, size_t order[3], double *ste
 static double slope_factor(const turn_cell *cell, int a)
 {
     const knot_vector *const knots = &cell->lattice->knots[a];
-    const double *const t = knots->t + knots->spans[cell->number[a]];
+    const double *const t = knots->t + knots->spans[cell->index[a]];
     return knots->degree / (t[1] - t[0]);
 }
 
@@ -181,7 +181,7 @@ static void make_field(const turn_cell *cell, bool deformed, turn_scratch *scrat
     int span[3], degree[3];
     cell_order(cell, order);
     const size_t count = 3 * net_points(order);
-    ffd_displacement_spans(lattice, cell->number, span);
+    ffd_displacement_spans(lattice, cell->index, span);
     ffd_lattice_cell_points(lattice, lattice->rest, span, scratch->field);
     if (deformed)
         ffd_lattice_cell_points(lattice, lattice->difference, span, scratch->points);
@@ -189,7 +189,7 @@ static void make_field(const turn_cell *cell, bool deformed, turn_scratch *scrat
         scratch->field[n] += scratch->points[n];
     for (int a = 0; a < 3; a++) {
         degree[a] = lattice->knots[a].degree;
-        extraction[a] = lattice->knots[a].extractions + cell->number[a] * order[a] * order[a];
+        extraction[a] = lattice->knots[a].extractions + cell->index[a] * order[a] * order[a];
     }
     scratch->field[count] = 0;
     cell->kernels->extract(degree, extraction, scratch->field, NULL);

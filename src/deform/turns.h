@@ -24,7 +24,7 @@ typedef struct cell_kernels {
 /* A cell with unequal displacements. */
 typedef struct turn_cell {
     const ffd_lattice *lattice;
-    const size_t *number; /* its indices among the non-empty spans */
+    const size_t *index; /* its indices among the non-empty spans */
     const cell_kernels *kernels;
 } turn_cell;
 

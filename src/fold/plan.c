@@ -25,11 +25,11 @@ void ffd_fold_plan_free(fold_plan *plan)
     }
 }
 
-void ffd_fold_cell_at(const fold_plan *plan, size_t number, size_t index[3], int span[3])
+void ffd_fold_cell_at(const fold_plan *plan, size_t cell, size_t index[3], int span[3])
 {
-    index[0] = number % plan->cells[0];
-    index[1] = number / plan->cells[0] % plan->cells[1];
-    index[2] = number / plan->cells[0] / plan->cells[1];
+    index[0] = cell % plan->cells[0];
+    index[1] = cell / plan->cells[0] % plan->cells[1];
+    index[2] = cell / plan->cells[0] / plan->cells[1];
     for (int a = 0; a < 3; a++)
         span[a] = plan->lattice->knots[a].spans[index[a]];
 }

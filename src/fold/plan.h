@@ -29,8 +29,8 @@ ffd_status ffd_fold_plan_make(const ffd_lattice *lattice, fold_plan *plan, ffd_e
 /* Frees what ffd_fold_plan_make allocated. */
 void ffd_fold_plan_free(fold_plan *plan);
 
-/* Converts the number of a cell (u fastest) to its index and its span in each direction. */
-void ffd_fold_cell_at(const fold_plan *plan, size_t number, size_t index[3], int span[3]);
+/* Converts the index of a cell among all (u fastest) to its index and its span in each direction. */
+void ffd_fold_cell_at(const fold_plan *plan, size_t cell, size_t index[3], int span[3]);
 
 /* Copies the control points of a cell of a volume and, unless weights is NULL, their weights. matrix:
    receives pointers to the extraction matrices of the cell, which belong to the plan. */

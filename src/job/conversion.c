@@ -96,16 +96,16 @@ static ffd_status check_range(const mesh_model *model, const model_target *targe
 
 /* Sets vectors with a number above a limit to zero, and those that are not finite unless the target takes
    them. Returns their number. */
-static size_t clear_unfit(double *vectors, size_t count, size_t numbers, double limit,
+static size_t clear_unfit(double *vectors, size_t count, size_t width, double limit,
                           const model_target *target)
 {
     size_t cleared = 0;
-    for (size_t i = 0; vectors && i < count; i++, vectors += numbers) {
+    for (size_t i = 0; vectors && i < count; i++, vectors += width) {
         bool fit = true;
-        for (size_t c = 0; c < numbers; c++)
+        for (size_t c = 0; c < width; c++)
             fit = fit && (isfinite(vectors[c]) ? fabs(vectors[c]) <= limit : target->takes_not_finite);
         cleared += !fit;
-        for (size_t c = 0; c < numbers && !fit; c++)
+        for (size_t c = 0; c < width && !fit; c++)
             vectors[c] = 0;
     }
     return cleared;

@@ -341,7 +341,7 @@ static ffd_status deform_and_save(deform_job *job, ffd_job_result *result, ffd_e
 }
 
 /* Several morph targets share the locations of the vertices through a cache of the job's own. */
-static ffd_status share_locations(ffd_deform_desc *desc, ffd_job_cache **cache, ffd_error *error)
+static ffd_status cache_locations(ffd_deform_desc *desc, ffd_job_cache **cache, ffd_error *error)
 {
     *cache = NULL;
     if (!desc->morphs || ffd_job_cache_holds_meshes(desc->cache))
@@ -360,7 +360,7 @@ ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, f
     if (!status && !ffd_deform_desc_writes(&call.desc)) /* normals are not written */
         call.desc.normals = FFD_NORMALS_KEEP;
     if (!status)
-        status = share_locations(&call.desc, &cache, &call.result.error);
+        status = cache_locations(&call.desc, &cache, &call.result.error);
     if (!status) {
         status = ffd_deform_job_begin(&job, &call.desc, false, &call.result);
         if (!status)

@@ -128,7 +128,7 @@ ffd_status ffd_deform_job_open(deform_job *job, unsigned needs, ffd_job_result *
     ffd_status status = ffd_deform_job_load_chain(job, needs, &outside, desc->cache, error);
     if (!status)
         job->document = ffd_job_cache_take_mesh(desc->cache, desc, only_positions);
-    job->document_is_shared = job->document;
+    job->document_is_cached = job->document;
     if (!status && !job->document)
         status = open_mesh(job, only_positions, error);
     if (!status && desc->rig == FFD_RIG_FOLLOW && !job->document->format->places)

@@ -67,7 +67,7 @@ static ffd_status pass_over_stored(deform_job *job, mesh_pass *pass, pass_totals
     ffd_job_cache *const cache = keeps ? job->desc->cache : NULL;
     const hash128 rest = located_in(&job->chain.links[0]);
     pass->locations =
-        ffd_job_cache_locations(cache, job->document, job->document_is_shared, &rest, &pass->is_located);
+        ffd_job_cache_locations(cache, job->document, job->document_is_cached, &rest, &pass->is_located);
     pass->embedding = job->desc->embedding.path ? &job->embedding : NULL;
     pass->deformed = pass->deformed ? pass->deformed : job->positions;
     if (!pass->is_located && !job->desc->embedding.path)

@@ -52,7 +52,7 @@ static ffd_status write_things(const mesh_listing *listing, json_text *json, ffd
         if (is_worth_telling(&listing->things[i], named)) {
             ffd_json_object(json, NULL, false);
             ffd_json_string(json, "kind", ffd_selector_kind_name(listing->things[i].kind));
-            ffd_json_count(json, "number", listing->things[i].number);
+            ffd_json_count(json, "number", listing->things[i].index);
             write_drawing(&listing->things[i], json);
         }
     ffd_json_end(json, ']');

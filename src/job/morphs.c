@@ -145,7 +145,7 @@ static ffd_status add_target(deform_job *job, size_t k, const mesh_log *log, ffd
         name_target(name, all->lattice_count, error);
     ffd_chain_end_alone(&job->chain);
     job->chain = whole;
-    job->document_is_shared = true; /* the cache may know the locations of its vertices from now on */
+    job->document_is_cached = true; /* the cache may know the locations of its vertices from now on */
     job->desc = all;
     job->log = job->file_log = *log;
     return status;

@@ -30,10 +30,10 @@ void ffd_border_point(const border_face *face, const size_t index[3], const doub
         point[c] = 0;
     for (int i = 0; i <= degree; i++) {
         at[face->direction] = (size_t)(face->span - degree + i);
-        const size_t number = at[0] + lattice->size[0] * (at[1] + lattice->size[1] * at[2]);
-        const double h = face->value[i] * (face->weights ? face->weights[number] : 1);
+        const size_t flat = at[0] + lattice->size[0] * (at[1] + lattice->size[1] * at[2]);
+        const double h = face->value[i] * (face->weights ? face->weights[flat] : 1);
         for (int a = 0; a < 3; a++)
-            point[a] += h * (face->points[3 * number + (size_t)a] - origin[a]);
+            point[a] += h * (face->points[3 * flat + (size_t)a] - origin[a]);
         point[3] += h;
     }
 }

@@ -15,7 +15,7 @@ typedef struct point_edit {
                        difference */
 } point_edit;
 
-static size_t numbers_of(const point_edit *edit)
+static size_t width_of(const point_edit *edit)
 {
     return edit->kind == EDIT_WEIGHTS ? 1 : 3;
 }
@@ -65,7 +65,7 @@ static void set_values(ffd_lattice *lattice, const point_edit *edit)
     for (size_t i = 0; i < edit->count; i++) {
         const size_t point = point_of(edit, i);
         double *const p = lattice->deformed + 3 * point, *const d = lattice->difference + 3 * point;
-        const double *const value = edit->values + numbers_of(edit) * i;
+        const double *const value = edit->values + width_of(edit) * i;
         if (edit->kind == EDIT_WEIGHTS) {
             edit->before[i] = lattice->deformed_weights[point];
             lattice->deformed_weights[point] = *value;
@@ -106,12 +106,12 @@ static void drop_weights(ffd_lattice *lattice)
 /* Sets the values, which may be lent by the lattice; a failure changes nothing. */
 static ffd_status set_or_restore(ffd_lattice *lattice, point_edit *edit, ffd_error *error)
 {
-    const size_t numbers = numbers_of(edit), kept = numbers == 1 ? 1 : 6;
-    edit->before = ffd_alloc(edit->count, (kept + numbers) * sizeof(double));
+    const size_t width = width_of(edit), kept = width == 1 ? 1 : 6;
+    edit->before = ffd_alloc(edit->count, (kept + width) * sizeof(double));
     if (!edit->before)
         return ffd_fail_memory(error);
     double *const values = edit->before + kept * edit->count;
-    memcpy(values, edit->values, numbers * edit->count * sizeof *values);
+    memcpy(values, edit->values, width * edit->count * sizeof *values);
     edit->values = values;
     set_values(lattice, edit);
     const ffd_status status = ffd_lattice_finish_moved(lattice, error);

@@ -267,7 +267,7 @@ static ffd_status observe(const move_work *work, size_t index, const lattice_mov
                           const ready_move *ready, const mirror_plane *plane)
 {
     const move_step step = {.move = move,
-                            .number = index,
+                            .index = index,
                             .ready = ready,
                             .plane = plane,
                             .selected = work->selected,

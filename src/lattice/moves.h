@@ -10,7 +10,7 @@
 /* One move, or its mirror image, before it is applied. */
 typedef struct move_step {
     const lattice_move *move;      /* as in the file */
-    size_t number;                 /* index of the move */
+    size_t index;                  /* of the move */
     const ready_move *ready;       /* in world units */
     const mirror_plane *plane;     /* NULL: not a mirror image */
     const unsigned char *selected; /* one byte for each control point */

@@ -23,7 +23,7 @@ ffd_status ffd_listing_begin(const mesh_document *document, mesh_listing *listin
     ffd_status status =
         ffd_budget_take(&budget, count, 3 * sizeof *listing->xyz + sizeof *listing->seen, error);
     if (!status)
-        status = ffd_parts_number(document, &listing->first, error);
+        status = ffd_first_vertices(document, &listing->first, error);
     if (status)
         return status;
     listing->xyz = ffd_alloc((size_t)count, 3 * sizeof *listing->xyz);
@@ -59,7 +59,7 @@ ffd_status ffd_listing_add(mesh_listing *listing, selector_kind kind, const char
         copy[size] = 0;
     }
     listing->things[listing->count++] =
-        (mesh_thing){.kind = kind, .name = copy, .number = index, .bounds = ffd_bounds_empty()};
+        (mesh_thing){.kind = kind, .name = copy, .index = index, .bounds = ffd_bounds_empty()};
     return FFD_OK;
 }
 

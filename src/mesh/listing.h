@@ -9,7 +9,7 @@
 typedef struct mesh_thing {
     selector_kind kind;
     char *name;               /* owned; NULL: no name */
-    size_t number;            /* if it has no name: index in its kind, from 0 */
+    size_t index;             /* if it has no name: index in its kind, from 0 */
     uint64_t vertices, faces; /* that it draws; each vertex counted once */
     ffd_bounds bounds;        /* of its finite vertices, in the space of the lattice */
 } mesh_thing;

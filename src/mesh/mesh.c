@@ -48,7 +48,7 @@ uint64_t ffd_mesh_vertex_count(const mesh_document *document)
     return count;
 }
 
-ffd_status ffd_parts_number(const mesh_document *document, size_t **first, ffd_error *error)
+ffd_status ffd_first_vertices(const mesh_document *document, size_t **first, ffd_error *error)
 {
     size_t index = 0;
     *first = ffd_alloc(document->part_count, sizeof **first);
@@ -113,7 +113,7 @@ void ffd_mesh_describe_splats(const mesh_document *document, json_text *json)
 ffd_status ffd_mesh_faces_take(const mesh_faces *faces, uint64_t corners, memory_budget *budget,
                                ffd_error *error)
 {
-    const size_t index = faces->numbers ? sizeof *faces->numbers : 0;
+    const size_t index = faces->vertices ? sizeof *faces->vertices : 0;
     ffd_status status =
         ffd_budget_take(budget, faces->vertex_count, 3 * sizeof *faces->positions + index, error);
     if (!status)
@@ -143,6 +143,6 @@ void ffd_mesh_faces_free(mesh_faces *faces)
     ffd_free(faces->positions);
     ffd_free(faces->start);
     ffd_free(faces->corners);
-    ffd_free(faces->numbers);
+    ffd_free(faces->vertices);
     memset(faces, 0, sizeof *faces);
 }

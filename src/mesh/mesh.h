@@ -113,20 +113,20 @@ typedef struct mesh_faces {
     size_t vertex_count, face_count;
     double *positions; /* 3*vertex_count, in the space of the lattice */
     size_t *start;     /* face_count+1 offsets into corners, the first 0 even if there are no faces */
-    uint32_t *corners; /* start[face_count] vertex numbers */
-    /* vertex_count entries, ascending: if the corners refer only to the vertices of faces, the numbers of
+    uint32_t *corners; /* start[face_count] indices of vertices */
+    /* vertex_count entries, ascending: if the corners refer only to the vertices of faces, the indices of
        these vertices in the document. NULL: corners refer to all vertices of the document. */
-    uint32_t *numbers;
+    uint32_t *vertices;
     size_t lines, points; /* numbers of primitives other than faces */
     /* Number of vertices in no face because an earlier vertex at the same position represents them (formats
        that list a vertex for every corner); topology does not count them. */
     size_t repeated;
 } mesh_faces;
 
-/* Returns the number in the document of a vertex of faces. */
+/* Returns the index in the document of a vertex of faces. */
 static inline uint32_t ffd_faces_document_vertex(const mesh_faces *faces, uint32_t vertex)
 {
-    return faces->numbers ? faces->numbers[vertex] : vertex;
+    return faces->vertices ? faces->vertices[vertex] : vertex;
 }
 
 typedef struct mesh_document mesh_document;
@@ -227,7 +227,7 @@ typedef ffd_status mesh_faces_function(const mesh_document *document, mesh_state
                                        ffd_error *error);
 typedef struct vertex_marks vertex_marks; /* mixed_faces.h */
 /* Gets the faces whose vertices do not all have equal marks, and possibly others, with the positions of
-   their vertices: only of these vertices if faces->numbers is set, otherwise the positions of other
+   their vertices: only of these vertices if faces->vertices is set, otherwise the positions of other
    vertices are undefined. Vertices at the same position have equal marks. Errors: FFD_E_MEMORY,
    FFD_E_LIMIT, and those of the file's content. */
 typedef ffd_status mesh_mixed_faces_function(const mesh_document *document, mesh_state state,
@@ -384,8 +384,8 @@ uint64_t ffd_mesh_vertex_count(const mesh_document *document);
    are any. */
 void ffd_mesh_describe_splats(const mesh_document *document, json_text *json);
 
-/* Computes the number in the document of the first vertex of each part; for a part that repeats positions,
+/* Computes the index in the document of the first vertex of each part; for a part that repeats positions,
    that of the repeated part. The caller frees *first, which is NULL after a failure. Errors: FFD_E_MEMORY. */
-ffd_status ffd_parts_number(const mesh_document *document, size_t **first, ffd_error *error);
+ffd_status ffd_first_vertices(const mesh_document *document, size_t **first, ffd_error *error);
 
 #endif

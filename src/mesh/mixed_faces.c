@@ -105,7 +105,7 @@ static ffd_status make_set(const mesh_document *document, const face_list *lists
 }
 
 /* Renumbers the corners by the set, and lists the vertices of the set. */
-static void number_corners(const vertex_set *set, mesh_faces *faces)
+static void index_corners(const vertex_set *set, mesh_faces *faces)
 {
     size_t count = 0;
     for (size_t c = 0; c < faces->start[faces->face_count]; c++)
@@ -113,7 +113,7 @@ static void number_corners(const vertex_set *set, mesh_faces *faces)
     for (size_t w = 0; w < set->word_count; w++)
         for (unsigned bit = 0; bit < 64 && set->words[w] >> bit; bit++)
             if (set->words[w] >> bit & 1)
-                faces->numbers[count++] = (uint32_t)(64 * w + bit);
+                faces->vertices[count++] = (uint32_t)(64 * w + bit);
 }
 
 static void fill_faces(const face_list *lists, size_t count, mesh_faces *faces)
@@ -149,13 +149,13 @@ ffd_status ffd_face_lists_narrow(const mesh_document *document, const face_list 
     vertex_set set;
     ffd_status status =
         make_set(document, lists, count, faces->vertex_count, &set, &faces->vertex_count, error);
-    faces->numbers = status ? NULL : ffd_alloc(faces->vertex_count, sizeof *faces->numbers);
-    if (!status && !faces->numbers)
+    faces->vertices = status ? NULL : ffd_alloc(faces->vertex_count, sizeof *faces->vertices);
+    if (!status && !faces->vertices)
         status = ffd_fail_memory(error);
     if (!status)
         status = ffd_face_lists_join(document, lists, count, faces, error);
     if (!status)
-        number_corners(&set, faces);
+        index_corners(&set, faces);
     else
         ffd_mesh_faces_free(faces);
     free_set(&set);

@@ -5,7 +5,7 @@
 
 void ffd_model_free(mesh_model *model)
 {
-    ffd_free(model->numbers);
+    ffd_free(model->indices);
     ffd_free(model->positions);
     ffd_free(model->texcoords);
     ffd_free(model->normals);
@@ -34,15 +34,15 @@ ffd_status ffd_model_take(mesh_model *model, uint64_t count, uint64_t size, ffd_
     return model->budget ? ffd_budget_take(model->budget, count, size, error) : FFD_OK;
 }
 
-static ffd_status make(mesh_model *model, double **values, size_t count, size_t numbers, ffd_error *error)
+static ffd_status make(mesh_model *model, double **values, size_t count, size_t width, ffd_error *error)
 {
     if (count > MODEL_VALUES_MAX)
         return ffd_fail(error, FFD_E_LIMIT, "a conversion takes at most %" PRIu32 " vertices or normals",
                         MODEL_VALUES_MAX);
-    const ffd_status status = ffd_model_take(model, count, numbers * sizeof **values, error);
+    const ffd_status status = ffd_model_take(model, count, width * sizeof **values, error);
     if (count == 0 || status)
         return status;
-    *values = ffd_alloc_zero(count, numbers * sizeof **values);
+    *values = ffd_alloc_zero(count, width * sizeof **values);
     return *values ? FFD_OK : ffd_fail_memory(error);
 }
 
@@ -110,7 +110,7 @@ ffd_status ffd_model_begin_run(mesh_model *model, const char *object, const char
     return add_run(model, run, error);
 }
 
-ffd_status ffd_model_number_material(mesh_model *model, uint32_t index, ffd_error *error)
+ffd_status ffd_model_set_material(mesh_model *model, uint32_t index, ffd_error *error)
 {
     model_run run = model->runs[model->run_count - 1];
     if (run.material_index == index)

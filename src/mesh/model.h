@@ -103,9 +103,9 @@ typedef struct mesh_model {
     model_list lists[MODEL_KINDS];
     model_run *runs;
     size_t run_count, run_capacity;
-    bool wants_details;   /* set by the caller who needs material numbers, and: */
-    uint64_t *numbers;    /* numbers of positions in the order of `ffd embed`; NULL: they are in that order */
-    size_t odd_texcoords; /* faces whose texture coordinates do not fit their corners: they are left out */
+    bool wants_details;     /* set by the caller who needs material indices, and: */
+    uint64_t *indices;      /* of positions in the order of `ffd embed`; NULL: they are in that order */
+    size_t odd_texcoords;   /* faces whose texture coordinates do not fit their corners: they are left out */
     size_t other_texcoords; /* primitives without the set that their texture uses: TEXCOORD_0 is taken */
     size_t nodes_left;      /* nodes that a model cannot represent (GPU instances); refused unless
                                wants_details */
@@ -127,9 +127,9 @@ ffd_status ffd_model_make_colours(mesh_model *model, ffd_error *error);
 /* Begins a run with these names; NULL or "": no name. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_model_begin_run(mesh_model *model, const char *object, const char *group, const char *material,
                                ffd_error *error);
-/* Sets the material number of the current run. Begins a new run if two materials have the same name. Errors:
+/* Sets the material index of the current run. Begins a new run if two materials have the same name. Errors:
    FFD_E_LIMIT, FFD_E_MEMORY. */
-ffd_status ffd_model_number_material(mesh_model *model, uint32_t index, ffd_error *error);
+ffd_status ffd_model_set_material(mesh_model *model, uint32_t index, ffd_error *error);
 /* Adds a face, line or point of count corners. A face with two corners becomes a line, and a face or line
    with one corner a point; without corners nothing is added. A run must have begun. Errors: FFD_E_LIMIT,
    FFD_E_MEMORY. */
@@ -175,11 +175,11 @@ static inline const char *model_name(const mesh_model *model, uint32_t name)
     return name == MODEL_NONE ? NULL : ffd_intern_key(&model->names, name);
 }
 
-/* Sets numbers[i] to the texture coordinate of the first corner at position i that has one; MODEL_NONE if
+/* Sets indices[i] to the texture coordinate of the first corner at position i that has one; MODEL_NONE if
    there is none. Returns whether another corner at some position has a different value. */
-bool ffd_model_texcoords_by_position(const mesh_model *model, uint32_t *numbers);
+bool ffd_model_texcoords_by_position(const mesh_model *model, uint32_t *indices);
 /* The same for normals. */
-bool ffd_model_normals_by_position(const mesh_model *model, uint32_t *numbers);
+bool ffd_model_normals_by_position(const mesh_model *model, uint32_t *indices);
 
 /* Returns whether bytes can represent all colours: they are multiples of 1/255, to six decimal digits, or
    coarse_colours is set. */

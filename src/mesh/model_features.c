@@ -10,55 +10,54 @@
 /* Tolerance of 255 * colour as an integer: half a unit of the sixth decimal digit, with a margin. */
 #define BYTE_TOLERANCE 2e-4
 
-static bool same(const double *values, size_t numbers, uint32_t a, uint32_t b)
+static bool same(const double *values, size_t width, uint32_t a, uint32_t b)
 {
-    for (size_t i = 0; i < numbers && a != b; i++)
-        if (values[numbers * a + i] < values[numbers * b + i] ||
-            values[numbers * a + i] > values[numbers * b + i])
+    for (size_t i = 0; i < width && a != b; i++)
+        if (values[width * a + i] < values[width * b + i] || values[width * a + i] > values[width * b + i])
             return false;
     return true;
 }
 
 /* Records the value of a corner for its position. Returns whether it differs from an earlier one. */
-static bool note(uint32_t *number, uint32_t value, const double *values, size_t numbers)
+static bool note(uint32_t *index, uint32_t value, const double *values, size_t width)
 {
     if (value == MODEL_NONE)
         return false;
-    if (*number == MODEL_NONE)
-        *number = value;
-    return !same(values, numbers, *number, value);
+    if (*index == MODEL_NONE)
+        *index = value;
+    return !same(values, width, *index, value);
 }
 
-static void clear(const mesh_model *model, uint32_t *numbers)
+static void clear(const mesh_model *model, uint32_t *indices)
 {
     for (size_t i = 0; i < model->position_count; i++)
-        numbers[i] = MODEL_NONE;
+        indices[i] = MODEL_NONE;
 }
 
 /* Records the normals or texture coordinates of all corners by position. Returns whether there are different
    ones. */
-static bool note_corners(const mesh_model *model, bool normals, uint32_t *numbers)
+static bool note_corners(const mesh_model *model, bool normals, uint32_t *indices)
 {
     const double *values = normals ? model->normals : model->texcoords;
     bool several = false;
-    clear(model, numbers);
+    clear(model, indices);
     for (int k = 0; k < MODEL_KINDS; k++)
         for (size_t i = 0; i < model->lists[k].corner_count; i++) {
             const model_corner *corner = &model->lists[k].corners[i];
             const uint32_t value = normals ? corner->normal : corner->texcoord;
-            several = note(&numbers[corner->position], value, values, normals ? 3 : 2) || several;
+            several = note(&indices[corner->position], value, values, normals ? 3 : 2) || several;
         }
     return several;
 }
 
-bool ffd_model_texcoords_by_position(const mesh_model *model, uint32_t *numbers)
+bool ffd_model_texcoords_by_position(const mesh_model *model, uint32_t *indices)
 {
-    return note_corners(model, false, numbers);
+    return note_corners(model, false, indices);
 }
 
-bool ffd_model_normals_by_position(const mesh_model *model, uint32_t *numbers)
+bool ffd_model_normals_by_position(const mesh_model *model, uint32_t *indices)
 {
-    return note_corners(model, true, numbers);
+    return note_corners(model, true, indices);
 }
 
 static bool fit_bytes(const double *numbers, size_t count)
@@ -265,18 +264,18 @@ ffd_status ffd_model_finish(mesh_model *model, ffd_error *error)
         status = find_fine_positions(model, error);
     if (status)
         return status;
-    uint32_t *numbers = ffd_alloc(model->position_count, sizeof *numbers);
-    if (!numbers)
+    uint32_t *indices = ffd_alloc(model->position_count, sizeof *indices);
+    if (!indices)
         return ffd_fail_memory(error);
     model->features |= features_of_corners(model) | features_of_names(model) | features_of_colours(model);
     model->features |= model->face_colours ? MODEL_HAS_FACE_COLOURS : 0;
-    if (ffd_model_normals_by_position(model, numbers))
+    if (ffd_model_normals_by_position(model, indices))
         model->features |= MODEL_HAS_CORNER_NORMALS;
-    if (ffd_model_texcoords_by_position(model, numbers))
+    if (ffd_model_texcoords_by_position(model, indices))
         model->features |= MODEL_HAS_CORNER_TEXCOORDS;
-    if (has_loose(model, numbers))
+    if (has_loose(model, indices))
         model->features |= MODEL_HAS_LOOSE;
-    ffd_free(numbers);
+    ffd_free(indices);
     return FFD_OK;
 }
 

@@ -13,7 +13,7 @@ typedef struct mesh_place {
     bool partial;    /* because its mesh is selected only in part */
     bool unselected; /* it, or what it places, is not selected: this stays */
     unsigned holds;  /* a set of PLACE_HOLDS: sizes that do not follow */
-    size_t number;   /* number for mesh_place_calls.name */
+    size_t index;    /* for mesh_place_calls.name */
 } mesh_place;
 #define PLACE_BIT(kind) (1u << (kind)) /* the bit of an ffd_behind_kind */
 
@@ -54,7 +54,7 @@ typedef struct mesh_following {
 typedef ffd_status mesh_list_places_function(const mesh_document *document, bool all, mesh_places *places,
                                              ffd_error *error);
 /* Returns the name of a place, which the caller frees; NULL if memory runs out. */
-typedef char *mesh_place_name_function(const mesh_document *document, size_t number);
+typedef char *mesh_place_name_function(const mesh_document *document, size_t index);
 /* Counts the skins with a marked place (one byte each) among their joints, and the marked places that are
    joints of none of these (loose). */
 typedef ffd_status mesh_count_skins_function(const mesh_document *document, const mesh_places *places,

@@ -86,8 +86,8 @@ static void draw_bar(const layout *by, const linear_tables *tables, const stroke
     const double width = floor(by->of->width * (by->of->panel_count > 1 ? 0.4 : 0.5)),
                  left = floor((by->of->width - width) / 2), bottom = top + BAR_HEIGHT * by->dot;
     for (size_t i = 0; i < scale->color_count; i++) {
-        const double count = (double)scale->color_count, number = (double)i;
-        fill(into, left + width * number / count, top, left + width * (number + 1) / count, bottom,
+        const double count = (double)scale->color_count, index = (double)i;
+        fill(into, left + width * index / count, top, left + width * (index + 1) / count, bottom,
              from_bytes(tables, scale->colors[i]));
     }
     /* Labels that would overlap are omitted, except those at both ends. */

@@ -111,8 +111,8 @@ bool ffd_raster_rows(const void *surface_pointer, size_t triangle, int64_t *firs
         return true;
     }
     int64_t left, right;
-    samples_span(least(least(a->x, b->x), c->x), most(most(a->x, b->x), c->x), &left, &right);
-    samples_span(least(least(a->y, b->y), c->y), most(most(a->y, b->y), c->y), first, last);
+    samples_between(least(least(a->x, b->x), c->x), most(most(a->x, b->x), c->x), &left, &right);
+    samples_between(least(least(a->y, b->y), c->y), most(most(a->y, b->y), c->y), first, last);
     return left <= right && *first <= *last;
 }
 
@@ -162,8 +162,8 @@ static bool set_up(const raster_corner corners[3], const samples *into, setup *s
     const raster_corner *const a = &s->corners[0], *const b = &s->corners[1], *const c = &s->corners[2];
     const int64_t low_x = least(least(a->x, b->x), c->x), high_x = most(most(a->x, b->x), c->x),
                   low_y = least(least(a->y, b->y), c->y), high_y = most(most(a->y, b->y), c->y);
-    samples_span(low_x, high_x, &s->left, &s->right);
-    samples_span(low_y, high_y, &s->top, &s->bottom);
+    samples_between(low_x, high_x, &s->left, &s->right);
+    samples_between(low_y, high_y, &s->top, &s->bottom);
     s->left = most(s->left, into->left);
     s->right = least(s->right, into->left + into->width - 1);
     s->top = most(s->top, into->top);

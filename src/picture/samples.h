@@ -33,7 +33,7 @@ typedef struct samples {
 } samples;
 
 /* Finds the pixels with samples in [low, high], in subpixels; none if *last < *first. */
-static inline void samples_span(int64_t low, int64_t high, int64_t *first, int64_t *last)
+static inline void samples_between(int64_t low, int64_t high, int64_t *first, int64_t *last)
 {
     *first = (low + SAMPLE_MARGIN - 1) >> 8;
     *last = (high - SAMPLE_MARGIN) >> 8;

@@ -139,7 +139,7 @@ static void mark_cells(const ffd_lattice *lattice, size_t point, uint8_t *spans,
                 cells[(k * knots[1].span_count + j) * knots[0].span_count + i] |= u[i];
 }
 
-static int compare_numbers(const void *a, const void *b)
+static int compare_indices(const void *a, const void *b)
 {
     const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
     return (x > y) - (x < y);
@@ -165,7 +165,7 @@ static ffd_status join(const cell_lists *lists, const uint8_t *cells, uint32_t *
         memcpy(all + count, lists->points + lists->starts[c], in_cell * sizeof *all);
         count += in_cell;
     }
-    qsort(all, count, sizeof *all, compare_numbers);
+    qsort(all, count, sizeof *all, compare_indices);
     return FFD_OK;
 }
 

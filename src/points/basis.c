@@ -62,13 +62,13 @@ static ffd_status multiply_tile(void *context, size_t first, size_t count, int w
     return FFD_OK;
 }
 
-static ffd_status begin(const ffd_embedding *embedding, const double *weights, const ffd_run_options *callers,
+static ffd_status begin(const ffd_embedding *embedding, const double *weights, const ffd_run_options *options,
                         point_run *run, basis_work *work, ffd_error *error)
 {
     *work = (basis_work){.embedding = embedding, .weights = weights};
     TRY(ffd_basis_weights(embedding, &work->weights, error));
-    TRY(ffd_point_run_begin(callers, embedding->count, run, error));
-    work->rows = ffd_alloc((size_t)run->run.threads, sizeof *work->rows);
+    TRY(ffd_point_run_begin(options, embedding->count, run, error));
+    work->rows = ffd_alloc((size_t)run->options.threads, sizeof *work->rows);
     return work->rows ? FFD_OK : ffd_fail_memory(error);
 }
 
@@ -98,12 +98,12 @@ static ffd_status make_entries(ffd_csr *matrix, ffd_error *error)
 }
 
 ffd_status ffd_embedding_basis(const ffd_embedding *embedding, const double *weights, ffd_csr *matrix,
-                               const ffd_run_options *callers, ffd_error *error)
+                               const ffd_run_options *options, ffd_error *error)
 {
     point_run run = {.total = 0};
     basis_work work;
     *matrix = (ffd_csr){.rows = embedding->count, .columns = embedding->rest->count};
-    ffd_status status = begin(embedding, weights, callers, &run, &work, error);
+    ffd_status status = begin(embedding, weights, options, &run, &work, error);
     work.matrix = matrix;
     run.passes = 2;
     if (!status) {
@@ -122,11 +122,11 @@ ffd_status ffd_embedding_basis(const ffd_embedding *embedding, const double *wei
 }
 
 ffd_status ffd_embedding_basis_times(const ffd_embedding *embedding, const double *weights, const double *dq,
-                                     double *dx, const ffd_run_options *callers, ffd_error *error)
+                                     double *dx, const ffd_run_options *options, ffd_error *error)
 {
     point_run run = {.total = 0};
     basis_work work;
-    ffd_status status = begin(embedding, weights, callers, &run, &work, error);
+    ffd_status status = begin(embedding, weights, options, &run, &work, error);
     work.dq = dq;
     work.dx = dx;
     if (!status)

@@ -13,7 +13,7 @@ typedef struct transposed_work {
     const ffd_embedding *embedding;
     const double *weights, *dfdx;
     size_t first_block;
-    size_t numbers;  /* 3 for each control point */
+    size_t width;    /* 3 for each control point */
     double *sums;    /* `numbers` for each block of a group */
     basis_row *rows; /* one for each thread */
 } transposed_work;
@@ -22,10 +22,10 @@ static void add_block(void *context, size_t block, size_t first, size_t last, in
 {
     const transposed_work *const work = context;
     const size_t before = work->first_block * POINT_TILE;
-    double *const sum = work->sums + block * work->numbers;
+    double *const sum = work->sums + block * work->width;
     basis_row *const row = &work->rows[worker];
     size_t next = ffd_embedding_first_extended(work->embedding, before + first);
-    memset(sum, 0, work->numbers * sizeof *sum);
+    memset(sum, 0, work->width * sizeof *sum);
     for (size_t i = before + first; i < before + last; i++) {
         ffd_basis_row(work->embedding, work->weights, i, &next, row);
         for (size_t e = 0; e < row->count; e++)
@@ -37,7 +37,7 @@ static void add_block(void *context, size_t block, size_t first, size_t last, in
 /* Returns the number of blocks that are summed at a time. */
 static size_t group_size(const transposed_work *work, int threads)
 {
-    const size_t most = SUM_BYTES / (work->numbers * sizeof(double)),
+    const size_t most = SUM_BYTES / (work->width * sizeof(double)),
                  wanted = BLOCKS_A_THREAD * (size_t)threads;
     return most < 1 ? 1 : most < wanted ? most : wanted;
 }
@@ -47,40 +47,41 @@ static void add_group(transposed_work *work, size_t points, int threads, double 
     const size_t blocks = points / POINT_TILE + (points % POINT_TILE != 0);
     ffd_parallel_tiles(points, POINT_TILE, threads, add_block, work);
     for (size_t b = 0; b < blocks; b++)
-        for (size_t c = 0; c < work->numbers; c++)
-            dfdq[c] += work->sums[b * work->numbers + c];
+        for (size_t c = 0; c < work->width; c++)
+            dfdq[c] += work->sums[b * work->width + c];
 }
 
-static ffd_status add_all(transposed_work *work, const ffd_run_options *run, double *dfdq, ffd_error *error)
+static ffd_status add_all(transposed_work *work, const ffd_run_options *options, double *dfdq,
+                          ffd_error *error)
 {
-    const size_t count = work->embedding->count, group = group_size(work, run->threads);
-    memset(dfdq, 0, work->numbers * sizeof *dfdq);
-    work->sums = ffd_alloc(group, work->numbers * sizeof *work->sums);
-    work->rows = ffd_alloc((size_t)run->threads, sizeof *work->rows);
+    const size_t count = work->embedding->count, group = group_size(work, options->threads);
+    memset(dfdq, 0, work->width * sizeof *dfdq);
+    work->sums = ffd_alloc(group, work->width * sizeof *work->sums);
+    work->rows = ffd_alloc((size_t)options->threads, sizeof *work->rows);
     if (!work->sums || !work->rows)
         return ffd_fail_memory(error);
     for (size_t first = 0; first < count; first += group * POINT_TILE) {
         const size_t left = count - first, points = left < group * POINT_TILE ? left : group * POINT_TILE;
         work->first_block = first / POINT_TILE;
-        add_group(work, points, run->threads, dfdq);
-        if (run->progress && !run->progress(run->user, (double)(first + points) / (double)count))
+        add_group(work, points, options->threads, dfdq);
+        if (options->progress && !options->progress(options->user, (double)(first + points) / (double)count))
             return ffd_fail(error, FFD_E_CANCELLED, "cancelled by the progress function");
     }
     return FFD_OK;
 }
 
 ffd_status ffd_embedding_basis_transposed(const ffd_embedding *embedding, const double *weights,
-                                          const double *dfdx, double *dfdq, const ffd_run_options *callers,
+                                          const double *dfdx, double *dfdq, const ffd_run_options *options,
                                           ffd_error *error)
 {
     point_run run = {.total = 0};
     transposed_work work = {
-        .embedding = embedding, .weights = weights, .dfdx = dfdx, .numbers = 3 * embedding->rest->count};
+        .embedding = embedding, .weights = weights, .dfdx = dfdx, .width = 3 * embedding->rest->count};
     ffd_status status = ffd_basis_weights(embedding, &work.weights, error);
     if (!status)
-        status = ffd_point_run_begin(callers, embedding->count, &run, error);
+        status = ffd_point_run_begin(options, embedding->count, &run, error);
     if (!status)
-        status = add_all(&work, &run.run, dfdq, error);
+        status = add_all(&work, &run.options, dfdq, error);
     ffd_free(work.sums);
     ffd_free(work.rows);
     ffd_point_run_end(&run);

@@ -61,17 +61,17 @@ static ffd_status check(direction_work *work, ffd_error *error)
     return FFD_OK;
 }
 
-static ffd_status carry(direction_work *work, size_t *collapsed, const ffd_run_options *callers,
+static ffd_status carry(direction_work *work, size_t *collapsed, const ffd_run_options *options,
                         ffd_error *error)
 {
     point_run run = {.total = 0};
     atomic_init(&work->collapsed, 0);
     ffd_status status = check(work, error);
     if (!status)
-        status = ffd_point_run_begin(callers, work->in.count, &run, error);
+        status = ffd_point_run_begin(options, work->in.count, &run, error);
     if (!status) {
-        work->isa = run.run.isa;
-        work->scratch = ffd_alloc((size_t)run.run.threads, sizeof *work->scratch);
+        work->isa = run.options.isa;
+        work->scratch = ffd_alloc((size_t)run.options.threads, sizeof *work->scratch);
         status = work->scratch ? ffd_point_run_tiles(&run, carry_tile, work, error) : ffd_fail_memory(error);
     }
     if (collapsed)
@@ -82,16 +82,16 @@ static ffd_status carry(direction_work *work, size_t *collapsed, const ffd_run_o
 }
 
 ffd_status ffd_normals_deform(const double *gradients, ffd_span in, ffd_span out, size_t *collapsed,
-                              const ffd_run_options *run, ffd_error *error)
+                              const ffd_run_options *options, ffd_error *error)
 {
     direction_work work = {.gradients = gradients, .in = in, .out = out};
-    return carry(&work, collapsed, run, error);
+    return carry(&work, collapsed, options, error);
 }
 
 ffd_status ffd_tangents_deform(const double *gradients, ffd_span normals, ffd_span in, ffd_span out,
-                               size_t *collapsed, const ffd_run_options *run, ffd_error *error)
+                               size_t *collapsed, const ffd_run_options *options, ffd_error *error)
 {
     direction_work work = {
         .gradients = gradients, .normals = normals, .in = in, .out = out, .tangents = true};
-    return carry(&work, collapsed, run, error);
+    return carry(&work, collapsed, options, error);
 }

@@ -142,9 +142,9 @@ static void free_work(embed_work *work, size_t tiles)
 static ffd_status find_all(const ffd_embedding_desc *desc, point_run *run, ffd_embedding *embedding,
                            ffd_error *error)
 {
-    const size_t threads = (size_t)run->run.threads, tiles = desc->points.count / POINT_TILE + 1;
+    const size_t threads = (size_t)run->options.threads, tiles = desc->points.count / POINT_TILE + 1;
     embed_work work = {.desc = desc, .embedding = embedding};
-    ffd_status status = ffd_locator_create_for(embedding->rest, run->run.isa, &work.locator, error);
+    ffd_status status = ffd_locator_create_for(embedding->rest, run->options.isa, &work.locator, error);
     if (!status && desc->outside == FFD_OUTSIDE_EXTEND)
         status = ffd_locator_border(work.locator, &work.border, error);
     work.locations = ffd_alloc(threads * POINT_TILE, sizeof *work.locations);
@@ -180,7 +180,7 @@ ffd_status ffd_embedding_make(const ffd_lattice *lattice, size_t count, ffd_embe
     return ffd_fail_memory(error);
 }
 
-ffd_status ffd_embedding_create(const ffd_embedding_desc *callers, const ffd_run_options *callers_run,
+ffd_status ffd_embedding_create(const ffd_embedding_desc *callers, const ffd_run_options *options,
                                 ffd_embedding **embedding, ffd_error *error)
 {
     ffd_embedding_desc desc;
@@ -191,7 +191,7 @@ ffd_status ffd_embedding_create(const ffd_embedding_desc *callers, const ffd_run
     if (!status)
         status = check(&desc, error);
     if (!status)
-        status = ffd_point_run_begin(callers_run, desc.points.count, &run, error);
+        status = ffd_point_run_begin(options, desc.points.count, &run, error);
     if (!status)
         status = ffd_embedding_make(desc.lattice, desc.points.count, embedding, error);
     if (!status) {

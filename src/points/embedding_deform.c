@@ -175,15 +175,16 @@ static bool make_thread_scratch(const point_run *run, size_t tile, deform_scratc
     if (!s->displacement)
         return false;
     ffd_displacement_scratch_clear(s->displacement);
-    s->displacement->kept.threads = run->run.threads;
+    s->displacement->kept.threads = run->options.threads;
     return true;
 }
 
 static ffd_status make_scratch(const point_run *run, deform_work *work, ffd_error *error)
 {
-    const size_t threads = (size_t)run->run.threads, tile = run->total < POINT_TILE ? run->total : POINT_TILE;
-    work->isa = run->run.isa;
-    work->arrays = ffd_array_kernel(run->run.isa);
+    const size_t threads = (size_t)run->options.threads,
+                 tile = run->total < POINT_TILE ? run->total : POINT_TILE;
+    work->isa = run->options.isa;
+    work->arrays = ffd_array_kernel(run->options.isa);
     work->scratch = ffd_alloc_zero(threads, sizeof *work->scratch);
     for (size_t i = 0; work->scratch && i < threads; i++)
         if (!make_thread_scratch(run, tile, &work->scratch[i]))
@@ -193,20 +194,20 @@ static ffd_status make_scratch(const point_run *run, deform_work *work, ffd_erro
 
 static void free_scratch(const point_run *run, deform_scratch *scratch)
 {
-    for (int i = 0; scratch && i < run->run.threads; i++) {
+    for (int i = 0; scratch && i < run->options.threads; i++) {
         ffd_free(scratch[i].x);
         ffd_free(scratch[i].displacement);
     }
     ffd_free(scratch);
 }
 
-static ffd_status deform_elements(deform_work *work, size_t count, const ffd_run_options *callers,
+static ffd_status deform_elements(deform_work *work, size_t count, const ffd_run_options *options,
                                   ffd_error *error)
 {
     point_run run = {.total = 0};
     ffd_status status = check(work, count, error);
     if (!status)
-        status = ffd_point_run_begin(callers, count, &run, error);
+        status = ffd_point_run_begin(options, count, &run, error);
     if (!status)
         status = make_scratch(&run, work, error);
     if (!status)
@@ -217,16 +218,17 @@ static ffd_status deform_elements(deform_work *work, size_t count, const ffd_run
 }
 
 ffd_status ffd_embedding_deform(const ffd_embedding *embedding, const ffd_lattice *moved, ffd_span in,
-                                ffd_span out, double *gradients, const ffd_run_options *run, ffd_error *error)
+                                ffd_span out, double *gradients, const ffd_run_options *options,
+                                ffd_error *error)
 {
     deform_work work = {
         .embedding = embedding, .lattice = moved, .in = in, .out = out, .gradients = gradients};
-    return deform_elements(&work, embedding->count, run, error);
+    return deform_elements(&work, embedding->count, options, error);
 }
 
 ffd_status ffd_embedding_deform_some(const ffd_embedding *embedding, const ffd_lattice *moved,
                                      const uint32_t *vertices, size_t count, ffd_span in, ffd_span out,
-                                     double *gradients, const ffd_run_options *run, ffd_error *error)
+                                     double *gradients, const ffd_run_options *options, ffd_error *error)
 {
     static const uint32_t none = 0;
     deform_work work = {.embedding = embedding,
@@ -235,5 +237,5 @@ ffd_status ffd_embedding_deform_some(const ffd_embedding *embedding, const ffd_l
                         .in = in,
                         .out = out,
                         .gradients = gradients};
-    return deform_elements(&work, count, run, error);
+    return deform_elements(&work, count, options, error);
 }

@@ -22,14 +22,14 @@ static ffd_status evaluate_tile(void *context, size_t first, size_t count, int w
 
 ffd_status ffd_lattice_evaluate_many(const ffd_lattice *lattice, ffd_volume volume, const double *uvw,
                                      size_t count, double *xyz, double *jacobians,
-                                     const ffd_run_options *callers, ffd_error *error)
+                                     const ffd_run_options *options, ffd_error *error)
 {
     evaluate_work work = {lattice, volume, uvw, xyz, jacobians};
     point_run run = {.total = 0};
     if (!lattice->rest)
         return ffd_fail(error, FFD_E_ARGUMENT,
                         "the lattice has no control points yet: its box is that of a mesh");
-    ffd_status status = ffd_point_run_begin(callers, count, &run, error);
+    ffd_status status = ffd_point_run_begin(options, count, &run, error);
     if (!status)
         status = ffd_point_run_tiles(&run, evaluate_tile, &work, error);
     ffd_point_run_end(&run);

@@ -3,30 +3,32 @@
 #include "base/struct_size.h"
 #include "base/vector/isa.h"
 
-void ffd_run_options_init(ffd_run_options *run, size_t size)
+void ffd_run_options_init(ffd_run_options *options, size_t size)
 {
     const ffd_run_options defaults = {.struct_size = sizeof defaults};
-    ffd_struct_give(&defaults, sizeof defaults, run, size);
+    ffd_struct_give(&defaults, sizeof defaults, options, size);
 }
 
-ffd_status ffd_point_run_begin(const ffd_run_options *callers, size_t total, point_run *run, ffd_error *error)
+ffd_status ffd_point_run_begin(const ffd_run_options *options, size_t total, point_run *run, ffd_error *error)
 {
     *run = (point_run){.total = total, .passes = 1};
-    ffd_run_options_init(&run->run, sizeof run->run);
+    ffd_run_options_init(&run->options, sizeof run->options);
     const size_t tiles = total / POINT_TILE + 1;
     ffd_status status =
-        callers ? ffd_struct_take(&run->run, sizeof run->run, callers, "ffd_run_options", error) : FFD_OK;
+        options ? ffd_struct_take(&run->options, sizeof run->options, options, "ffd_run_options", error)
+                : FFD_OK;
     if (!status)
-        status = ffd_threads_choose(run->run.threads, &run->run.threads, error);
+        status = ffd_threads_choose(run->options.threads, &run->options.threads, error);
     if (status)
         return status;
-    if (run->run.isa != FFD_ISA_AUTO && !ffd_isa_available(run->run.isa))
-        return ffd_fail(error, FFD_E_ARGUMENT, "instruction set %d is not available here", (int)run->run.isa);
-    if (tiles < (size_t)run->run.threads)
-        run->run.threads = (int)tiles;
+    if (run->options.isa != FFD_ISA_AUTO && !ffd_isa_available(run->options.isa))
+        return ffd_fail(error, FFD_E_ARGUMENT, "instruction set %d is not available here",
+                        (int)run->options.isa);
+    if (tiles < (size_t)run->options.threads)
+        run->options.threads = (int)tiles;
     atomic_init(&run->done, 0);
     atomic_init(&run->stopped, false);
-    const size_t threads = (size_t)run->run.threads;
+    const size_t threads = (size_t)run->options.threads;
     run->statuses = ffd_alloc_zero(threads, sizeof *run->statuses);
     run->errors = ffd_alloc_zero(threads, sizeof *run->errors);
     run->tiles = ffd_alloc_zero(threads, sizeof *run->tiles);
@@ -49,10 +51,11 @@ typedef struct tile_context {
 /* Reports the progress of all threads to the caller, in the caller's thread. */
 static void report_progress(point_run *run, size_t done, int worker)
 {
-    if (worker != 0 || !run->run.progress)
+    if (worker != 0 || !run->options.progress)
         return;
     run->reported = true;
-    if (!run->run.progress(run->run.user, (double)done / ((double)run->passes * (double)run->total))) {
+    if (!run->options.progress(run->options.user,
+                               (double)done / ((double)run->passes * (double)run->total))) {
         run->statuses[0] = run->statuses[0] ? run->statuses[0] : FFD_E_CANCELLED;
         atomic_store(&run->stopped, true);
     }
@@ -79,11 +82,11 @@ ffd_status ffd_point_run_tiles(point_run *run, point_function function, void *co
 {
     tile_context work = {run, function, context};
     int first = -1;
-    ffd_parallel_tiles(run->total, POINT_TILE, run->run.threads, run_tile, &work);
+    ffd_parallel_tiles(run->total, POINT_TILE, run->options.threads, run_tile, &work);
     /* Other threads may have done all tiles; the caller gets a chance to cancel all the same. */
     if (run->total > 0 && !run->reported && !atomic_load(&run->stopped))
         report_progress(run, run->total, 0);
-    for (int i = 0; i < run->run.threads; i++)
+    for (int i = 0; i < run->options.threads; i++)
         if (run->statuses[i] && (first < 0 || run->tiles[i] < run->tiles[first]))
             first = i;
     if (first < 0)

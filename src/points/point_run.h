@@ -11,7 +11,7 @@
 #define POINT_TILE ((size_t)4096)
 
 typedef struct point_run {
-    ffd_run_options run; /* threads is at least 1 */
+    ffd_run_options options; /* threads is at least 1 */
     size_t total;
     size_t passes; /* over all points; default 1 */
     atomic_size_t done;
@@ -27,7 +27,7 @@ typedef ffd_status (*point_function)(void *context, size_t first, size_t count, 
 
 /* Begins a run over total points with the caller's settings. To be ended in every case. Errors:
    FFD_E_ARGUMENT, FFD_E_MEMORY. */
-ffd_status ffd_point_run_begin(const ffd_run_options *callers, size_t total, point_run *run,
+ffd_status ffd_point_run_begin(const ffd_run_options *options, size_t total, point_run *run,
                                ffd_error *error);
 /* Calls function for all tiles. Returns the failure of the lowest tile that failed, or FFD_E_CANCELLED. */
 ffd_status ffd_point_run_tiles(point_run *run, point_function function, void *context, ffd_error *error);

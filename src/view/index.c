@@ -42,8 +42,8 @@ static void append_picture(byte_buffer *html, const index_row *row)
    equal. The key is empty where a figure is not known. */
 static void append_job(byte_buffer *html, const index_row *row)
 {
-    ffd_buffer_format(html, "<td data-label=\"Line\" data-key=\"%" PRIu64 "\">%" PRIu64 "</td>", row->number,
-                      row->number);
+    ffd_buffer_format(html, "<td data-label=\"Line\" data-key=\"%" PRIu64 "\">%" PRIu64 "</td>", row->line,
+                      row->line);
     ffd_buffer_text(html, "<th scope=\"row\" data-label=\"Output\"><span class=\"name\">");
     append_name(html, row->output, ffd_page_html);
     ffd_buffer_text(html, "</span> <span class=\"from\">from ");

@@ -12,7 +12,7 @@ typedef enum index_state { INDEX_SKIPPED, INDEX_DONE, INDEX_FAILED } index_state
 
 /* One job. Texts may hold any bytes, and are NULL where absent. */
 typedef struct index_row {
-    uint64_t number; /* line of the manifest */
+    uint64_t line; /* of the manifest */
     const char *input, *output;
     const char *picture;  /* relative to the page */
     const char *settings; /* "NAME=VALUE, NAME=VALUE" */

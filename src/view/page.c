@@ -107,7 +107,7 @@ static ffd_status prepare(page_work *work, ffd_error *error)
     if (!work->options->full)
         status = ffd_page_reduce(&work->mesh, VIEW_PAGE_VERTICES, error);
     if (!status)
-        status = ffd_page_mesh_number(&work->mesh, error);
+        status = ffd_page_mesh_index(&work->mesh, error);
     if (status)
         return status;
     ffd_page_data_measure(&work->mesh, &work->data);

@@ -17,14 +17,14 @@ static const double *after_of(const page_mesh *mesh, size_t vertex)
     return (scene->after ? scene->after : scene->before) + 3 * (size_t)mesh->vertices[vertex];
 }
 
-static size_t number_size(const page_mesh *mesh)
+static size_t index_size(const page_mesh *mesh)
 {
-    const uint64_t *const numbers = mesh->scene->numbers;
+    const uint64_t *const indices = mesh->scene->indices;
     bool is_plain = true, is_short = true;
     for (size_t v = 0; v < mesh->vertex_count; v++) {
-        const uint64_t number = numbers ? numbers[mesh->vertices[v]] : mesh->vertices[v];
-        is_plain = is_plain && number == v;
-        is_short = is_short && number <= UINT32_MAX;
+        const uint64_t index = indices ? indices[mesh->vertices[v]] : mesh->vertices[v];
+        is_plain = is_plain && index == v;
+        is_short = is_short && index <= UINT32_MAX;
     }
     return is_plain ? 0 : is_short ? 4 : 8;
 }
@@ -32,7 +32,7 @@ static size_t number_size(const page_mesh *mesh)
 void ffd_page_data_measure(const page_mesh *mesh, page_data *data)
 {
     double high[3] = {0}, most = 0;
-    *data = (page_data){.mesh = mesh, .number_size = number_size(mesh)};
+    *data = (page_data){.mesh = mesh, .index_size = index_size(mesh)};
     for (size_t v = 0; v < mesh->vertex_count; v++)
         for (int a = 0; a < 3; a++) {
             const double x = before_of(mesh, v)[a], y = after_of(mesh, v)[a];
@@ -103,17 +103,17 @@ static void fill_colors(const void *of, size_t first, size_t count, unsigned cha
         }
 }
 
-static void fill_numbers(const void *of, size_t first, size_t count, unsigned char *bytes)
+static void fill_indices(const void *of, size_t first, size_t count, unsigned char *bytes)
 {
     const page_data *const data = of;
-    const uint64_t *const numbers = data->mesh->scene->numbers;
+    const uint64_t *const indices = data->mesh->scene->indices;
     for (size_t v = 0; v < count; v++) {
         const uint32_t vertex = data->mesh->vertices[first + v];
-        const uint64_t number = numbers ? numbers[vertex] : vertex;
-        if (data->number_size == 4)
-            store_u32(bytes + 4 * v, (uint32_t)number);
+        const uint64_t index = indices ? indices[vertex] : vertex;
+        if (data->index_size == 4)
+            store_u32(bytes + 4 * v, (uint32_t)index);
         else
-            store_double(bytes + 8 * v, (double)number);
+            store_double(bytes + 8 * v, (double)index);
     }
 }
 
@@ -155,8 +155,8 @@ void ffd_page_data_write(const page_data *data, page_writer *w)
         ffd_page_write_block(w, "data-det", mesh->vertex_count, 4, fill_dets, data);
     if (scene->colors)
         ffd_page_write_block(w, "data-color", mesh->vertex_count, 4, fill_colors, data);
-    if (data->number_size)
-        ffd_page_write_block(w, "data-number", mesh->vertex_count, data->number_size, fill_numbers, data);
+    if (data->index_size)
+        ffd_page_write_block(w, "data-number", mesh->vertex_count, data->index_size, fill_indices, data);
     ffd_page_write_block(w, "data-triangle", mesh->triangle_count, 12, fill_triangles, data);
     if (mesh->flipped)
         ffd_page_write_block(w, "data-flipped", mesh->triangle_count, 1, fill_flipped, data);

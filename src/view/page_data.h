@@ -10,11 +10,11 @@ typedef struct page_data {
     const page_mesh *mesh;
     double low[3], step[3]; /* x = low + step q, q from 0 to 65535 */
     double move_step;       /* d = move_step q, q from -32767 to 32767 */
-    size_t number_size; /* bytes of a stored vertex number: 4, or 8 (a double); 0: none is stored, they are 0,
-                           1, 2 .. */
+    size_t index_size; /* bytes of a stored index of a vertex: 4, or 8 (a double); 0: none is stored, they are
+                          0, 1, 2 .. */
 } page_data;
 
-/* Chooses the steps of quantization. The mesh must be numbered (ffd_page_mesh_number). */
+/* Chooses the steps of quantization. The mesh must be indexed (ffd_page_mesh_index). */
 void ffd_page_data_measure(const page_mesh *mesh, page_data *data);
 /* Writes the blocks of all data that the mesh has. */
 void ffd_page_data_write(const page_data *data, page_writer *w);

@@ -160,13 +160,13 @@ size_t ffd_page_mesh_mark(page_mesh *mesh)
     return count;
 }
 
-static void number(const page_mesh *mesh, uint32_t *indices, size_t count)
+static void set_indices(const page_mesh *mesh, uint32_t *indices, size_t count)
 {
     for (size_t i = 0; i < count; i++)
         indices[i] = mesh->places[indices[i]];
 }
 
-ffd_status ffd_page_mesh_number(page_mesh *mesh, ffd_error *error)
+ffd_status ffd_page_mesh_index(page_mesh *mesh, ffd_error *error)
 {
     mesh->vertex_count = ffd_page_mesh_mark(mesh);
     mesh->vertices = ffd_alloc(mesh->vertex_count, sizeof *mesh->vertices);
@@ -175,9 +175,9 @@ ffd_status ffd_page_mesh_number(page_mesh *mesh, ffd_error *error)
     for (size_t v = 0; v < mesh->scene->vertex_count; v++)
         if (mesh->places[v] != VIEW_NONE)
             mesh->vertices[mesh->places[v]] = (uint32_t)v;
-    number(mesh, mesh->triangles, 3 * mesh->triangle_count);
-    number(mesh, mesh->segments, 2 * mesh->segment_count);
-    number(mesh, mesh->points, mesh->point_count);
+    set_indices(mesh, mesh->triangles, 3 * mesh->triangle_count);
+    set_indices(mesh, mesh->segments, 2 * mesh->segment_count);
+    set_indices(mesh, mesh->points, mesh->point_count);
     return FFD_OK;
 }
 

@@ -9,7 +9,7 @@ typedef struct page_part {
     size_t first_triangle, triangle_count;
 } page_part;
 
-/* Indices refer to the scene's vertices until ffd_page_mesh_number, then to those of the page. */
+/* Indices refer to the scene's vertices until ffd_page_mesh_index, then to those of the page. */
 typedef struct page_mesh {
     const view_scene *scene;
     uint32_t *triangles; /* 3 indices each, part by part */
@@ -33,7 +33,7 @@ ffd_status ffd_page_mesh_take(const view_scene *scene, page_mesh *mesh, ffd_erro
    use. */
 size_t ffd_page_mesh_mark(page_mesh *mesh);
 /* Fills vertices, and makes all indices refer to it. Errors: FFD_E_MEMORY. */
-ffd_status ffd_page_mesh_number(page_mesh *mesh, ffd_error *error);
+ffd_status ffd_page_mesh_index(page_mesh *mesh, ffd_error *error);
 /* Frees the arrays of a mesh. */
 void ffd_page_mesh_free(page_mesh *mesh);
 

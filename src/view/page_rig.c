@@ -138,7 +138,7 @@ static void put_skeleton(page_rig_side *side)
 }
 
 /* Returns the index in a side's document of a vertex of the page. */
-static size_t number_of(const page_mesh *mesh, const page_rig_side *side, size_t vertex)
+static size_t index_of(const page_mesh *mesh, const page_rig_side *side, size_t vertex)
 {
     return ffd_view_vertex_of(mesh->scene, side->from == &mesh->scene->rigs[1], mesh->vertices[vertex]);
 }
@@ -198,7 +198,7 @@ static ffd_status put_targets(const page_mesh *mesh, page_rig_side *side, ffd_er
     for (size_t i = 0; i < count; i++)
         places[i] = VIEW_NONE;
     for (size_t v = 0; v < mesh->vertex_count; v++)
-        places[number_of(mesh, side, v)] = (uint32_t)v;
+        places[index_of(mesh, side, v)] = (uint32_t)v;
     for (size_t t = 0; t < anchors->target_count; t++)
         for (size_t i = 0; i < anchors->targets[t].count; i++) {
             const double *const offset = anchors->targets[t].offsets + 3 * i;
@@ -222,17 +222,17 @@ static ffd_status put_vertices(page_rig *rig, page_rig_side *side, bool follows,
         return FFD_OK;
     for (size_t v = 0; v < mesh->vertex_count; v++) {
         if (follows)
-            put_follow(rig, side, number_of(mesh, side, v));
-        put_floats(&side->blocks[PAGE_ANCHORS], side->from->anchors.points + 3 * number_of(mesh, side, v), 3);
+            put_follow(rig, side, index_of(mesh, side, v));
+        put_floats(&side->blocks[PAGE_ANCHORS], side->from->anchors.points + 3 * index_of(mesh, side, v), 3);
     }
     return put_targets(mesh, side, error);
 }
 
-static ffd_status make_side(page_rig *rig, int number, ffd_error *error)
+static ffd_status make_side(page_rig *rig, int index, ffd_error *error)
 {
-    page_rig_side *const side = &rig->sides[number];
-    const view_rig *const from = &rig->mesh->scene->rigs[number];
-    const bool is_lent = number == 1 && rig->is_shared;
+    page_rig_side *const side = &rig->sides[index];
+    const view_rig *const from = &rig->mesh->scene->rigs[index];
+    const bool is_lent = index == 1 && rig->is_shared;
     if (!from->skeleton)
         return FFD_OK;
     side->from = from;
@@ -278,9 +278,9 @@ void ffd_page_rig_free(page_rig *rig)
 
 /* Describes an animation's channels on a side as [first, count], or null where the side has no such
    animation. */
-static void describe_channels(const page_rig *rig, int number, size_t animation, json_text *json)
+static void describe_channels(const page_rig *rig, int index, size_t animation, json_text *json)
 {
-    const page_rig_side *const side = &rig->sides[number == 1 && rig->is_shared ? 0 : number];
+    const page_rig_side *const side = &rig->sides[index == 1 && rig->is_shared ? 0 : index];
     if (!side->first_channel || animation == RIG_NONE) {
         ffd_json_null(json, NULL);
         return;

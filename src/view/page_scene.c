@@ -14,9 +14,9 @@ static void put_name(json_text *json, const char *key, const char *name)
     ffd_free(text);
 }
 
-static uint64_t number_of(const view_scene *scene, uint32_t vertex)
+static uint64_t index_of(const view_scene *scene, uint32_t vertex)
 {
-    return scene->numbers ? scene->numbers[vertex] : vertex;
+    return scene->indices ? scene->indices[vertex] : vertex;
 }
 
 static void put_mesh(json_text *json, const page_data *data)
@@ -33,7 +33,7 @@ static void put_mesh(json_text *json, const page_data *data)
         {"notFinite", mesh->not_finite},
         {"tearEdges", scene->tear_edges},
         {"flippedFaces", scene->flipped_faces},
-        {"numberSize", data->number_size}};
+        {"numberSize", data->index_size}};
     ffd_json_counts(json, counts, sizeof counts / sizeof *counts);
     ffd_json_vector(json, "low", data->low, 3);
     ffd_json_vector(json, "step", data->step, 3);
@@ -93,7 +93,7 @@ static void put_vertex(json_text *json, const page_mesh *mesh, uint32_t vertex)
     const view_scene *const scene = mesh->scene;
     const double *const after = scene->after ? scene->after : scene->before;
     ffd_json_object(json, NULL, true);
-    ffd_json_count(json, "number", number_of(scene, vertex));
+    ffd_json_count(json, "number", index_of(scene, vertex));
     /* A vertex that the page leaves out has no index in its arrays. */
     if (mesh->places[vertex] != VIEW_NONE)
         ffd_json_count(json, "vertex", mesh->places[vertex]);

@@ -57,7 +57,7 @@ typedef struct view_scene {
     char *output; /* path of the deformed mesh, or NULL: it was not written */
     size_t vertex_count;
     double *before, *after; /* 3 numbers a vertex; may be not finite */
-    uint64_t *numbers;      /* of each vertex: its index in the order of `ffd embed`; NULL: 0, 1, 2 .. */
+    uint64_t *indices;      /* of each vertex: its index in the order of `ffd embed`; NULL: 0, 1, 2 .. */
     uint8_t *statuses;      /* ffd_vertex_status of each vertex; NULL: no deformation */
     double *dets;           /* det F at each vertex, NaN where unknown; NULL: no deformation */
     double *colors;         /* 4 numbers a vertex: red, green, blue, alpha, 0 to 1, sRGB; NULL: none */
@@ -90,7 +90,7 @@ typedef struct view_scene {
 /* Returns the index of a vertex of the scene in the document before (side 0) or after (side 1). */
 static inline size_t ffd_view_vertex_of(const view_scene *scene, int side, size_t vertex)
 {
-    const size_t index = scene->numbers ? (size_t)scene->numbers[vertex] : vertex;
+    const size_t index = scene->indices ? (size_t)scene->indices[vertex] : vertex;
     return scene->rigs[side].order ? scene->rigs[side].order[index] : index;
 }
 

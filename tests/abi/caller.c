@@ -1,6 +1,6 @@
-/* caller.c - a program that was written with the headers of 0.2, as they are kept. It links the library of
+/* caller.c - a program that was written with the headers of 0.3, as they are kept. It links the library of
    today, which must take its structs as they were, and write nothing behind them. */
-#include "ffd-0.2.h"
+#include "ffd-0.3.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -57,15 +57,15 @@ static void deform_arrays(const ffd_lattice *lattice)
     GUARDED(ffd_embedding_desc, desc);
     ffd_embedding_desc_init(&desc.as, sizeof desc.as);
     untouched(desc.behind, "ffd_embedding_desc_init");
-    GUARDED(ffd_run_options, run);
-    ffd_run_options_init(&run.as, sizeof run.as);
-    untouched(run.behind, "ffd_run_options_init");
+    GUARDED(ffd_run_options, options);
+    ffd_run_options_init(&options.as, sizeof options.as);
+    untouched(options.behind, "ffd_run_options_init");
     desc.as.lattice = lattice;
     desc.as.points = (ffd_span){xyz, 2, FFD_FLOAT64, 0, 0};
-    run.as.threads = 1;
-    expect(ffd_embedding_create(&desc.as, &run.as, &embedding, NULL) == FFD_OK, "ffd_embedding_create");
+    options.as.threads = 1;
+    expect(ffd_embedding_create(&desc.as, &options.as, &embedding, NULL) == FFD_OK, "ffd_embedding_create");
     expect(ffd_embedding_deform(embedding, lattice, desc.as.points, (ffd_span){out, 2, FFD_FLOAT64, 0, 0},
-                                NULL, &run.as, NULL) == FFD_OK &&
+                                NULL, &options.as, NULL) == FFD_OK &&
                out[2] == 0.5 + 1.0 / 512 && out[5] == 2,
            "ffd_embedding_deform");
     ffd_embedding_destroy(&embedding);

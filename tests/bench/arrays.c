@@ -29,7 +29,7 @@ typedef struct sample {
     double *wide, *wide_out, *gradients;
     float *narrow, *narrow_out;
     ffd_location *locations; /* of a batch */
-    ffd_run_options run;
+    ffd_run_options options;
     displacement_scratch scratch;
     double x[3 * DISPLACEMENT_BATCH], delta[3 * DISPLACEMENT_BATCH];
     uint8_t moves[DISPLACEMENT_BATCH], changed[DISPLACEMENT_BATCH];
@@ -82,7 +82,7 @@ static void by_call(sample *s, bool narrow, bool gradients)
     check(ffd_embedding_deform(s->embedding, s->lattice,
                                span_of(s, narrow ? (void *)s->narrow : s->wide, type),
                                span_of(s, narrow ? (void *)s->narrow_out : s->wide_out, type),
-                               gradients ? s->gradients : NULL, &s->run, &error),
+                               gradients ? s->gradients : NULL, &s->options, &error),
           &error);
 }
 
@@ -107,7 +107,7 @@ static void embed(sample *s, bool narrow, bool gradients)
     ffd_embedding_desc_init(&desc, sizeof desc);
     desc.lattice = s->lattice;
     desc.points = span_of(s, s->wide, FFD_FLOAT64);
-    check(ffd_embedding_create(&desc, &s->run, &s->embedding, &error), &error);
+    check(ffd_embedding_create(&desc, &s->options, &s->embedding, &error), &error);
 }
 
 static void call_one_by_one(sample *s, bool narrow, bool gradients)
@@ -116,7 +116,7 @@ static void call_one_by_one(sample *s, bool narrow, bool gradients)
     const ffd_span all = span_of(s, s->wide, FFD_FLOAT64), out = span_of(s, s->wide_out, FFD_FLOAT64);
     (void)narrow, (void)gradients;
     for (uint32_t i = 0; i < ONE_BY_ONE && i < s->count; i++)
-        check(ffd_embedding_deform_some(s->embedding, s->lattice, &i, 1, all, out, NULL, &s->run, &error),
+        check(ffd_embedding_deform_some(s->embedding, s->lattice, &i, 1, all, out, NULL, &s->options, &error),
               &error);
 }
 
@@ -218,8 +218,8 @@ int main(int count, char **arguments)
         s->which[n] = n;
     place_points(s);
     make_lattice(s);
-    ffd_run_options_init(&s->run, sizeof s->run);
-    s->run.threads = 1;
+    ffd_run_options_init(&s->options, sizeof s->options);
+    s->options.threads = 1;
     embed(s, false, false);
     for (size_t p = 0; p < sizeof pairs / sizeof *pairs; p++) {
         ffd_displacement_scratch_clear(&s->scratch);

@@ -18,7 +18,7 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static void tell(const char *what, double *seconds, int runs)
+static void report(const char *what, double *seconds, int runs)
 {
     qsort(seconds, (size_t)runs, sizeof *seconds, compare);
     printf("%s %.6f (%.6f to %.6f)\n", what, seconds[runs / 2], seconds[0], seconds[runs - 1]);
@@ -78,9 +78,9 @@ int main(int argc, char **argv)
         drawn[i] = middle - begin;
         ffd_free(drawing);
     }
-    tell("copy", copied, runs);
-    tell("copy-again", copied_again, runs);
-    tell("picture", drawn, runs);
+    report("copy", copied, runs);
+    report("copy-again", copied_again, runs);
+    report("picture", drawn, runs);
     free(again);
     free(from);
     shape_free(&s);

@@ -26,6 +26,9 @@ import traceback
 from driver import Driver
 
 FFD = os.path.abspath(os.environ["FFD"])
+# The folder of the modules beside an installed program.
+MODULE_FOLDER = "ffd-" + ".".join(subprocess.run([FFD, "--version"], capture_output=True, text=True,
+                                                 check=True).stdout.split()[1].split(".")[:2])
 MODELS = os.environ.get("FFD_MODELS")
 SECONDS = 120
 # Lines about glTF data that the output stores differently from the input. They are not counted in checks of stderr.
@@ -268,9 +271,9 @@ def modules():
 
 def copy_program(folder):
     """Copies the program to a new folder, and its modules as they are installed beside a library. Returns the program's path."""
-    os.makedirs(os.path.join(folder, "ffd-0.2"))
+    os.makedirs(os.path.join(folder, MODULE_FOLDER))
     for path in [FFD, *modules()]:
-        target = os.path.join(folder, "" if path == FFD else "ffd-0.2", os.path.basename(path))
+        target = os.path.join(folder, "" if path == FFD else MODULE_FOLDER, os.path.basename(path))
         shutil.copy(path, target)
         os.chmod(target, 0o755)
     return os.path.join(folder, "ffd")

@@ -9,7 +9,7 @@ import re
 from batches import batch, lines_of
 from bspline import BoxVolume
 from harness import NO, USAGE, case, check, equal, lattice, main, near, obj_of, obj_vertices, threaded_case
-from said import anything, counts, entry, not_told, told
+from messages import anything, counts, entry, no_line, one_line
 
 
 def both(*names):
@@ -95,7 +95,7 @@ def the_first_that_holds_the_vertex_has_it(run):
     run.write("a.json", lattice(low=(0, -1, -1), high=(2, 1, 1), moves=[{"by": [0, 0, 1]}]))
     run.write("b.json", lattice(low=(1, -1, -1), high=(3, 1, 1), moves=[{"by": [0, 0, 2]}]))
     for order, expected in ((("a.json", "b.json"), [1, 1, 2]), (("b.json", "a.json"), [1, 2, 2])):
-        told(run.ffd("deform", "a.obj", "out.obj", *both(*order), "--blocks", "--force", err=anything), "overlap")
+        one_line(run.ffd("deform", "a.obj", "out.obj", *both(*order), "--blocks", "--force", err=anything), "overlap")
         equal(heights(run), expected, str(order))
 
 
@@ -114,14 +114,14 @@ def volumes_that_overlap_are_named(run):
     run.write("small.json", lattice(low=(0, 0, -1), high=(1, 2, 1), moves=[{"by": [0, 0, 0.5]}]))
     run.write("large.json", lattice(low=(0, 0, -1), high=(2, 2, 1), moves=[{"by": [0, 0, 0.125]}]))
     done, found = overlapping(run, ("large.json", "small.json"))
-    told(done, "overlap", "large.json and small.json", "first -l")
+    one_line(done, "overlap", "large.json and small.json", "first -l")
     equal([found["shared_faces"]["disagreeing"], found["tear"]["edges"]], [0, 0])
     done, found = overlapping(run, ("small.json", "large.json"))
-    told(done, "overlap", "small.json and large.json")
+    one_line(done, "overlap", "small.json and large.json")
     equal([found["shared_faces"]["disagreeing"], found["shared_faces"]["largest"]], [5, 0.375])
     near([found["tear"]["largest"]], [0.375], 1e-15)
     done = run.ffd("deform", "a.obj", "out.obj", *both("small.json", "large.json", "large.json"), "--blocks", err=anything)
-    told(done, "overlap", "small.json and large.json", "2 more pairs")
+    one_line(done, "overlap", "small.json and large.json", "2 more pairs")
 
 
 @case
@@ -150,7 +150,7 @@ def volumes_that_overlap_anywhere(run):
         run.write("b.json", second)
         for names in (("a.json", "b.json"), ("b.json", "a.json")):
             done, _ = overlapping(run, names)
-            (told if overlap else not_told)(done, "overlap")
+            (one_line if overlap else no_line)(done, "overlap")
 
 
 @case
@@ -195,7 +195,7 @@ def what_the_disagreement_is_called(run):
     difference."""
     beam(run, 0.5, 0.25)
     done = run.ffd("deform", "beam.obj", "out.obj", *both("a.json", "b.json"), "--blocks", err=anything)
-    told(done, r"\b2 vertices", "differently", r"0\.25\b", "move alike")
+    one_line(done, r"\b2 vertices", "differently", r"0\.25\b", "move alike")
     found = entry(run, "check", "beam.obj", *both("a.json", "b.json"), "--blocks")
     equal(found["shared_faces"], {"moved_twice": 0, "disagreeing": 2, "largest": 0.25})
     run.ffd("check", "beam.obj", *both("a.json", "b.json"), "--blocks", "--fail-on", "tear=0.26", err=anything)
@@ -333,7 +333,7 @@ def in_a_manifest_it_is_true(run):
     beam(run)
     for value in ("yes", 1):
         run.write("m.jsonl", lines_of([{"in": "beam.obj", "lattice": ["a.json", "b.json"], "out": "b.obj", "options": {"blocks": value}}]))
-        told(run.ffd("batch", "m.jsonl", code=NO, err=anything), "--blocks takes no value", r"\btrue\b")
+        one_line(run.ffd("batch", "m.jsonl", code=NO, err=anything), "--blocks takes no value", r"\btrue\b")
     run.ffd("deform", "beam.obj", "b.obj", "-l", "a.json", "--blocks=yes", code=USAGE, err=re.compile("takes no value"))
 
 
@@ -350,10 +350,10 @@ def an_embedding_is_of_one_lattice(run):
 def one_after_the_other_says_what_both_move(run):
     beam(run)
     done = run.ffd("deform", "beam.obj", "out.obj", *both("a.json", "b.json"), err=anything)
-    told(done, r"\b2 vertices on a face common to two lattices are moved by both", "see --blocks")
+    one_line(done, r"\b2 vertices on a face common to two lattices are moved by both", "see --blocks")
     run.write("b.json", lattice(low=(1, -2, -2), high=(2, 2, 2)))
     done = run.ffd("deform", "beam.obj", "out.obj", *both("a.json", "b.json"), "--force", err=anything)
-    not_told(done, "--blocks")
+    no_line(done, "--blocks")
 
 
 @case
@@ -373,7 +373,7 @@ def what_fades_to_the_common_face_moves_nothing_there(run):
                 found = entry(run, "deform", "beam.obj", "out.obj", *both(*order))
                 equal(found["shared_faces"]["moved_twice"], twice, f"{face} {first} {second} {order}")
                 done = run.ffd("deform", "beam.obj", "out.obj", *both(*order), "--force", err=anything)
-                (told if twice else not_told)(done, "moved by both")
+                (one_line if twice else no_line)(done, "moved by both")
 
 
 @case
@@ -383,7 +383,7 @@ def with_extend_all_are_moved_by_both(run):
     for options in ([], ["--falloff", "0.25"]):
         done = run.ffd("deform", "beam.obj", "out.obj", *both("a.json", "b.json"), "--outside", "extend", *options, "--force",
                        err=anything)
-        not_told(done, "common to two lattices")
+        no_line(done, "common to two lattices")
 
 
 def float_beam(run, face, left, right):
@@ -538,7 +538,7 @@ def boxes_round_the_same_mesh_share_no_face(run):
     for name in ("a.json", "b.json"):
         run.write(name, {"format": "ffd-lattice", "version": 1, "size": [3, 3, 3], "rest": {"box": "mesh"},
                          "moves": [{"twist": {"axis": "z", "degrees": 10}}]})
-    not_told(run.ffd("deform", "a.obj", "out.obj", *both("a.json", "b.json"), err=anything), "--blocks")
+    no_line(run.ffd("deform", "a.obj", "out.obj", *both("a.json", "b.json"), err=anything), "--blocks")
 
 
 @case
@@ -557,10 +557,10 @@ def a_chain_counts_what_is_outside_of_every_lattice(run):
     beam(run)
     for command in (["check", "beam.obj"], ["deform", "beam.obj", "out.obj"]):
         done = run.ffd(*command, *both("a.json", "b.json"), "--fail-on", "outside", err=anything)
-        not_told(done, "not inside")
+        no_line(done, "not inside")
     run.write("beam.obj", BEAM + "v 5 0 0\nf 3 4 5\n")
     done = run.ffd("deform", "beam.obj", "out.obj", *both("a.json", "b.json"), "--force", err=anything)
-    told(done, r"\b1 of 5 vertices is not inside")
+    one_line(done, r"\b1 of 5 vertices is not inside")
     run.ffd("check", "beam.obj", *both("a.json", "b.json"), "--fail-on", "outside", code=NO, err=anything)
 
 
@@ -569,7 +569,7 @@ def outside_of_all_blocks(run):
     beam(run)
     run.write("beam.obj", BEAM + "v 5 0 0\nf 3 4 5\n")
     done = run.ffd("deform", "beam.obj", "out.obj", *both("a.json", "b.json"), "--blocks", err=anything)
-    told(done, r"\b1 of 5 vertices is not inside")
+    one_line(done, r"\b1 of 5 vertices is not inside")
     equal(heights(run), [0.5, 0.5, 0.5, 0.5, 0])
     run.ffd("check", "beam.obj", *both("a.json", "b.json"), "--blocks", "--fail-on", "outside", code=NO, err=anything)
     run.ffd("deform", "beam.obj", "no.obj", *both("a.json", "b.json"), "--blocks", "--outside", "error", code=5)

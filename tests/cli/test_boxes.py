@@ -6,7 +6,7 @@ import re
 from batches import batch, lines_of, start
 from gltf_build import Scene
 from harness import INVALID, NO, USAGE, case, check, equal, lattice, main, near, obj_vertices
-from said import anything, lines_with, told
+from messages import anything, lines_with, one_line
 
 BODY = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.5\nf 1 2 3 4\n"
 DOOR = "v 1 0 0\nv 3 0 0\nv 3 1 1\nv 1 1 0\nf 1 2 3 4\n"
@@ -121,7 +121,7 @@ def flaws_of_a_mesh_that_a_file_names(run):
     run.write("l.json", lattice(rest={"box": {"meshes": ["body.obj", "door.obj"]}, "margin": 0.05}))
     said = "door.obj: a Ctrl-Z, the end mark of old texts, ends the file"
     for words in (["deform", "body.obj", "o.obj"], ["check", "body.obj"], ["embed", "body.obj", "-o", "e.npy"]):
-        told(run.ffd(*words, "-l", "l.json", err=anything), f"^body.obj: {said}")
+        one_line(run.ffd(*words, "-l", "l.json", err=anything), f"^body.obj: {said}")
         run.ffd(*words, "-l", "l.json", "--strict", "--force", code=INVALID, err=said)
     run.write("m.jsonl", lines_of([{"in": "body.obj", "lattice": "l.json", "out": f"{n}.obj"} for n in range(3)]))
     equal(len(lines_with(run.ffd("batch", "m.jsonl", err=anything), said)), 3)
@@ -176,7 +176,7 @@ def a_shared_box_goes_round_all_inputs(run):
 def without_it_one_line_warns(run):
     mesh_box(run)
     done = run.ffd("deform", "body.obj", "door.obj", "--out-dir", "o", "-l", "l.json", err=anything)
-    told(done, r"\bbox\b", "--shared-box")
+    one_line(done, r"\bbox\b", "--shared-box")
     equal(lines_with(run.ffd("deform", "body.obj", "one.obj", "-l", "l.json"), "--shared-box"), [], "a single input")
     # So does a batch of several meshes, however its jobs are given; not one of several rows of a mesh.
     jobs = [{"in": mesh, "lattice": "l.json", "out": f"o/{i}{mesh}"} for i, mesh in enumerate(("body.obj", "door.obj", "body.obj"))]
@@ -185,7 +185,7 @@ def without_it_one_line_warns(run):
     for name, words in (("m.jsonl", ["m.jsonl"]), ("m.csv", ["--csv", "m.csv"]),
                         ("*[yr].obj", ["--in", "*[yr].obj", "--lattice", "l.json", "--out-dir", "o"])):
         done = run.ffd("batch", *words, "--force", err=anything)
-        told(done, f"{name}: ".replace("*", r"\*").replace("[", r"\["), "each of 2 meshes by itself", "--shared-box")
+        one_line(done, f"{name}: ".replace("*", r"\*").replace("[", r"\["), "each of 2 meshes by itself", "--shared-box")
     run.write("m.jsonl", lines_of(jobs[::2]))
     batch(run, "m.jsonl", "--force", done=2)
 
@@ -301,7 +301,7 @@ def what_is_not_finite_counts_whatever_shows_it(run):
     for mesh, invalid in (("a.ply", 1), ("a.off", 1), ("a.obj", 1), ("a.glb", 1), ("hidden.glb", 3)):
         for command in (["check", mesh], ["deform", mesh, "b" + mesh[-4:], "--force"]):
             done = run.ffd(*command, "-l", "l.json", "--report", "r.json", err=anything)
-            told(done, "not inside", f"{invalid} invalid", "not finite")
+            one_line(done, "not inside", f"{invalid} invalid", "not finite")
             equal([json.loads(run.read("r.json"))["jobs"][0][key] for key in ("inside", "invalid", "unused", "hidden")],
                   [3, invalid, 0, 0], mesh)
             gate = run.ffd(*command, "-l", "l.json", "--fail-on", "invalid", code=NO, data=True, err=anything)
@@ -314,8 +314,8 @@ def what_nothing_shows_is_counted_apart(run):
     run.write("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 1\nv 9 9 9\nv 0.5 0.5 0.5\nv 7 0 0\nf 1 2 3\np 6\n")
     run.write("l.json", lattice(moves=[{"by": [0, 0, 1]}]))
     done = run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--report", "r.json", err=anything)
-    told(done, r"\b1 of 6\b", "1 outside")
-    told(done, r"\b1\b", "no face, line or point")
+    one_line(done, r"\b1 of 6\b", "1 outside")
+    one_line(done, r"\b1\b", "no face, line or point")
     job = json.loads(run.read("r.json"))["jobs"][0]
     equal([job[key] for key in ("vertices", "inside", "outside", "unused", "hidden", "moved")], [6, 4, 1, 1, 0, 4])
     near(obj_vertices(run.text("b.obj"))[4], [0.5, 0.5, 1.5], 1e-15)

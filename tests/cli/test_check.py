@@ -6,7 +6,7 @@ import struct
 
 from harness import (CUBE, CUBE_CORNERS, CUBE_FACES, EMBEDDING, INVALID, IO, NO, UNSUPPORTED, case, check, equal, glb,
                      gltf_json, lattice, main, near, obj_of)
-from said import anything
+from messages import anything
 
 SHIFT = [{"by": [1, 0, 0]}]
 

@@ -4,7 +4,7 @@ is where its body is, whatever its own transform, and nobody sees it."""
 from gltf_build import SHEAR, SHIFT, Scene
 from harness import case, check, equal, glb_split, gltf_vectors, lattice, main, near, obj_vertices
 from posed import Posed, point
-from said import anything, entry, not_told, told
+from messages import anything, entry, no_line, one_line
 
 CUBE = [[float(x), float(y), float(z)] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
 COARSE = [[0.0, 0.0, 0.0], [1.0, 0.5, 0.0], [0.5, 1.0, 1.0]]
@@ -77,7 +77,7 @@ def each_body_of_a_compound_has_its_shape(run):
     nodes = [{"name": "table", "extensions": {NAME: {"motion": {"mass": 1}}}, "children": [1, 2]},
              body(0, 3, translation=[1, 1, 0]), body(0, 4, translation=[4, 2, 0]), {"mesh": 1}, {"mesh": 2}]
     done, file = deformed(run, scene(nodes, [0], [CUBE, COARSE, COARSE]))
-    not_told(done, "scene|collider")
+    no_line(done, "scene|collider")
     near(positions(file, 3), sheared(COARSE, 1, 1), 1e-6)
     near(positions(file, 4), sheared(COARSE, 4, 2), 1e-6)
 
@@ -86,14 +86,14 @@ def each_body_of_a_compound_has_its_shape(run):
 def a_shape_of_several_bodies_is_deformed_for_the_first(run):
     nodes = [body(0, 3, translation=[1, 2, 0]), body(0, 3, translation=[5, 2, 0]), body(0, 3, translation=[6, 2, 0]), {"mesh": 1}]
     done, file = deformed(run, scene(nodes, [0, 1, 2]))
-    told(done, r"\b2 uses of nodes by colliders and triggers are at other places")
+    one_line(done, r"\b2 uses of nodes by colliders and triggers are at other places")
     near(positions(file, 3), sheared(COARSE, 1, 2), 1e-6)
     nodes[1]["translation"] = nodes[2]["translation"] = [1, 2, 0]
-    not_told(deformed(run, scene(nodes, [0, 1, 2]))[0], "collider|scene")
+    no_line(deformed(run, scene(nodes, [0, 1, 2]))[0], "collider|scene")
     # One that the scene shows is deformed as it is shown: told where it is elsewhere.
     nodes = [body(0, 1, translation=[1, 2, 0]), {"mesh": 1, "translation": [5, 2, 0]}]
     done, file = deformed(run, scene(nodes, [0, 1]))
-    told(done, r"\b1 use of a node by a collider or trigger is at another place")
+    one_line(done, r"\b1 use of a node by a collider or trigger is at another place")
     near(positions(file, 1), sheared(COARSE, 5, 2), 1e-6)
     del nodes[0]["translation"], nodes[1]["translation"]
     equal(deformed(run, scene(nodes, [0, 1]))[0].err, [])
@@ -105,18 +105,18 @@ def what_is_no_shape(run):
     """The collider of a shape, what is below a shape, and a number of no node."""
     nodes = [body(0, 1), body(1, 2, children=[3]), {"mesh": 2, "translation": [1, 0, 0]}, {"mesh": 3, "translation": [1, 0, 0]}]
     done, file = deformed(run, scene(nodes, [0], [CUBE, COARSE, COARSE, COARSE]))
-    told(done, "2 nodes with a mesh are not in the displayed scene")
+    one_line(done, "2 nodes with a mesh are not in the displayed scene")
     for node, moves in ((1, True), (2, False), (3, False)):
         near(positions(file, node), sheared(COARSE) if moves else COARSE, 1e-6, str(node))
     for wrong in (9, -1, "a", 0.5, None):
         done, _ = deformed(run, scene([body(0, wrong)], [0], [CUBE]))
-        told(done, f"ignored: /nodes/0/extensions/{NAME}/collider/geometry/node")
+        one_line(done, f"ignored: /nodes/0/extensions/{NAME}/collider/geometry/node")
 
 
 @case
 def a_file_without_scenes_shows_all_roots(run):
     done, file = deformed(run, scene([body(0, 1), {"mesh": 1, "translation": [3, 1, 0]}], None))
-    told(done, "at another place")
+    one_line(done, "at another place")
     near(positions(file, 1), sheared(COARSE, 3, 1), 1e-6)
 
 
@@ -126,7 +126,7 @@ def a_level_of_detail_has_its_own_shape(run):
     made = scene(nodes, [0], [CUBE, COARSE])
     made.asset["extensionsUsed"].append("MSFT_lod")
     done, file = deformed(run, made)
-    not_told(done, "collider|scene")
+    no_line(done, "collider|scene")
     near(positions(file, 2), sheared(COARSE, 3, 1), 1e-6)
 
 
@@ -136,7 +136,7 @@ def nobody_sees_a_shape(run):
     large = [[0.0, 0.0, 0.0], [90.0, 0.0, 0.0], [0.0, 0.0, 90.0]]
     made = scene([body(0, 1), {"mesh": 1}], [0], [CUBE, large])
     done, file = deformed(run, made, "--fail-on", "outside")
-    told(done, "2 vertices of hidden nodes are not inside")
+    one_line(done, "2 vertices of hidden nodes are not inside")
     near(positions(file, 1), large, 1e-6)  # what is inside does not move: x or y is 0
     run.write("l.json", SHIFT)
     job = entry(run, "check", "a.glb", "-l", "l.json")
@@ -157,7 +157,7 @@ def a_selected_body_takes_its_shape_along(run):
     parts = {part["selector"]: part["vertices"] for part in run.ffd("info", "a.glb", "--parts", "--json").json["named_parts"]}
     for only, moving in (("node:crate", {0, 1}), ("mesh:mesh_0", {0, 1}), ("node:wall", {2}), ("node:hull", {1})):
         done, file = deformed(run, made, "--only", only)
-        not_told(done, "collider|scene")
+        no_line(done, "collider|scene")
         for node, mesh in enumerate((CUBE, COARSE, COARSE)):
             near(positions(file, node), sheared(mesh) if node in moving else mesh, 1e-6, f"{only} {node}")
         equal(parts[only], sum(len((CUBE, COARSE, COARSE)[n]) for n in moving), only)
@@ -171,7 +171,7 @@ def shapes_of_morphed_and_skinned_bodies(run):
     made.asset["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": made.add(offsets, bounds=True)}]
     made.asset["meshes"][0]["weights"] = [1]
     done, file = deformed(run, made)
-    not_told(done, "copy|scene|collider")
+    no_line(done, "copy|scene|collider")
     equal(len(file[0]["meshes"]), 1)
     near(positions(file, 0), sheared(CUBE, 1), 1e-6)
     made = scene([body(0, 1, skin=0), {"mesh": 0, "skin": 0}, {"name": "bone", "translation": [2, 1, 0]}], [0, 2], [CUBE])
@@ -179,7 +179,7 @@ def shapes_of_morphed_and_skinned_bodies(run):
     made.asset["meshes"][0]["primitives"][0]["attributes"] |= {
         "JOINTS_0": made.add([[0, 0, 0, 0]] * 8, 5121, "VEC4"), "WEIGHTS_0": made.add([[1.0, 0.0, 0.0, 0.0]] * 8, shape="VEC4")}
     done, file = deformed(run, made)
-    not_told(done, "copy|scene|collider")
+    no_line(done, "copy|scene|collider")
     equal([len(file[0]["meshes"]), file[0]["nodes"][1]], [1, {"mesh": 0, "skin": 0}])
     near(positions(file, 0), sheared(CUBE, 2, 1), 1e-6)
 
@@ -200,7 +200,7 @@ def shapes_follow_their_bodies(run):
     found = {}
     for rig in ("keep", "follow"):
         done, _ = deformed(run, made, "--rig", rig, moves=bent)
-        not_told(done, "collider|scene|unselected")
+        no_line(done, "collider|scene|unselected")
         file = Posed(run.read("b.glb"))
         place = file.worlds()[1]
         found[rig] = [point(place, p) for p in file.read(file.asset["meshes"][1]["primitives"][0]["attributes"]["POSITION"])]

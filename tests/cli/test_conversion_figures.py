@@ -9,7 +9,7 @@ import struct
 
 from gltf_build import Scene
 from harness import CUBE_CORNERS, CUBE_FACES, case, check, equal, lattice, main
-from said import entry
+from messages import entry
 
 SCHEMA_FILE = "../../data/schema/ffd-report.schema.json"
 with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), SCHEMA_FILE), encoding="utf-8") as _file:

@@ -11,7 +11,7 @@ from random import Random
 from gltf_build import Scene
 from harness import (INVALID, IO, PNG, SANITIZED, USAGE, case, check, equal, float32, glb, glb_split, gltf_json, lattice, main,
                      near)
-from said import anything, told
+from messages import anything, one_line
 
 FORMATS = ("obj", "ply", "off", "stl", "glb", "gltf")
 FLOATS = ("stl", "glb", "gltf")
@@ -802,7 +802,7 @@ def attributes_that_are_not_finite(run):
               + "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
               "0 0 0 nan 0 1 nan 0.5\n1 0 0 0 inf 1 0 0\n0 1 0 0 0 1 0 -inf\n3 0 1 2\n")
     for target, name in (("obj", "OBJ"), ("off", "OFF"), ("glb", "glTF")):
-        told(run.ffd("deform", "a.ply", f"b.{target}", "-l", "still.json", err=anything), "not finite", name, "2 normals", "2 texture")
+        one_line(run.ffd("deform", "a.ply", f"b.{target}", "-l", "still.json", err=anything), "not finite", name, "2 normals", "2 texture")
         check(not any(word in run.read(f"b.{target}") for word in (b"nan", b"inf")), target)
     equal([line for line in run.text("b.obj").splitlines() if line.startswith("vn") or line.startswith("vt")],
           ["vt 0 0", "vt 0 0", "vt 0 0", "vn 0 0 0", "vn 0 0 0", "vn 0 0 1"])
@@ -831,7 +831,7 @@ def a_scene_that_shows_nothing(run):
     run.write("a.glb", made.glb())
     run.write("still.json", STILL)
     for target in ("obj", "ply", "stl"):
-        told(run.ffd("deform", "a.glb", f"b.{target}", "-l", "still.json", err=anything), "scene is empty", "no vertices")
+        one_line(run.ffd("deform", "a.glb", f"b.{target}", "-l", "still.json", err=anything), "scene is empty", "no vertices")
 
 
 @case

@@ -5,7 +5,7 @@ import math
 
 from gltf_build import Scene
 from harness import INVALID, case, check, equal, lattice, main, near
-from said import anything
+from messages import anything
 
 STILL = lattice(low=(-9, -9, -9), high=(9, 9, 9), moves=[])
 CORNERS = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]  # v goes down

@@ -12,7 +12,7 @@ from decimal import Decimal
 from bspline import basis, greville, knots
 from exact_volume import evaluate, residual_by_bound, tolerance
 from harness import case, check, equal, main, npy, repetitions
-from said import anything
+from messages import anything
 
 CASES = int(os.environ.get("FFD_CASES") or repetitions(20000))
 SEED = int(os.environ.get("FFD_SEED") or (random.randrange(10 ** 6) if os.environ.get("FFD_CASES") else 33))

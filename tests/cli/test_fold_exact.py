@@ -7,7 +7,7 @@ import random
 
 from exact_determinant import ExactVolume, greville, preset
 from harness import NO, case, check, equal, main, repetitions
-from said import anything
+from messages import anything
 
 CASES = int(os.environ.get("FFD_CASES") or repetitions(30))
 SEED = int(os.environ.get("FFD_SEED") or (random.randrange(10 ** 6) if os.environ.get("FFD_CASES") else 7))

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The gates of --fail-on with a value, and those for what is torn, flipped, invalid, or folds outside of the lattice."""
 from harness import CUBE, NO, OK, USAGE, case, check, equal, lattice, main
-from said import anything
+from messages import anything
 
 CORNERS = "".join(f"v {x} {y} {z}\n" for z in (0, 1) for y in (0, 1) for x in (0, 1))
 FACES = CUBE[CUBE.index("f "):]

@@ -5,7 +5,7 @@ import json
 
 from gltf_build import SHEAR, SHIFT, Scene, vectors
 from harness import LIMIT, case, check, equal, glb_split, main
-from said import anything, not_told, told
+from messages import anything, no_line, one_line
 
 PAIR = [[0.0, 0.0, 0.0], [2.0, 1.0, 0.0]]
 
@@ -43,7 +43,7 @@ def a_node_that_gets_a_copy_collides_with_it(run):
         node["extensions"] = {"KHR_physics_rigid_bodies": {kind: {"geometry": {"mesh": 0, "convexHull": True}}
                                                            for kind in ("collider", "trigger")}}
     done, asset = deformed(run, scene)
-    not_told(done, "does not follow|do not follow")
+    no_line(done, "does not follow|do not follow")
     for n, node in enumerate(asset["nodes"]):
         body = node["extensions"]["KHR_physics_rigid_bodies"]
         equal([node["mesh"], body["collider"]["geometry"], body["trigger"]["geometry"]],
@@ -63,7 +63,7 @@ def what_is_of_one_mesh_is_repeated_for_its_copies(run):
                 pointer("/nodes/0/translation"), pointer("/meshes/0/extras/a\"~1b")]
     scene.asset["animations"] = [{"channels": channels, "samplers": [{"input": times, "output": times}]}]
     done, asset = deformed(run, scene)
-    not_told(done, "does not follow|do not follow")
+    no_line(done, "does not follow|do not follow")
     vrm = asset["extensions"]["VRM"]
     equal(vrm["firstPerson"]["meshAnnotations"], [{"mesh": m, "firstPersonFlag": "Auto"} for m in (0, 2, 3)] + [{"mesh": 1}])
     equal(vrm["blendShapeMaster"]["blendShapeGroups"][0]["binds"],
@@ -73,7 +73,7 @@ def what_is_of_one_mesh_is_repeated_for_its_copies(run):
           + [pointer(f"/meshes/{m}/extras/a\"~1b") for m in (0, 2, 3)])
     equal(asset["animations"][0]["samplers"], scene.asset["animations"][0]["samplers"])
     done, _ = deformed(run, scene, SHEAR, "-v")
-    told(done, "8 elements that name meshes are repeated for copies of these, as /animations/0/channels/0 is")
+    one_line(done, "8 elements that name meshes are repeated for copies of these, as /animations/0/channels/0 is")
     # Without copies nothing changes.
     equal(deformed(run, scene, SHIFT)[1]["extensions"], scene.asset["extensions"])
 
@@ -103,11 +103,11 @@ def what_cannot_follow_is_said(run):
         "KHR_interactivity": {"graphs": [{"nodes": [{"configuration": {"pointer": {"value": ["/meshes/0/weights/0"]}}}]}]}}
     done, asset = deformed(run, scene, SHEAR, "--report", "r.json")
     equal(json.loads(run.read("r.json"))["jobs"][0]["indices_left"], 4)
-    told(done, "4 indices in extensions do not follow the deformed meshes: ",
+    one_line(done, "4 indices in extensions do not follow the deformed meshes: ",
          "/extensions/OMI_physics_shape/shapes/0/convex/mesh", "and 1 more")
     equal(asset["extensions"], scene.asset["extensions"])
     equal(asset["nodes"][3], scene.asset["nodes"][3])
-    not_told(deformed(run, scene, SHIFT, "--report", "r.json")[0], "does not follow|do not follow")
+    no_line(deformed(run, scene, SHIFT, "--report", "r.json")[0], "does not follow|do not follow")
     check("indices_left" not in json.loads(run.read("r.json"))["jobs"][0], "the report says so too")
 
 
@@ -127,7 +127,7 @@ def a_manifold_has_the_positions_of_its_mesh(run):
     done, asset = deformed(run, scene, SHIFT)
     equal(asset["meshes"][0]["primitives"][0]["attributes"]["POSITION"], 1)
     equal(asset["meshes"][0]["extensions"], manifold(1))
-    not_told(done, "does not follow|do not follow")
+    no_line(done, "does not follow|do not follow")
 
 
 @case
@@ -137,7 +137,7 @@ def one_with_positions_of_its_own_is_said(run):
     scene.asset["meshes"][0]["extensions"] = manifold(own)
     done, asset = deformed(run, scene)
     equal([mesh["extensions"] for mesh in asset["meshes"]], [manifold(own)] * 2)
-    told(done, "1 index in an extension does not follow the deformed mesh: "
+    one_line(done, "1 index in an extension does not follow the deformed mesh: "
          "/meshes/0/extensions/EXT_mesh_manifold/manifoldPrimitive/attributes/POSITION")
 
 
@@ -149,7 +149,7 @@ def normals_of_silhouettes_are_said_to_stay(run):
         "EXT_mesh_primitive_edge_visibility": {"visibility": normals, "silhouetteNormals": normals}}
     done, asset = deformed(run, scene, SHIFT)
     equal(asset["meshes"], scene.asset["meshes"])
-    told(done, "1 index in an extension does not follow the deformed mesh: "
+    one_line(done, "1 index in an extension does not follow the deformed mesh: "
          "/meshes/0/primitives/0/extensions/EXT_mesh_primitive_edge_visibility/silhouetteNormals$")
 
 

@@ -11,7 +11,7 @@ import struct
 from gltf_reader import (DEFORMED, FLOAT, SCALES, TYPES, Gltf, attribute_sets, check_bounds, check_rest,
                          deformed_accessors)
 from harness import LIMIT, MODELS, OK, UNSUPPORTED, announce, case, check, equal, glb, lattice, main, near, pad, threaded_case
-from said import anything
+from messages import anything
 
 announce("(camera|light)s? stays? where|off the deformed mesh")
 POINTS = [(-1.0, -1.0, -0.5), (1.0, -1.0, 0.25), (-1.0, 1.0, 0.5), (1.0, 1.0, 0.0), (0.0, 0.5, 1.0), (0.0, 0.0, 0.0)]

@@ -4,7 +4,7 @@ import os
 
 from harness import (CUBE, CUBE_CORNERS, INVALID, IO, MODELS, OK, SANITIZED, UNSUPPORTED, USAGE, case, check, equal, glb, gltf_json, lattice,
                      main, near)
-from said import anything
+from messages import anything
 
 
 def facts(run, name, *arguments, **options):

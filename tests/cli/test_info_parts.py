@@ -6,7 +6,7 @@ import re
 
 from gltf_build import Scene
 from harness import INVALID, USAGE, case, check, equal, lattice, main, near, npy
-from said import anything
+from messages import anything
 
 SHEET = """v 0 0 0
 v 1 0 0

@@ -8,7 +8,7 @@ import struct
 import zipfile
 
 from harness import INVALID, IO, LIMIT, USAGE, case, check, equal, lattice, main, near
-from said import anything, told
+from messages import anything, one_line
 
 KINDS = {"<f8": "d", "<i4": "i", "<i8": "q"}
 
@@ -91,11 +91,11 @@ def vertices_that_are_not_inside_are_told(run):
     """As by `embed`: outside, and where a volume that turns back on itself has two u,v,w for a vertex."""
     run.write("p.ply", ply(POINTS))
     run.write("l.json", BOX)
-    told(run.ffd("jacobian", "p.ply", "-l", "l.json", "-o", "j.npz", err=anything), "2 of 5 vertices are not inside: 2 outside")
+    one_line(run.ffd("jacobian", "p.ply", "-l", "l.json", "-o", "j.npz", err=anything), "2 of 5 vertices are not inside: 2 outside")
     back = [[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 2, 0.5)]
     run.write("t.ply", ply([[0.7, 0.5, 0.5], [0.8, 0.5, 0.4], [0.3, 0.2, 0.5]]))
     run.write("t.json", {"format": "ffd-lattice", "version": 1, "size": [3, 2, 2], "rest": {"points": back}})
-    told(run.ffd("jacobian", "t.ply", "-l", "t.json", "-o", "t.npz", err=anything), "2 of 3 vertices are not inside: 2 multiple")
+    one_line(run.ffd("jacobian", "t.ply", "-l", "t.json", "-o", "t.npz", err=anything), "2 of 3 vertices are not inside: 2 multiple")
 
 
 @case

@@ -6,7 +6,7 @@ import random
 
 from harness import NO, case, check, equal, gltf_json, glb, lattice, main, near, obj_of, threaded_case
 from page import Page
-from said import anything, counts, entry, not_told, told
+from messages import anything, counts, entry, no_line, one_line
 
 UP, DOWN = [{"by": [0, 0, 0.3]}], [{"by": [0, 0, -0.3]}]
 
@@ -40,7 +40,7 @@ def torn(run, edges, largest, *options, mesh="a.obj", tolerance=1e-12):
     equal(found[0]["edges"], edges, "torn edges")
     near([found[0]["largest"]], [largest], tolerance, "the largest step")
     done = run.ffd("deform", mesh, out, *options, "--force", err=anything)
-    (told if edges else not_told)(done, "the largest step to a neighbour is")
+    (one_line if edges else no_line)(done, "the largest step to a neighbour is")
     return found[0], done
 
 
@@ -51,7 +51,7 @@ def blocks_that_move_their_common_face_apart(run):
     options = side_by_side(run, (0, 1, UP), (1, 2, DOWN))
     found, done = torn(run, 2, 0.6, *options)
     equal(found["vertex"], 1, "an end in the later one")
-    told(done, "blocks", "differently", r"\b0\.6\b", r"\b2 torn edges\b", "move alike")
+    one_line(done, "blocks", "differently", r"\b0\.6\b", r"\b2 torn edges\b", "move alike")
     for gate, code in (("tear", NO), ("tear=0.59", NO), ("tear=0.61", 0)):
         run.ffd("deform", "a.obj", "gated.obj", *options, "--fail-on", gate, "--force", code=code, err=anything)
         equal(run.exists("gated.obj"), code == 0, gate)
@@ -133,7 +133,7 @@ def what_is_not_selected_would_move_as_its_block(run):
     torn(run, 2, 0.2, *options)
     found, done = torn(run, 2, 0.5, *options, "--only", "group:one")
     equal(found["vertex"], 3)
-    told(done, "--only does not select")
+    one_line(done, "--only does not select")
 
 
 @case
@@ -144,7 +144,7 @@ def blocks_of_which_another_becomes_the_nearest(run):
     options = side_by_side(run, (0, 1, UP), (3, 4, DOWN)) + ["--outside", "extend"]
     found, done = torn(run, 2, 0.6, *options)
     equal(found["vertex"], 1)
-    told(done, "blocks")
+    one_line(done, "blocks")
     torn(run, 2, 0.6 * fade(1 / 1.5), *options, "--falloff", "1.5")
     torn(run, 0, 0, *options, "--falloff", "0.9")
     # Both ends follow the first, beside the second.
@@ -180,7 +180,7 @@ def between_the_arms_of_a_horseshoe(run):
     for reach in (0.2, 0.05, 0.99):
         between_the_arms(run, reach)
         found, done = torn(run, 2, 1, "-l", "l.json", "--outside", "extend", tolerance=1e-9)
-        told(done, "border", "--falloff", r"\b2 torn edges\b")
+        one_line(done, "border", "--falloff", r"\b2 torn edges\b")
     judged = entry(run, "check", "a.obj", "-l", "l.json", "--outside", "extend")
     equal(judged["det"]["outside"], 1)
     torn(run, 2, fade(0.8), "-l", "l.json", "--outside", "extend", "--falloff", "1.25", tolerance=1e-9)
@@ -278,7 +278,7 @@ def an_axis_that_the_moves_open(run):
     run.write("a.obj", obj_of([[0.5, 0, 0.5], [-0.5, 0, 0.5], [0.125, 0.5, 0.5]]) + "f 1 2 3\n")
     ring(run, [{"at": [0, 0, "all"], "by": [0, 0, 1]}], radii=(0.0, 1.0), knots="closed")
     found, done = torn(run, 1, 1, "-l", "l.json", tolerance=1e-9)
-    told(done, "axis")
+    one_line(done, "axis")
     check("axis" in run.ffd("check", "a.obj", "-l", "l.json", err=anything).text, "the text of check")
     # A vertex on the axis goes with the first ray.
     run.write("b.obj", obj_of([[0, 0, 0.5], [-0.5, 0, 0.5], [0.125, 0.125, 0.5]]) + "f 1 2 3\n")
@@ -297,7 +297,7 @@ def into_an_overlap(run):
     found = entry(run, "check", "a.obj", "-l", "l.json")
     counts(found, inside=2, multiple=2)
     found, done = torn(run, 2, 2, "-l", "l.json", tolerance=1e-9)
-    told(done, "overlaps itself")
+    one_line(done, "overlaps itself")
 
 
 @case
@@ -366,7 +366,7 @@ def formats_threads_and_the_order_change_nothing(run):
         for name, content in meshes.items():
             run.write(name, content)
             found, done = torn(run, across, 0.5, *options, mesh=name)
-            told(done, rf"\b{across} torn edges\b")
+            one_line(done, rf"\b{across} torn edges\b")
     texts = {run.ffd("check", "a.obj", *options, "--report", "-", "--report-stable", "-j", str(n), "--isa", isa, err=anything).text
              for n in (1, 2, 3) for isa in ("auto", "scalar")}
     equal(len(texts), 1, "reports")
@@ -384,8 +384,8 @@ def edges_in_a_lattice_that_folds_are_left_out_if_nobody_asks(run):
         run.write(name, obj_of(places) + "".join(f"f {v} {v + 1} {v + 2}\n" for v in faces))
         done = run.ffd("deform", name, "out.obj", "-l", "l.json", "--force", err=anything)
         left = rf"^{name}: torn edges of which both ends move are not counted: .*see --report"
-        (told if name == "many.obj" else not_told)(done, left)
-        told(done, "stay; the largest step to a neighbour is")
+        (one_line if name == "many.obj" else no_line)(done, left)
+        one_line(done, "stay; the largest step to a neighbour is")
     threaded = run.ffd("deform", "many.obj", "out.obj", "-l", "l.json", "--force", "-j3", err=anything)
     untimed = [[line for line in one.err if ": the search for " not in line] for one in (threaded, done)]  # a slow machine is told so
     equal(*untimed, "of any threads")

@@ -3,7 +3,7 @@
 import json
 
 from harness import CUBE, INVALID, case, check, equal, lattice, main
-from said import anything
+from messages import anything
 from schema import Schema
 
 NOTE = {"comment": "made by hand, \u00e9 \"quoted\"", "name": "left cheek"}

@@ -10,7 +10,7 @@ from broken_gltf_cases import CORNERS, Model, spread
 from gltf_build import SHIFT
 from gltf_reader import Gltf
 from harness import CUBE, INVALID, IO, UNSUPPORTED, USAGE, case, check, equal, glb_split, lattice, main
-from said import anything, entry, told
+from messages import anything, entry, one_line
 
 SHIFTED = [(x + 1, y, z) for x, y, z in CORNERS]
 
@@ -103,7 +103,7 @@ def a_primitive_whose_faces_are_not_known(run):
         run.ffd("check", "m.glb", "-l", "l.json", err=anything)
         run.ffd("lattice", "new", "m.glb", "-o", "n.json", "--force", err=anything)
         # A conversion would lose the faces.
-        told(deform(run, "m.glb", "o.obj", code=INVALID), "m.glb:/meshes/0/primitives/0", "cannot be converted")
+        one_line(deform(run, "m.glb", "o.obj", code=INVALID), "m.glb:/meshes/0/primitives/0", "cannot be converted")
 
 
 @case
@@ -143,7 +143,7 @@ def base64_as_browsers_read_it(run):
     for head in ("text/plain;xbase64,", "text/plain;base64x,", "text/plainbase64,", ";base65,", ";base-64,", "base64,", ",",
                  "application/octet-stream;charset=utf-8,"):
         run.write("m.gltf", model.text("data:" + head + text))
-        told(deform(run, "m.gltf", "n.gltf", code=INVALID), 'm.gltf:/buffers/0/uri: ', 'must say ";base64"')
+        one_line(deform(run, "m.gltf", "n.gltf", code=INVALID), 'm.gltf:/buffers/0/uri: ', 'must say ";base64"')
         check(not run.exists("n.gltf"), head)
 
 
@@ -155,7 +155,7 @@ def a_buffer_named_with_backslashes(run):
     run.write("../outside.bin", bytes(model.data))
     for uri in ("sub\\deep\\m.bin", "sub/deep\\m.bin", "sub%5Cdeep%5cm.bin", ".\\sub\\deep\\m.bin"):
         run.write("m.gltf", model.text(uri))
-        told(deform(run, "m.gltf", "o.gltf"), "backslash", "sub/deep/m.bin")
+        one_line(deform(run, "m.gltf", "o.gltf"), "backslash", "sub/deep/m.bin")
         equal(positions(run, "o.gltf"), SHIFTED, uri)
         deform(run, "m.gltf", "n.gltf", "--strict", code=INVALID)
     # A file of that very name is the one that is meant.
@@ -189,7 +189,7 @@ def a_buffer_with_less_than_its_byte_length(run):
     start(run)
     model = Model().set("buffers/0/byteLength", 5000)
     run.write("m.glb", model.glb())
-    told(deform(run), "/buffers/0", "less than its byteLength 5000")
+    one_line(deform(run), "/buffers/0", "less than its byteLength 5000")
     # The reader of the tests wants as many bytes as are stated.
     equal(glb_split(run.read("o.glb"))[1][:12], struct.pack("<3f", *SHIFTED[0]))
     run.write("m.gltf", model.set("buffers/0/byteLength", len(model.data) + 1).text("m.bin"))
@@ -216,7 +216,7 @@ def many_kinds_of_flaws(run):
     modes = [flaw for flaw in flaws if "a mode is" in flaw["message"]]
     equal([(flaw["count"], flaw["pointer"]) for flaw in modes], [(3, "/meshes/0/primitives/1/mode")])
     check(flaws[-1]["message"].startswith("there is more of other kinds: ") and flaws[-1]["count"] > 1, flaws[-1])
-    told(deform(run), "a mode is", r"\(the first of 3 such\)")
+    one_line(deform(run), "a mode is", r"\(the first of 3 such\)")
 
 
 REQUIRES = '/extensionsRequired/0: the required extension "{}" {} (--allow-extension {} deforms {})'

@@ -6,7 +6,7 @@ import gzip
 import struct
 
 from harness import CUBE, INVALID, NO, case, check, equal, lattice, main
-from said import anything, entry
+from messages import anything, entry
 
 LOOSE = "blanks follow the backslash at the end of the line: it goes on in the next"
 COLOUR = 'a line "color", which STL does not have, is kept as it is'

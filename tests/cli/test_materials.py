@@ -5,7 +5,7 @@ import json
 import os
 
 from harness import CUBE, IO, LIMIT, PNG, case, check, equal, gltf_json, lattice, main
-from said import anything, not_told, told
+from messages import anything, no_line, one_line
 
 UP = lattice(moves=[{"by": [0, 0, 1]}])
 MTL = "# materials\n\nnewmtl red\nKd 1 0 0\n"
@@ -46,7 +46,7 @@ def libraries_and_maps_are_copied(run):
     run.write("in/four.MTL", "# none\n")
     run.write("in/3.png", PNG)
     done = deform(run, err=anything)
-    told(done, 'm.obj: the image "d.png" is missing and was not copied')
+    one_line(done, 'm.obj: the image "d.png" is missing and was not copied')
     equal(len(done.err), 1, done.err)
     expected = sorted(["m.obj", "one.mtl", "two words.mtl", "sub/three.mtl", "four.MTL", *maps])
     equal(tree(run), expected)
@@ -71,7 +71,7 @@ def a_sample_with_names_that_have_blanks(run):
     equal(tree(run), ["a b.mtl", "m.obj", "second.mtl"])
     run.remove("in/a b.mtl")
     run.write("in/b.mtl", MTL)
-    told(deform(run, "--force", err=anything), 'the material library "a" does not have the ending of a material library')
+    one_line(deform(run, "--force", err=anything), 'the material library "a" does not have the ending of a material library')
     equal(tree(run), ["a b.mtl", "b.mtl", "m.obj", "second.mtl"])
     # One file whose name looks like two.
     start(run, "mtllib x.mtl y.mtl\n", **{"x.mtl y.mtl": MTL})
@@ -105,11 +105,11 @@ def nothing_else_can_be_copied(run):
     run.folder_of("far/out")
     done = deform(run, out="far/out/m.obj", err=anything)
     for name, why in (*left.items(), *maps.items()):
-        told(done, f'"{name}" .*{why}'.replace('"..', r'"\.\.'))
+        one_line(done, f'"{name}" .*{why}'.replace('"..', r'"\.\.'))
     equal(len(done.err), len(left) + len(maps), done.err)
     equal(tree(run, "far"), ["out/good.mtl", "out/m.obj"])
     # One level up the output reaches the very files: nothing to say.
-    not_told(deform(run, err=anything), "up.mtl")
+    no_line(deform(run, err=anything), "up.mtl")
     # By reference none is copied, and the libraries that the output does not reach are named.
     run.write("in/m.obj", "mtllib good.mtl ../up.mtl none.mtl\n" + CUBE)
     run.folder_of("ref")
@@ -162,7 +162,7 @@ def a_dry_run_sees_what_stands_beside_the_output(run):
             run.write("out/" + there, "precious")
         before = tree(run)
         for dry in (["--dry-run"], []):
-            told(run.ffd("batch", "j.jsonl", *dry, code=1, err=anything), "^j.jsonl:1: .*" + said)
+            one_line(run.ffd("batch", "j.jsonl", *dry, code=1, err=anything), "^j.jsonl:1: .*" + said)
             equal(tree(run), before)
         run.remove("out/" + (there or "none"))
 

@@ -9,9 +9,9 @@ import shutil
 import subprocess
 import sys
 
-from harness import (CUBE, CUBE_CORNERS, FFD, LIMIT, OK, SANITIZED, SECONDS, UNSUPPORTED, case, check, copy_program, equal,
+from harness import (CUBE, CUBE_CORNERS, FFD, LIMIT, MODULE_FOLDER, OK, SANITIZED, SECONDS, UNSUPPORTED, case, check, copy_program, equal,
                      glb, gltf_json, lattice, main)
-from said import anything
+from messages import anything
 
 PACKED_GLB = os.path.abspath(sys.argv.pop(1))
 MOVED = lattice(moves=[{"at": [1, 1, 1], "by": [0.5, 0, 0]}])
@@ -62,9 +62,9 @@ def a_module_that_is_not_there_is_named(run):
         for missing in sorted(needed - {"meshopt"}):
             folder = f"without-{missing}-{name}"
             program = copy_program(run.path(folder))
-            os.remove(os.path.join(run.path(folder), "ffd-0.2", f"ffd-{missing}.so"))
+            os.remove(os.path.join(run.path(folder), MODULE_FOLDER, f"ffd-{missing}.so"))
             run.ffd("deform", name, "out.glb", "-l", "l.json", code=UNSUPPORTED, program=program,
-                    err=re.compile(rf"^{name}:.* cannot be loaded: /.*/ffd-0.2/ffd-{missing}\.so: .*No such file or directory$"))
+                    err=re.compile(rf"^{name}:.* cannot be loaded: /.*/{MODULE_FOLDER}/ffd-{missing}\.so: .*No such file or directory$"))
             check(not run.exists("out.glb"), "an output was left")
             shutil.rmtree(run.path(folder))
 
@@ -75,21 +75,21 @@ def without_the_module_of_meshopt_its_files_are_read(run):
     write_inputs(run)
     subprocess.run([PACKED_GLB, "meshopt-0", "4", run.path("older.glb")], check=True, env={**os.environ, "ASAN_OPTIONS": "detect_leaks=0"})
     program = copy_program(run.path("p"))
-    os.remove(os.path.join(run.path("p"), "ffd-0.2", "ffd-meshopt.so"))
+    os.remove(os.path.join(run.path("p"), MODULE_FOLDER, "ffd-meshopt.so"))
     run.ffd("deform", "meshopt.glb", "with.obj", "-l", "l.json", err=anything)
     run.ffd("deform", "meshopt.glb", "without.obj", "-l", "l.json", program=program, err=anything)
     equal(run.read("without.obj"), run.read("with.obj"))
     run.ffd("deform", "older.glb", "out.obj", "-l", "l.json", err=anything)
     equal(run.read("out.obj"), run.read("with.obj"))
     why = run.ffd("info", "older.glb", "--json", program=program).json["topology_unknown"]
-    check(re.match(r"the module for meshopt cannot be loaded: /.*/ffd-0.2/ffd-meshopt\.so: .*No such file or directory$", why), why)
+    check(re.match(rf"the module for meshopt cannot be loaded: /.*/{MODULE_FOLDER}/ffd-meshopt\.so: .*No such file or directory$", why), why)
 
 
 @case
 def without_any_module_what_needs_none_works(run):
     write_inputs(run)
     program = copy_program(run.path("alone"))
-    shutil.rmtree(run.path("alone/ffd-0.2"))
+    shutil.rmtree(run.path(f"alone/{MODULE_FOLDER}"))
     run.ffd("deform", "cube.obj", "out.obj", "-l", "l.json", program=program)
     done = run.ffd("info", "cube.obj", "--json", program=program)
     equal(done.json["topology"], None)
@@ -100,7 +100,7 @@ def without_any_module_what_needs_none_works(run):
 def what_is_another_version_or_no_module_is_refused(run):
     write_inputs(run)
     program = copy_program(run.path("p"))
-    path = run.path("p/ffd-0.2/ffd-tinygltf.so")
+    path = run.path(f"p/{MODULE_FOLDER}/ffd-tinygltf.so")
     version = subprocess.run([FFD, "--version"], capture_output=True, text=True, check=True).stdout.split()[1]
     with open(path, "rb") as file:
         module = file.read()
@@ -147,7 +147,7 @@ def a_module_of_another_user_is_not_loaded(run):
                          ("everybody's", lambda path: os.chmod(path, 0o777))):
         folder = "p-" + name[0]
         program = copy_program(run.path(folder))
-        path = run.path(folder + "/ffd-0.2/ffd-tinygltf.so")
+        path = run.path(f"{folder}/{MODULE_FOLDER}/ffd-tinygltf.so")
         run.ffd("info", "plain.glb", program=program)
         change(path)
         run.ffd("info", "plain.glb", code=UNSUPPORTED, program=program,
@@ -162,12 +162,12 @@ def what_is_no_file_is_not_loaded(run):
     """The loader would wait for a pipe."""
     write_inputs(run)
     program = copy_program(run.path("p"))
-    path = run.path("p/ffd-0.2/ffd-tinygltf.so")
+    path = run.path(f"p/{MODULE_FOLDER}/ffd-tinygltf.so")
     os.remove(path)
     for make, remove in ((os.mkfifo, os.remove), (os.mkdir, os.rmdir), (lambda path: os.symlink("/dev/zero", path), os.remove)):
         make(path)
         run.ffd("info", "plain.glb", code=UNSUPPORTED, program=program,
-                err=re.compile(r"cannot be loaded: /.*/p/ffd-0.2/ffd-tinygltf\.so: is no file, or "))
+                err=re.compile(rf"cannot be loaded: /.*/p/{MODULE_FOLDER}/ffd-tinygltf\.so: is no file, or "))
         remove(path)
 
 

@@ -6,7 +6,7 @@ import json
 from gltf_build import SHIFT, Scene
 from gltf_reader import Gltf
 from harness import NO, case, check, equal, float32, glb_split, gltf_vectors, lattice, main, near, npy, obj_vertices
-from said import anything, entry, lines_with
+from messages import anything, entry, lines_with
 
 TRIANGLE = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]]
 

@@ -11,7 +11,7 @@ from gltf_build import SHEAR, SHIFT, Scene
 from gltf_reader import Gltf
 from harness import (CUBE, INVALID, NO, SANITIZED, USAGE, case, check, equal, float32, glb, glb_split, gltf_vectors,
                      lattice, main, near)
-from said import anything
+from messages import anything
 
 POINTS = [[1.0, 2.0, 0.0], [2.0, -4.0, 1.0], [-3.0, 5.0, 2.0]]
 NORMALS = [[0.6000000238418579, 0.800000011920929, 0.0]] * 3

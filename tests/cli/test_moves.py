@@ -5,7 +5,7 @@ import math
 import random
 
 from harness import INVALID, case, check, equal, lattice, main, near, obj_of, obj_vertices
-from said import anything
+from messages import anything
 from vectors import cross, dot, minus, unit
 
 

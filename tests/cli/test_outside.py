@@ -5,7 +5,7 @@ import math
 
 from harness import (CUBE, EMBEDDING, case, check, equal, glb, glb_positions, glb_split, gltf_json, gltf_vectors,
                      lattice, main, near, obj_of, obj_vertices)
-from said import anything
+from messages import anything
 from vectors import cross, unit
 
 SHIFT = [{"by": [0, 0.5, -8]}]

@@ -10,7 +10,7 @@ import struct
 from gltf_build import Scene
 from harness import INVALID, LIMIT, USAGE, case, check, equal, lattice, main, near
 from posed import Posed, point
-from said import anything, entry, lines_with, not_told, told
+from messages import anything, entry, lines_with, no_line, one_line
 
 TIMES = [0, 0.125, 0.25, 0.4, 0.5, 0.75, 0.9, 1.0]
 
@@ -178,7 +178,7 @@ def equal_bytes_for_any_threads_and_kernels(run):
         found.add(run.read("f.glb"))
     equal(len(found), 1)
     done, _ = deform(run, arm(), BEND, "--rig", "follow", "-v")
-    told(done, "4 nodes follow the deformation, and with them 1 skin and 1 animation")
+    one_line(done, "4 nodes follow the deformation, and with them 1 skin and 1 animation")
 
 
 @case
@@ -279,7 +279,7 @@ def uneven_scales_turn_with_their_parents(run):
     made = arm()
     made.asset["nodes"][1]["scale"] = [2, 1, 1]
     done, _, follow = both(run, made, BEND)
-    told(done, r"nodes? turns? as (its|their)", "scaled unevenly")
+    one_line(done, r"nodes? turns? as (its|their)", "scaled unevenly")
     job = entry(run, "deform", "a.glb", "f.glb", "-l", "l.json", "--rig", "follow")
     check(job["rig"]["sheared"] >= 1, str(job["rig"]))
     # A group of uneven scale turns with all: nothing below it is sheared.
@@ -287,7 +287,7 @@ def uneven_scales_turn_with_their_parents(run):
     grouped.asset["nodes"][0] |= {"scale": [1, 1.5, 1], "rotation": quaternion([0, 0.6, 0.8], 30)}
     done, _, follow = both(run, grouped, RIGID)
     moves_as(Posed(run.read("a.glb")), follow, rigid)
-    not_told(done, "scaled unevenly")
+    no_line(done, "scaled unevenly")
     equal(follow.nodes[5], grouped.asset["nodes"][5], "a mesh with a skin is seen elsewhere")
 
 
@@ -296,7 +296,7 @@ def a_node_without_an_inverse_stays(run):
     made = arm()
     made.asset["nodes"][3]["scale"] = [0, 0, 0]
     done, _, follow = both(run, made, BEND)
-    told(done, r"\b1 node does not follow", "no inverse")
+    one_line(done, r"\b1 node does not follow", "no inverse")
     equal(follow.nodes[3], made.asset["nodes"][3])
 
 
@@ -306,7 +306,7 @@ def cameras_and_lights_go_along(run):
     made.asset["nodes"][3] |= {"camera": 0}
     made.asset["cameras"] = [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}]
     done, _, follow = both(run, made, RIGID)
-    not_told(done, "stays? where")
+    no_line(done, "stays? where")
     m = follow.worlds()[3]
     near([[m[r][c] for c in range(4)] for r in range(3)], [[0, -1, 0, -3.5], [1, 0, 0, -2], [0, 0, 1, 2]], 1e-9)
 
@@ -333,7 +333,7 @@ def what_hangs_on_a_selected_joint_and_is_not_selected_is_told(run):
     left = "nodes? that --only does not select"
     made = arm()
     done, follow = deform(run, made, move, "--rig", "follow", "--only", "node:skinned", "--report", "r.json")
-    told(done, "1 node that --only does not select stays where it is, up to 5 from where the node that it hangs on would carry it: "
+    one_line(done, "1 node that --only does not select stays where it is, up to 5 from where the node that it hangs on would carry it: "
          "plate on lower$")
     rig = json.loads(run.text("r.json"))["jobs"][0]["rig"]
     equal([rig["unselected"], rig["unselected_by"]], [1, 5])
@@ -341,18 +341,18 @@ def what_hangs_on_a_selected_joint_and_is_not_selected_is_told(run):
     made.asset["nodes"][3]["children"] = [6]
     made.asset["nodes"][2]["mesh"] = 1
     done, _ = deform(run, made, move, "--rig", "follow", "--only", "node:skinned")
-    told(done, "3 nodes that --only does not select stay where they are, up to 5 from where the nodes that they hang on")
+    one_line(done, "3 nodes that --only does not select stay where they are, up to 5 from where the nodes that they hang on")
     for options in (("--only", "node:root", "--only", "node:skinned"), ("--only", "node:upper"), ()):
         done, _ = deform(run, made, move, "--rig", "follow", *options)
-        not_told(done, left)
+        no_line(done, left)
     done, _ = deform(run, made, move, "--only", "node:skinned")
-    not_told(done, left)
+    no_line(done, left)
     # A plate that turns with nothing moved is left behind, too: the hand turns about itself.
     made = arm()
     made.asset["nodes"][4] = {"name": "plate", "mesh": 1}
     turn = [{"rotate": {"axis": "z", "degrees": 90, "about": [0, 3, 0]}}]
     done, _ = deform(run, made, turn, "--rig", "follow", "--only", "node:skinned")
-    told(done, "stays where it is, though the node that it hangs on would turn it: plate on lower$")
+    one_line(done, "stays where it is, though the node that it hangs on would turn it: plate on lower$")
 
 
 @case
@@ -372,19 +372,19 @@ def a_skinned_mesh_that_is_not_selected_is_told_where_its_joints_move(run):
         made.asset["meshes"].append({"primitives": [{"attributes": {**attributes, **weights}}]})
         return made
     done, follow = deform(run, dressed(), move, "--rig", "follow", "--only", "node:skinned", "--report", "r.json")
-    told(done, "1 skinned mesh that --only does not select stays where it is, though joints that it hangs on move, by up to 5: glove$")
+    one_line(done, "1 skinned mesh that --only does not select stays where it is, though joints that it hangs on move, by up to 5: glove$")
     rig = json.loads(run.text("r.json"))["jobs"][0]["rig"]
     equal([rig["unselected"], rig["unselected_by"]], [2, 5], "the plate and the glove")
     before = Posed(run.read("a.glb"))
     near(follow.vertices()[6, 0], before.vertices()[6, 0], 1e-5)
     for options in (("--only", "node:skinned", "--only", "node:glove"), ()):
-        not_told(deform(run, dressed(), move, "--rig", "follow", *options)[0], left)
-    not_told(deform(run, dressed(), move, "--rig", "keep", "--only", "node:skinned")[0], left)
+        no_line(deform(run, dressed(), move, "--rig", "follow", *options)[0], left)
+    no_line(deform(run, dressed(), move, "--rig", "keep", "--only", "node:skinned")[0], left)
     # The lower joint moves alone, as it turns about the upper one.
     turn = [{"rotate": {"axis": "z", "degrees": 90, "about": [0, 1, 0]}}]
     for weights, is_logged in (([[1.0, 0, 0, 0]] * 27, False), ([[0.5, 0.5, 0, 0]] * 27, True)):
         done, _ = deform(run, dressed(weights), turn, "--rig", "follow", "--only", "node:skinned")
-        (told if is_logged else not_told)(done, left)
+        (one_line if is_logged else no_line)(done, left)
 
 
 @case
@@ -494,11 +494,11 @@ def splats_that_cannot_be_brought_back_are_said(run):
     made = splats_at_a_joint(5125)  # scales that the extension does not allow
     done, follow = deform(run, made, BEND, "--rig", "follow", "--only", "node:skinned", "--report", "r.json")
     near(follow.vertices()[2, 0], Posed(run.read("a.glb")).vertices()[2, 0], 1e-6)
-    told(done, r"\b2 Gaussian splats that are not selected turn with their nodes", "lower")
+    one_line(done, r"\b2 Gaussian splats that are not selected turn with their nodes", "lower")
     equal(json.loads(run.text("r.json"))["jobs"][0]["rig"]["unscaled"], 1)
     # Where the joint only moves away, they are right as they are.
     done, _ = deform(run, made, [{"by": [1, 0, 0]}], "--rig", "follow", "--only", "node:skinned")
-    not_told(done, "Gaussian")
+    no_line(done, "Gaussian")
 
 
 @case
@@ -510,7 +510,7 @@ def a_mesh_that_is_selected_in_part_keeps_its_node(run):
     primitives.append({"attributes": {"POSITION": made.add([[0, 0, 0], [0.5, 0, 0], [0, 0.5, 0.1]], bounds=True)}, "material": 1})
     done, _, follow = both(run, made, BEND, "--only", "material:red")
     equal(follow.nodes, made.asset["nodes"])
-    told(done, "1 node stays where it is", "--only", "part of its mesh")
+    one_line(done, "1 node stays where it is", "--only", "part of its mesh")
 
 
 @case
@@ -518,7 +518,7 @@ def keep_says_how_far_joints_lag(run):
     made = arm()
     for rig in ((), ("--rig", "keep")):
         done, keep = deform(run, made, [{"by": [0, 0, 0.5]}], *rig)
-        told(done, "the joints of 1 skin", "1 animated pivot", "1 socket", r"lie up to 0\.5 off the deformed mesh", "--rig")
+        one_line(done, "the joints of 1 skin", "1 animated pivot", "1 socket", r"lie up to 0\.5 off the deformed mesh", "--rig")
         equal(keep.nodes, made.asset["nodes"])
         equal(keep.asset["animations"], made.asset["animations"])
     for command in (["deform", "a.glb", "k.glb"], ["check", "a.glb"]):
@@ -530,8 +530,8 @@ def keep_says_how_far_joints_lag(run):
     told_of = run.ffd("check", "a.glb", "-l", "l.json", err=anything).out
     check(re.search(r"2 joints, the largest lag is 0\.5 \(upper\)", str(told_of)), str(told_of))
     # Too little to be worth a line.
-    not_told(deform(run, made, [{"by": [0, 0, 0.001]}])[0], "--rig")
-    not_told(deform(run, made, [{"by": [0, 0, 0.5]}], "--rig", "follow")[0], "off the deformed mesh|stays? where")
+    no_line(deform(run, made, [{"by": [0, 0, 0.001]}])[0], "--rig")
+    no_line(deform(run, made, [{"by": [0, 0, 0.5]}], "--rig", "follow")[0], "off the deformed mesh|stays? where")
 
 
 @case
@@ -583,9 +583,9 @@ def bones_and_springs_of_vrm_go_along(run):
         wanted = [[float(x) for x in line.split()[1:4]] for line in run.text("q.obj").splitlines()]
         worlds = follow.worlds()
         near([[worlds[n][r][3] for r in range(3)] for n in (6, 7, 8, 9)], wanted, 1e-12, "the bones")
-        told(done, r"\b3 spring bones\b", "radii", "tail, tail_end, tail_tip$")
-        told(done, r"\b1 physics shape\b", "hand$")
-        told(done, "eyes", "head$")
+        one_line(done, r"\b3 spring bones\b", "radii", "tail, tail_end, tail_tip$")
+        one_line(done, r"\b1 physics shape\b", "hand$")
+        one_line(done, "eyes", "head$")
         equal(len(lines_with(done, r"rotations? now", "VRM 0")), extensions is OLD_VRM)
         equal(follow.asset["extensions"], extensions)
         job = entry(run, "deform", "a.glb", "f.glb", "-l", "l.json", "--rig", "follow")["rig"]
@@ -605,8 +605,8 @@ def rotations_of_nodes_that_stay_are_said(run):
     made.asset |= {"extensions": {"VRM": {}}, "extensionsUsed": ["VRM"]}
     done, follow = deform(run, made, BEND, "--rig", "follow", "--only", "material:a")
     check("rotation" in follow.nodes[1], follow.nodes)
-    told(done, "2 nodes have rotations now", "hips, hat$")
-    told(done, "1 node stays where it is")
+    one_line(done, "2 nodes have rotations now", "hips, hat$")
+    one_line(done, "1 node stays where it is")
 
 
 @case
@@ -628,8 +628,8 @@ def springs_that_go_round_in_a_circle_end(run):
                    "humanoid": {"humanBones": [{"bone": 3, "node": 9}, {}, 7]}, "firstPerson": {"firstPersonBone": "a", "firstPersonBoneOffset": 0}},
            "VRMC_vrm": {"humanoid": {"humanBones": [1, 2]}, "lookAt": 3}, "VRMC_springBone": {"springs": [{"joints": [3, {"node": 1e99}]}, []]}}
     done, _ = deform(run, with_tail(odd), BEND, "--rig", "follow")
-    told(done, r"\b3 spring bones\b")
-    not_told(done, "eyes")
+    one_line(done, r"\b3 spring bones\b")
+    no_line(done, "eyes")
 
 
 def vrm(**members):
@@ -671,7 +671,7 @@ def numbers_of_no_node_in_vrm_are_flaws(run):
     equal(deform(run, with_tail(fine), [], "--strict")[0].err, [])
     made = with_tail({"VRMC_vrm": {}})
     made.asset["nodes"][6]["extensions"] = {"VRMC_node_constraint": {"constraint": {"roll": {"source": 20}, "aim": {}}}}
-    told(deform(run, made, [])[0], "/nodes/6/extensions/VRMC_node_constraint/constraint/roll/source: " + said.format(", not 20")
+    one_line(deform(run, made, [])[0], "/nodes/6/extensions/VRMC_node_constraint/constraint/roll/source: " + said.format(", not 20")
          + r" \(the first of 2 such\)$")
 
 
@@ -686,10 +686,10 @@ def pointers_that_are_not_followed_and_shapes_are_said(run):
     made.asset |= {"extensions": {"KHR_implicit_shapes": {"shapes": [{"type": "sphere", "sphere": {"radius": 1}}]}},
                    "extensionsUsed": ["KHR_implicit_shapes", "KHR_physics_rigid_bodies", "KHR_animation_pointer"]}
     done, follow = deform(run, made, BEND, "--rig", "follow")
-    told(done, "1 channel of KHR_animation_pointer drives a node that has moved")
-    told(done, "1 physics shape goes with its node", "hand$")
+    one_line(done, "1 channel of KHR_animation_pointer drives a node that has moved")
+    one_line(done, "1 physics shape goes with its node", "hand$")
     equal(follow.nodes[3]["extensions"], shape)
-    told(deform(run, made, BEND)[0], "1 physics shape stays where it is")
+    one_line(deform(run, made, BEND)[0], "1 physics shape stays where it is")
 
 
 @case

@@ -3,7 +3,7 @@
 import math
 
 from harness import case, equal, lattice, main, near, npy, obj_of, obj_vertices
-from said import anything, counts, entry, told
+from messages import anything, counts, entry, one_line
 
 
 def ring(control):
@@ -62,7 +62,7 @@ def edges_that_cross_the_seam(run):
         run.write("l.json", turn(lift([0, 0, 2])))
         seam_tear(run, 2, 2)
         done = run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--force", err=anything)
-        told(done, "seam", r"\b2\b")
+        one_line(done, "seam", r"\b2\b")
         run.write("l.json", turn([{"by": [0, 0, 2]}]))
         seam_tear(run, 0, 0)
 

@@ -2,7 +2,7 @@
 """Skin weights that do not sum to 1 are divided by their sum, and a vertex without any follows its first joint."""
 from gltf_build import SHEAR, Scene
 from harness import INVALID, case, equal, glb_split, gltf_vectors, lattice, main, near, obj_vertices
-from said import anything, entry, not_told, told
+from messages import anything, entry, no_line, one_line
 
 STILL = lattice(low=(-10, -10, -10), high=(10, 10, 10))
 POINTS = [[0.0, 1.0, 0.0], [1.0, 2.0, 0.0], [1.0, -1.0, 1.0], [2.0, 1.0, 1.0]]
@@ -33,7 +33,7 @@ def weights_are_divided_by_their_sum(run):
     """Half and half, of sums 1, 0.4 and 4, stands in the middle; three quarters and one, of 0.4, where those of 1 would."""
     done, found = skinned(run, [[0.5, 0.5, 0, 0], [0.2, 0.2, 0, 0], [2, 2, 0, 0], [0.3, 0.1, 0, 0]], BOTH)
     near(found, sheared([-0.5, -0.5, -0.5, 1.25]), 1e-6)
-    told(done, r"\b3\b", "weights", r"\bsum\b")
+    one_line(done, r"\b3\b", "weights", r"\bsum\b")
     job = entry(run, "check", "a.glb", "-l", "l.json")["skin_weights"]
     equal([job["off"], job["none"]], [3, 0])
     near([job["farthest"]], [3], 1e-6)
@@ -75,14 +75,14 @@ def every_command_says_what_weights_are_not(run):
             done = run.ffd(*command, *([] if command[0] in ("info", "check") else ["--force"]), err=anything, data=True)
             equal(len([line for line in done.err if "weight" in line]), len(kinds), f"{command}: {done.err}")
             for kind in kinds:
-                told(done, "a.glb: /accessors/2: ", kind)
+                one_line(done, "a.glb: /accessors/2: ", kind)
         equal(len(entry(run, "deform", "a.glb", "c.glb", "-l", "l.json")["flaws"]), len(kinds))
         for command in words[:2]:
             done = run.ffd(*command, "--strict", *(["--force"] if command[0] == "deform" else []), code=INVALID, err=anything)
-            told(done, "a.glb:/accessors/2: ", kinds[0])
+            one_line(done, "a.glb:/accessors/2: ", kinds[0])
     # Rounding is none.
     done, _ = skinned(run, [one, [1 / 3, 2 / 3, 0, 0], [0.1, 0.9, 0, 0], one], BOTH, "--strict")
-    not_told(done, "weights")
+    no_line(done, "weights")
 
 
 @case
@@ -163,15 +163,15 @@ def a_vertex_without_weights_follows_its_first_joint(run):
     done, found = skinned(run, [[0, 0, 0, 0], [0, 0, 0, 0], [1, 0, 0, 0], [0, 0, 0, 0]],
                           [[0, 1, 0, 0], [1, 0, 0, 0], [0, 1, 0, 0], [1, 1, 1, 1]])
     near(found, sheared([3, -4, 3, -4]), 1e-6)
-    not_told(done, r"\bstay\b", "matrix")
-    told(done, r"\b3\b", "weights", "first joint")
+    no_line(done, r"\bstay\b", "matrix")
+    one_line(done, r"\b3\b", "weights", "first joint")
     equal(entry(run, "check", "a.glb", "-l", "l.json")["skin_weights"], {"off": 0, "farthest": 0, "none": 3})
 
 
 @case
 def weights_that_sum_to_one_are_not_mentioned(run):
     done, _ = skinned(run, [[0.5, 0.5, 0, 0], [0.1, 0.9, 0, 0], [1, 0, 0, 0], [1 / 3, 2 / 3, 0, 0]], BOTH, "-v")
-    not_told(done, "weights")
+    no_line(done, "weights")
     equal("skin_weights" in entry(run, "check", "a.glb", "-l", "l.json"), False)
 
 

@@ -13,7 +13,7 @@ from bspline import BoxVolume
 from gltf_build import Scene
 from harness import (INVALID, NO, SANITIZED, USAGE, case, check, equal, float32, glb_split, gltf_vectors, lattice,
                      main, near, npy, obj_of, obj_vertices)
-from said import anything, counts, entry
+from messages import anything, counts, entry
 
 # Misses the face x = 1 by a millionth, as a file of six decimals does; a second one by three, a third is far away.
 NEAR = [[1.000001, 0.5, 0.25], [0.5, -0.000003, 0.75], [1.5, 0.5, 0.5], [0.5, 0.5, 0.5]]

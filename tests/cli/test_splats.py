@@ -11,7 +11,7 @@ from decimal import Decimal
 from gltf_build import SHIFT, Scene
 from gltf_reader import Gltf
 from harness import INVALID, case, check, equal, float32, lattice, main, obj_of, threaded_case
-from said import anything, lines_with, told
+from messages import anything, lines_with, one_line
 
 decimal.getcontext().prec = 40
 
@@ -325,7 +325,7 @@ def harmonics_that_do_not_fit(run):
         before[38] |= {f"f_rest_{REST[degree] - 1}": math.nan}
         run.write("a.ply", ply(before))
         run.write("l.json", turn)
-        told(run.ffd("deform", "a.ply", "b.ply", "-l", "l.json", "--force", err=anything), r"\b2\b",
+        one_line(run.ffd("deform", "a.ply", "b.ply", "-l", "l.json", "--force", err=anything), r"\b2\b",
              "splats have spherical harmonics that are not numbers, or too large")
         after = read(run.read("b.ply"))
         for splat, row in enumerate(after):
@@ -348,8 +348,8 @@ def splats_that_are_no_numbers(run):
     run.write("a.ply", data)
     run.write("l.json", by(matrix(turn_of([1, 2, 3], 30))))
     done = run.ffd("deform", "a.ply", "b.ply", "-l", "l.json", "--report", "r.json", err=anything)
-    told(done, r"\b3\b", "splats move without their rotation and scales")
-    told(done, r"\b1\b", "splat has spherical harmonics that are not numbers")
+    one_line(done, r"\b3\b", "splats move without their rotation and scales")
+    one_line(done, r"\b1\b", "splat has spherical harmonics that are not numbers")
     equal(entry(run)["splats"], {"carried": 3, "flattened": 0, "broken": 3})
     after = read(run.read("b.ply"))
     for i in range(3):
@@ -368,27 +368,27 @@ def headers_that_are_not_of_splats(run):
     for row, made in zip(rows, after):
         equal([made[f"f_rest_{i}"] for i in range(7)], [row[f"f_rest_{i}"] for i in range(7)])
         check(made["rot_1"] != row["rot_1"], "the ellipsoids follow")
-    told(run.ffd("check", "a.ply", "-l", "l.json", err=anything), r"\b7\b", "f_rest", "9, 24 or 45")
+    one_line(run.ffd("check", "a.ply", "-l", "l.json", err=anything), r"\b7\b", "f_rest", "9, 24 or 45")
     for missing in ("rot_2", "scale_0", "rot_", "scale_"):
         names = [name for name in names_of(0) if name != missing and not (missing.endswith("_") and name.startswith(missing))]
         rows = [{name: row[name] for name in names} for row in cloud(3, 0, "float")]
         after = read(deform(run, ply(rows), turn, warned=1))
         equal([[made[n] for n in names[3:]] for made in after], [[row[n] for n in names[3:]] for row in rows])
-        told(run.ffd("check", "a.ply", "-l", "l.json", err=anything), "no " + missing, "not Gaussian splats")
+        one_line(run.ffd("check", "a.ply", "-l", "l.json", err=anything), "no " + missing, "not Gaussian splats")
     # Scales alone may be anything.
     rows = [{name: row[name] for name in ("x", "y", "z", "scale_0")} for row in cloud(3, 0, "float")]
     deform(run, ply(rows), turn)
     rows = [row | {"filter_3D": 0.5} for row in cloud(3, 0, "float")]
     equal([made["filter_3D"] for made in read(deform(run, ply(rows), turn, warned=1))], [0.5] * 3)
-    told(run.ffd("check", "a.ply", "-l", "l.json", err=anything), "filter_3D", "stays")
+    one_line(run.ffd("check", "a.ply", "-l", "l.json", err=anything), "filter_3D", "stays")
     text = ply(cloud(2, 9, "float"), "ascii").decode()
     for column in (9, 19, 22):
         lines = text.splitlines()
         lines[-1] = " ".join("huge" if i == column else word for i, word in enumerate(lines[-1].split()))
         run.write("a.ply", "\n".join(lines) + "\n")
-        told(run.ffd("deform", "a.ply", "b.ply", "-l", "l.json", "--force", code=INVALID, err=anything), "not a number", "huge")
+        one_line(run.ffd("deform", "a.ply", "b.ply", "-l", "l.json", "--force", code=INVALID, err=anything), "not a number", "huge")
     whole = text.replace("property float scale_0", "property int scale_0")
-    told(run_of(run, whole), r"\b2\b", "rotations and scales stay")
+    one_line(run_of(run, whole), r"\b2\b", "rotations and scales stay")
 
 
 def run_of(run, text):
@@ -569,11 +569,11 @@ def gltf_that_is_not_quite_of_splats(run):
     a, b = deform_glb(run, scene(logarithms, made), turn, warned=1)
     number = logarithms[PREFIX + "SCALE"]
     equal(b.decoded(number), a.decoded(number), "as PLY files have them")
-    told(run.ffd("check", "a.glb", "-l", "l.json", err=anything), "negative", "logarithms")
+    one_line(run.ffd("check", "a.glb", "-l", "l.json", err=anything), "negative", "logarithms")
     run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--force", "--strict", code=INVALID, err=anything)
     some = {name: number for name, number in attributes.items() if not name.endswith("SH_DEGREE_1_COEF_1")}
     a, b = deform_glb(run, scene(some, made), turn, warned=1)
-    told(run.ffd("check", "a.glb", "-l", "l.json", err=anything), "not complete", "not turned")
+    one_line(run.ffd("check", "a.glb", "-l", "l.json", err=anything), "not complete", "not turned")
     equal(b.decoded(some[PREFIX + "SH_DEGREE_1_COEF_0"]), a.decoded(some[PREFIX + "SH_DEGREE_1_COEF_0"]))
     without = {name: number for name, number in attributes.items() if not name.endswith("ROTATION")}
     a, b = deform_glb(run, scene(without, made), turn, warned=1)

@@ -6,7 +6,7 @@ import json
 
 from gltf_build import SHIFT, Scene
 from harness import case, check, equal, glb_split, lattice, main
-from said import anything, lines_with
+from messages import anything, lines_with
 
 PAIR = [[0.0, 0.0, 0.0], [2.0, 1.0, 0.0]]
 FAR = [[500.0, 0.0, 0.0], [502.0, 1.0, 0.0]]

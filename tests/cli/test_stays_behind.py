@@ -6,7 +6,7 @@ import re
 
 from gltf_build import SHEAR, Scene
 from harness import UNSUPPORTED, case, check, equal, glb_split, gltf_vectors, lattice, main, near, obj_vertices
-from said import anything, entry, lines_with, not_told, told
+from messages import anything, entry, lines_with, no_line, one_line
 
 QUAD = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]]
 KINDS = ("socket", "camera", "light", "joint", "pivot", "physics")
@@ -34,7 +34,7 @@ def at(name, x, **members):
 def only_kind(done, kind):
     for other in KINDS:
         if other != kind:
-            not_told(done, rf"\b{other}s?\b", "stay")
+            no_line(done, rf"\b{other}s?\b", "stay")
 
 
 CAMERA = {"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}
@@ -57,7 +57,7 @@ def a_line_a_kind_with_the_count_and_three_names(run):
         names = [f"{kind}_{letter}" for letter in "abcd"]
         nodes = [at(name, i, **members) for i, name in enumerate(names)] + [at(f"{kind}_far", 50, **members)]
         done = deformed(run, scene(nodes, **asset))
-        line = told(done, r"\b4\b", rf"\b{kind}s?\b|\b{kind} shapes?\b")
+        line = one_line(done, r"\b4\b", rf"\b{kind}s?\b|\b{kind} shapes?\b")
         equal([name in line for name in names], [True, kind != "socket", kind != "socket", False], line)
         check("far" not in line, line)
         only_kind(done, kind)
@@ -73,8 +73,8 @@ def none_where_nothing_is_in_reach(run):
 @case
 def two_kinds_are_two_lines(run):
     done = deformed(run, scene([at("hand", 1), at("eye", 2, camera=0)], cameras=[CAMERA]))
-    told(done, r"\b1\b", "socket", r"\bhand\b")
-    told(done, r"\b1\b", "camera", r"\beye\b")
+    one_line(done, r"\b1\b", "socket", r"\bhand\b")
+    one_line(done, r"\b1\b", "camera", r"\beye\b")
     equal(len(done.err), 2)
 
 
@@ -82,7 +82,7 @@ def two_kinds_are_two_lines(run):
 def a_node_below_others_is_where_the_scene_has_it(run):
     made = scene([{"name": "arm", "translation": [45, 0, 0], "children": [2]}, at("hand", -44)])
     made.asset["scenes"] = [{"nodes": [0, 1]}]
-    told(deformed(run, made), r"\b1\b", "socket", r"\bhand\b")
+    one_line(deformed(run, made), r"\b1\b", "socket", r"\bhand\b")
     made = scene([{"name": "arm", "translation": [45, 0, 0], "children": [2]}, at("hand", 1)])
     made.asset["scenes"] = [{"nodes": [0, 1]}]
     equal(deformed(run, made).err, [])
@@ -100,7 +100,7 @@ def animated(path, values, shape):
 @case
 def a_pivot_that_is_animated(run):
     done = deformed(run, animated("rotation", [[0, 0, 0, 1], [0, 0, 1, 0]], "VEC4"))
-    told(done, r"\b1\b", "pivot", r"\bhub\b")
+    one_line(done, r"\b1\b", "pivot", r"\bhub\b")
     equal(len(done.err), 1)
 
 
@@ -110,7 +110,7 @@ def what_is_animated_and_more_is_told_once(run):
     made.asset |= {"cameras": [CAMERA]}
     made.asset["nodes"][1]["camera"] = 0
     done = deformed(run, made)
-    told(done, "1 camera stays", "hub")
+    one_line(done, "1 camera stays", "hub")
     equal(len(done.err), 1)
 
 
@@ -124,7 +124,7 @@ def joints(run):
     made.asset["skins"] = [{"joints": [1, 2]}]
     made.asset["nodes"][0]["skin"] = 0
     done = deformed(run, made)
-    told(done, r"the joints of 1 skin lie up to 1 off", r"\bhip\b")
+    one_line(done, r"the joints of 1 skin lie up to 1 off", r"\bhip\b")
     only_kind(done, "joint")
 
 
@@ -144,13 +144,13 @@ def with_skin(run, used, nodes):
 def joints_of_skins_that_are_not_used_have_a_subject(run):
     """With and without a skin that is used; they count as joints in the report, and follow."""
     nodes = [at("a", 0), at("b", 1)]
-    told(deformed(run, with_skin(run, False, nodes)), "2 joints of skins that are not used lie up to 1 off the deformed mesh")
-    told(deformed(run, with_skin(run, True, nodes)), "the joints of 1 skin and 1 joint of a skin that is not used lie up to 1 off")
-    told(deformed(run, with_skin(run, False, [at("a", 50), at("b", 1)])),
+    one_line(deformed(run, with_skin(run, False, nodes)), "2 joints of skins that are not used lie up to 1 off the deformed mesh")
+    one_line(deformed(run, with_skin(run, True, nodes)), "the joints of 1 skin and 1 joint of a skin that is not used lie up to 1 off")
+    one_line(deformed(run, with_skin(run, False, [at("a", 50), at("b", 1)])),
          "1 joint of a skin that is not used lies up to 1 off the deformed mesh", r"\(b\): see --rig$")
     equal(entry(run, "check", "a.glb", "-l", "l.json")["rig"]["joints"], 2)
     done = deformed(run, with_skin(run, False, nodes), "--rig", "follow")
-    not_told(done, "off the deformed mesh")
+    no_line(done, "off the deformed mesh")
     asset, _ = glb_split(run.read("b.glb"))
     equal([node["translation"] for node in asset["nodes"][1:]], [[1, 0, 0], [2, 0, 0]])
 
@@ -161,13 +161,13 @@ def joints_lie_off_a_morph_target(run):
     made = with_skin(run, True, [at("a", 0), at("b", 50)])
     words = r"the joints of 1 skin lie up to 1 off the mesh that the morph target shows \(a\); animations will turn it about the old places$"
     run.write("far.json", lattice(low=(0.5, -10, -10), high=(10, 10, 10), moves=[{"by": [1, 0, 0]}]))
-    told(deformed(run, made, "--as-morph", "wide"), words)
+    one_line(deformed(run, made, "--as-morph", "wide"), words)
     for command in (("check", "a.glb", "--as-morph", "w"), ("deform", "a.glb", "b.glb", "--as-morph", "w")):
         rig = entry(run, *command, "-l", "l.json")["rig"]
         equal([rig["joints"], rig["moved"], rig["largest_lag"], rig["worst"]], [2, 0, 1, "a"], str(command))
         equal(entry(run, *command, "-l", "far.json")["rig"]["largest_lag"], 0)
     done = run.ffd("deform", "a.glb", "c.glb", "--morph", "far=far.json", "--morph", "wide=l.json", "--report", "m.json", err=anything)
-    told(done, 'a.glb: morph target "wide": ' + words)
+    one_line(done, 'a.glb: morph target "wide": ' + words)
     equal(json.loads(run.text("m.json"))["jobs"][0]["rig"]["largest_lag"], 1)
 
 
@@ -222,7 +222,7 @@ def nothing_where_no_vertex_moves(run):
 def what_extend_moves_is_in_reach(run):
     box = lattice(low=(-2, -2, -2), high=(2, 2, 2), moves=[{"by": [1, 0, 0]}])
     equal(deformed(run, scene([at("hand", 5)]), box=box).err, [])
-    told(deformed(run, scene([at("hand", 5)]), "--outside", "extend", box=box), "1 socket", "hand")
+    one_line(deformed(run, scene([at("hand", 5)]), "--outside", "extend", box=box), "1 socket", "hand")
     equal(deformed(run, scene([at("hand", 5)]), "--outside", "extend", "--falloff", "1", box=box).err, [])
 
 
@@ -232,7 +232,7 @@ def the_second_lattice_counts_too(run):
     run.write("first.json", lattice(low=(-10, -10, -10), high=(10, 10, 10)))
     run.write("second.json", SHIFT)
     run.write("a.glb", scene([at("hand", 1)]).glb())
-    told(run.ffd("deform", "a.glb", "b.glb", "-l", "first.json", "-l", "second.json", err=anything), "1 socket", "hand")
+    one_line(run.ffd("deform", "a.glb", "b.glb", "-l", "first.json", "-l", "second.json", err=anything), "1 socket", "hand")
 
 
 @case
@@ -245,7 +245,7 @@ def a_selection_looks_at_what_belongs_to_it(run):
         equal(deformed(run, made, "--only", only).err,
               [f"a.glb: 1 socket lies up to 1 off the deformed mesh ({name}): see --rig"], only)
     equal(deformed(run, made, "--only", "mesh:mesh_1").err, [])
-    told(deformed(run, made), "2 sockets", "hand")
+    one_line(deformed(run, made), "2 sockets", "hand")
 
 
 @case
@@ -259,7 +259,7 @@ def the_joints_of_what_is_selected(run):
     made.asset["skins"] = [{"joints": [1]}]
     made.asset["nodes"][0]["skin"] = 0
     done = deformed(run, made, "--only", "node:body")
-    told(done, "the joints of 1 skin and 1 socket lie", "hip")
+    one_line(done, "the joints of 1 skin and 1 socket lie", "hip")
     equal(entry(run, "deform", "a.glb", "b.glb", "-l", "l.json", "--only", "node:body")["behind"],
           [{"kind": "socket", "count": 1, "names": ["hand"]}, {"kind": "joint", "count": 1, "names": ["hip"]}])
     equal(lines_with(deformed(run, made, "--only", "node:rock"), "stays? where|deformed mesh"), [])
@@ -294,7 +294,7 @@ def more_kinds_of_physics_and_pivots(run):
             made.asset["nodes"][("own", "same", "other").index(place)]["extensions"] = node
             equal(len(lines_with(deformed(run, made), "1 physics shape stays")), expected, f"{node} {place} {mesh}")
     for root in ({"VRMC_springBone": {"colliders": [{"node": 1}]}}, {"VRM": {"secondaryAnimation": {"colliderGroups": [{"node": 1}]}}}):
-        told(deformed(run, scene([at("shell", 1)], extensions=root)), "1 physics shape stays", "shell")
+        one_line(deformed(run, scene([at("shell", 1)], extensions=root)), "1 physics shape stays", "shell")
     for path, expected in (("/nodes/1/rotation", 1), ("/nodes/1/weights", 0), ("/nodes/7/rotation", 0), ("/nodes//scale", 0), ("/nodes/-1/scale", 0), ("/meshes/1/scale", 0)):
         made = animated("rotation", [[0, 0, 0, 1], [0, 0, 1, 0]], "VEC4")
         made.asset["animations"][0]["channels"][0]["target"] = {
@@ -317,7 +317,7 @@ def splats_in_reach(run):
     run.write("l.json", lattice(low=(-10, -10, -10), high=(10, 10, 10), moves=[{"rotate": {"axis": "z", "degrees": 90}}]))
     run.write("a.ply", splats([[1, 0, 0], [2, 0, 0], [99, 0, 0]]))
     done = run.ffd("deform", "a.ply", "b.ply", "-l", "l.json", err=anything)
-    told(done, r"\b2\b", "splat", "rotation", "scale")
+    one_line(done, r"\b2\b", "splat", "rotation", "scale")
     run.write("a.ply", splats([[99, 0, 0]]))
     equal(lines_with(run.ffd("deform", "a.ply", "b.ply", "-l", "l.json", "--force", err=anything), "splat"), [])
 
@@ -349,7 +349,7 @@ def splats_of_gltf(run):
                                              "extensions": {"KHR_gaussian_splatting": {"kernel": "ellipse"}}}]}]
     turn = lattice(low=(-10, -10, -10), high=(10, 10, 10), moves=[{"rotate": {"axis": "z", "degrees": 5}}])
     done = deformed(run, made, box=turn)
-    equal(told(done, "splat"), "a.glb: 4 Gaussian splats move, but their rotations and scales stay: rose, thorn")
+    equal(one_line(done, "splat"), "a.glb: 4 Gaussian splats move, but their rotations and scales stay: rose, thorn")
     equal(entry(run, "check", "a.glb", "-l", "l.json")["behind"], [{"kind": "splat", "count": 4, "names": ["rose", "thorn"]}])
     del made.asset["meshes"][0]["primitives"][0]["extensions"]
     made.asset |= {"extensionsUsed": [], "extensionsRequired": []}
@@ -400,7 +400,7 @@ def coarse_nodes_below_a_group_that_is_not_shown(run):
     equal(moved_meshes(run), [True, True, False])
     # And the group stands in for what is below it: it is shown at 50 then, with the other mesh.
     nodes[2]["extensions"] = {"MSFT_lod": {"ids": [1]}}
-    told(deformed(run, levels(nodes)), "3 of 9 vertices are not inside")
+    one_line(deformed(run, levels(nodes)), "3 of 9 vertices are not inside")
     equal(moved_meshes(run), [True, True, False])
 
 
@@ -492,19 +492,19 @@ def a_selected_node_takes_its_coarser_ones_along(run):
 def a_coarse_node_of_two_parents_is_deformed_for_the_first(run):
     made = levels([{"name": "a", "children": [2]}, {"name": "b", "translation": [0, 2, 0], "children": [3]}, lod(0, 4), lod(0, 4),
                    {"mesh": 1}], (0, 1), meshes=2)
-    told(deformed(run, made), "1 use of a node by MSFT_lod is at another place than the first")
+    one_line(deformed(run, made), "1 use of a node by MSFT_lod is at another place than the first")
     del made.asset["nodes"][1]["translation"]  # below another parent, but at the same place
-    not_told(deformed(run, made), "MSFT_lod")
+    no_line(deformed(run, made), "MSFT_lod")
     made.asset["nodes"][0]["children"] = [2, 3]
     made.asset["nodes"][1] = {"name": "b", "mesh": 1}
-    not_told(deformed(run, made), "MSFT_lod")
+    no_line(deformed(run, made), "MSFT_lod")
 
 
 @case
 def a_conversion_shows_the_finest_level(run):
     run.write("a.glb", levels([lod(0, 1), {"mesh": 1, "translation": [5, 0, 0]}], meshes=2).glb())
     run.write("l.json", SHIFT)
-    told(run.ffd("deform", "a.glb", "b.obj", "-l", "l.json", err=anything), "hidden|not shown|displayed")
+    one_line(run.ffd("deform", "a.glb", "b.obj", "-l", "l.json", err=anything), "hidden|not shown|displayed")
     equal(obj_vertices(run.text("b.obj")), [[x + 1, y, z] for x, y, z in QUAD])
     contents = run.ffd("info", "a.glb", "--json").json["contents"]
     equal([contents["nodes_with_mesh_not_shown"], contents["nodes_with_mesh_of_coarser_detail"]], [0, 1])
@@ -530,7 +530,7 @@ def coarse_nodes_are_deformed_as_under_the_parent(run):
         for key in without:
             del made.asset[key]
         done = deformed(run, made, box=SHEAR)
-        not_told(done, "left as it is|not in the (displayed )?scene")
+        no_line(done, "left as it is|not in the (displayed )?scene")
         asset, data = glb_split(run.read("b.glb"))
         for mesh, (tx, ty) in enumerate(((3, 1), (3, 3), (2, 1))):
             found = gltf_vectors(asset, data, asset["meshes"][mesh]["primitives"][0]["attributes"]["POSITION"])

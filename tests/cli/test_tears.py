@@ -7,7 +7,7 @@ import struct
 
 from bspline import BoxVolume
 from harness import NO, OK, case, check, equal, glb, gltf_json, lattice, main, near, obj_of
-from said import anything, entry, not_told, told
+from messages import anything, entry, no_line, one_line
 
 # Holds x up to 1.5 and all else.
 LOW, HIGH = (-10, -10, -10), (1.5, 10, 10)
@@ -168,8 +168,8 @@ def boxes_that_abut_and_move_alike_tear_nothing(run):
     run.write("a.obj", strip(3))
     for options in (boxes(run, UP, UP), boxes(run, UP, UP)[2:] + boxes(run, UP, UP)[:2]):
         done = judged(run, 0, 0, options)[1]
-        not_told(done, "step")
-        not_told(done, r"\bstays?\b")
+        no_line(done, "step")
+        no_line(done, r"\bstays?\b")
         run.ffd("check", "a.obj", *options, "--fail-on", "tear", err=anything)
 
 
@@ -190,10 +190,10 @@ def boxes_that_abut_and_move_differently(run):
     options = boxes(run, UP, [{"by": [0, 0.5, 0.25]}])
     found, done = judged(run, 2, 0.5, options)
     equal([found["part"], found["vertex"]], ["group:Beam", 2])
-    told(done, "lattices", "differently", r"\b0\.5\b", "vertex 2 of Beam", r"\b2 torn edges\b", "--blocks")
-    not_told(done, r"\bstays?\b")
+    one_line(done, "lattices", "differently", r"\b0\.5\b", "vertex 2 of Beam", r"\b2 torn edges\b", "--blocks")
+    no_line(done, r"\bstays?\b")
     done = run.ffd("check", "a.obj", *options, "--fail-on", "tear=0.49", code=NO, err=anything)
-    told(done, "differently")
+    one_line(done, "differently")
     run.ffd("check", "a.obj", *options, "--fail-on", "tear=0.51", err=anything)
 
 
@@ -209,7 +209,7 @@ def a_small_box_in_a_large_one_tears_at_its_own_border(run):
         options = [word for name in order for word in ("-l", name + ".json")]
         found, done = judged(run, 2, step, options)
         equal(found["vertex"], 2)
-        not_told(done, r"\bstays?\b")
+        no_line(done, r"\bstays?\b")
 
 
 def layers(run, name, low, high, lifts):
@@ -316,7 +316,7 @@ def only_what_no_lattice_moves_stays(run):
     run.write("still.json", lattice(low=(-50, -50, -50), high=(50, 50, 50)))
     for more in ([], ["-l", "still.json"]):
         done = judged(run, 6, 0.25, ["-l", "l.json", "-l", "far.json"], *more)[1]
-        told(done, r"\b6 vertices stay\b", r"\b0\.25\b")
+        one_line(done, r"\b6 vertices stay\b", r"\b0\.25\b")
 
 
 @case
@@ -360,11 +360,11 @@ def what_is_hidden_is_not_torn(run):
     # Without names the vertices of all are counted.
     asset, data = gltf_json(triangle, nodes=[{"mesh": 0}, {"mesh": 0, "translation": [0, 5, 0], **hidden}])
     draw_hidden(run, asset, data)
-    told(run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--force", err=anything), r"\b1 vertex stays\b")
+    one_line(run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--force", err=anything), r"\b1 vertex stays\b")
     # Of the faces across the border there is only the hidden one, whose vertices come after those of the other.
     asset, data = gltf_json(triangle, nodes=[{"mesh": 0, "translation": [-3, 0, 0]}, {"mesh": 0, **hidden}])
     draw_hidden(run, asset, data)
-    not_told(run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--force", err=anything), "largest step")
+    no_line(run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--force", err=anything), "largest step")
     # Two triangles with vertices of their own: b, which is not selected, stands where a hidden and selected one does too.
     nodes = [{"mesh": 0, "name": "a"}, {"mesh": 0, "name": "b", "translation": [-1, 0, 0]},
              {"mesh": 0, "name": "c", "translation": [-1, 0, 0], **hidden}]
@@ -381,9 +381,9 @@ def a_warning_of_deform_names_the_part_and_the_remedy(run):
     equal(found["part"], "group:Knight_Sword")
     for options in ([], ["-v"]):
         done = run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--force", *options, err=anything)
-        told(done, r"\b2 vertices\b", "Knight_Sword", r"\b0\.25\b", "--outside extend", "--falloff", "larger lattice")
+        one_line(done, r"\b2 vertices\b", "Knight_Sword", r"\b0\.25\b", "--outside extend", "--falloff", "larger lattice")
     done = run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--force", "--outside", "extend", err=anything)
-    not_told(done, "step")
+    no_line(done, "step")
     check("0.25" in run.ffd("check", "a.obj", "-l", "l.json", err=anything).text, "the text of check")
 
 
@@ -409,8 +409,8 @@ def what_no_face_uses_does_not_stay(run):
     for mesh in (strip(3), "g low\n" + strip(3)):
         start(run, mesh + "v 7 7 7\nv 8 8 8\nv 1 0.5 0\n")
         done = run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--force", err=anything)
-        told(done, r"\b4 of 11 vertices are not inside")
-        told(done, r"\b4 vertices( of low)? stay\b")
+        one_line(done, r"\b4 of 11 vertices are not inside")
+        one_line(done, r"\b4 vertices( of low)? stay\b")
 
 
 @case
@@ -432,7 +432,7 @@ def the_node_of_a_gltf_is_named(run):
     # Without indices: the two vertices at 1,0,0 and at 1,1,0 are one each. Only x = 2 stays, at the end of two edges.
     found = torn(run, 2, 0.25, mesh="a.glb", tolerance=1e-6)
     equal([found["part"], found["vertex"]], ["node:Sword", 4])
-    told(run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", err=anything), r"\b1 vert(ex|ices)\b", "Sword", r"\b0\.25\b")
+    one_line(run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", err=anything), r"\b1 vert(ex|ices)\b", "Sword", r"\b0\.25\b")
 
 
 @case
@@ -444,7 +444,7 @@ def a_name_is_cut_between_characters(run):
         asset["meshes"][0]["primitives"][0]["mode"] = 4
         run.write("a.glb", glb(asset, data))
         equal(torn(run, 2, 0.25, mesh="a.glb")["part"], f"node:{part}")
-        told(run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--force", err=anything), f" of {re.escape(shown)} stays;")
+        one_line(run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--force", err=anything), f" of {re.escape(shown)} stays;")
         run.write("a.obj", f"g {name}\nv 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n")
         equal(torn(run, 2, 0.25)["part"], f"group:{shown}")
 
@@ -547,7 +547,7 @@ def a_border_through_what_is_drawn_at_random(run):
             told_of[name] = found["vertex"]
             for n in range(3):
                 largest = entry(run, "check", name, "-l", f"{n}.json")["tear"]["largest"]
-                told(run.ffd("deform", name, "out" + name[-4:], "-l", f"{n}.json", "--force", err=anything),
+                one_line(run.ffd("deform", name, "out" + name[-4:], "-l", f"{n}.json", "--force", err=anything),
                      rf"the largest step to a neighbour is {re.escape(format(largest, '.6g'))}\b")
         of_order = {vertex for name, vertex in told_of.items() if name != "None.glb"}
         equal(len(of_order), 1, f"the vertex with the largest step: {told_of}")

@@ -7,7 +7,7 @@ import subprocess
 import time
 
 from harness import FFD, LIMIT, NO, SANITIZED, SECONDS, USAGE, case, check, equal, lattice, main, wait_until
-from said import anything, entry, not_told, told
+from messages import anything, entry, no_line, one_line
 
 ENDED = r"took longer than 0\.2 seconds \(--timeout\)"
 
@@ -52,7 +52,7 @@ def a_lattice_that_is_not_slow_is_not_told(run):
     run.write("l.json", lattice(rest={"points": [[i / 3, j / 3 + 0.1 * i, k / 3 + 0.05 * i * j] for k in range(4)
                                                  for j in range(4) for i in range(4)]}, moves=[{"by": [0, 0, 0.1]}]))
     sheet(run, "a.obj", 20, 20)
-    not_told(run.ffd("deform", "a.obj", "out.obj", "-l", "l.json", err=anything), "vertices may take")
+    no_line(run.ffd("deform", "a.obj", "out.obj", "-l", "l.json", err=anything), "vertices may take")
 
 
 @case
@@ -90,7 +90,7 @@ def each_of_several_meshes_has_the_time(run):
     sheet(run, "slow.obj", 60, 60)
     run.folder_of("out")
     done = run.ffd("deform", "slow.obj", "quick.obj", "--out-dir", "out", "-l", "slow.json", "--timeout", "0.5", code=NO, err=anything)
-    told(done, r"^slow\.obj: took longer than 0\.5 seconds")
+    one_line(done, r"^slow\.obj: took longer than 0\.5 seconds")
     equal(run.names("out"), ["quick.obj"])
 
 
@@ -196,7 +196,7 @@ def a_job_of_a_manifest_has_no_time_of_its_own(run):
     run.write("l.json", lattice())
     sheet(run, "a.obj", 2, 2)
     run.write("m.jsonl", '{"in": "a.obj", "out": "b.obj", "lattice": "l.json", "timeout": 3}\n')
-    told(run.ffd("batch", "m.jsonl", code=NO, err=anything), r'^m\.jsonl:1: unknown key "timeout"')
+    one_line(run.ffd("batch", "m.jsonl", code=NO, err=anything), r'^m\.jsonl:1: unknown key "timeout"')
     check(not run.exists("b.obj"), "b.obj")
 
 

@@ -8,7 +8,7 @@ import struct
 
 from gltf_build import Scene
 from harness import case, check, equal, glb_split, gltf_vectors, lattice, main, obj_of, obj_vertices
-from said import anything
+from messages import anything
 
 STEP = [0.1, -1 / 3, 100.0]
 LOW, HIGH = [-2, -2, -2], [2, 2, 2]

@@ -11,7 +11,7 @@ from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, NO, SANITIZED, 
                      glb_split, gltf_json, lattice, main, near)
 from page import read_page
 from png import make_png, read_png
-from said import anything
+from messages import anything
 
 SHIFT = [{"by": [1, 0, 0]}]
 TWIST = [{"twist": {"axis": "z", "degrees": 50}}]

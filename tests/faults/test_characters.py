@@ -12,7 +12,7 @@ import shutil
 from gltf_build import Scene
 from gltf_reader import Gltf
 from harness import INVALID, NO, case, check, equal, lattice, main, near
-from said import anything, counts, entry, told
+from messages import anything, counts, entry, one_line
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
@@ -52,7 +52,7 @@ def house_01_gate_lost_in_conversion(run):
     near([[checked["det"]["outside"]]], [[1 - 1.875 * 0.6 / 0.3]], 1e-6)
     for name in ("o.glb", "o.gltf", "o.obj", "o.ply", "o.off", "o.stl"):
         job = entry(run, "deform", "m.glb", name, *options, code=NO)
-        told(run.ffd("deform", "m.glb", name, *options, code=NO, err=anything), r"det F falls to -2\.75", "--fail-on folds")
+        one_line(run.ffd("deform", "m.glb", name, *options, code=NO, err=anything), r"det F falls to -2\.75", "--fail-on folds")
         check(not run.exists(name), name, "is written")
         equal(job["det"], checked["det"], name)
 
@@ -82,7 +82,7 @@ def wild3_05_as_morph_unequal_targets(run):
 def wild3_06_target_names_of_primitives(run):
     use(run, "wild3-06-target-names-of-primitives")
     done = run.ffd("deform", "head.gltf", "out.gltf", "-l", "twist.json", "--as-morph", "blink", err=anything)
-    told(done, "replaced")
+    one_line(done, "replaced")
     mesh = Gltf(run.path("out.gltf")).asset["meshes"][0]
     equal([mesh["primitives"][0]["extras"]["targetNames"], mesh.get("extras")], [["smile", "blink"], None])
     (_, (smile, blink)), = primitives(run, "out.gltf")
@@ -99,7 +99,7 @@ def wild3_20_stale_weights_channel(run):
     """The animation did nothing and does nothing."""
     use(run, "wild3-20-stale-weights-channel")
     done = run.ffd("deform", "m.gltf", "out.gltf", "-l", "twist.json", "--as-morph", "turned", err=anything)
-    told(done, "/animations/0/channels/0")
+    one_line(done, "/animations/0/channels/0")
     gltf = Gltf(run.path("out.gltf"))
     animation = gltf.asset["animations"][0]
     equal([list(row) for row in gltf.decoded(animation["samplers"][animation["channels"][0]["sampler"]]["output"])], [[0], [0]])
@@ -116,7 +116,7 @@ def wild3_20_stale_weights_channel(run):
     run.write("wide.gltf", asset)
     for name in ("none.gltf", "wide.gltf"):
         for out in ("v.png", "v.html"):
-            told(run.ffd("view", name, "-o", out, "--animation", "a", "--force", err=anything), "not played: 1 channel that drives no")
+            one_line(run.ffd("view", name, "-o", out, "--animation", "a", "--force", err=anything), "not played: 1 channel that drives no")
         equal(run.ffd("deform", name, "o.gltf", "-l", "twist.json", "--rig", "follow", "--force", err=anything).err, [])
         equal(len(Gltf(run.path("o.gltf")).asset["animations"][0]["channels"]), 2, "the channel stays")
 
@@ -128,7 +128,7 @@ def artist_02_only_follow_leaves_sword(run):
     """The sword is not selected and stays; the joint that it hangs on goes from 2 to 3."""
     use(run, "artist-02-only-follow-leaves-sword")
     job = entry(run, "deform", "arm.glb", "o.glb", "-l", "wide.json", "--rig", "follow", "--only", "node:arm")
-    told(run.ffd("deform", "arm.glb", "o.glb", "-l", "wide.json", "--rig", "follow", "--only", "node:arm", "--force", err=anything),
+    one_line(run.ffd("deform", "arm.glb", "o.glb", "-l", "wide.json", "--rig", "follow", "--only", "node:arm", "--force", err=anything),
          "1 node", "--only", "up to 1 from", "sword on hand")
     equal([job["rig"]["unselected"], job["rig"]["unselected_by"]], [1, 1])
     nodes = Gltf(run.path("o.glb")).asset["nodes"]
@@ -159,7 +159,7 @@ def wild3_04_collider_node(run):
 def wild3_17_message_without_subject(run):
     use(run, "wild3-17-message-without-subject")
     done = run.ffd("deform", "prop.gltf", "out.gltf", "-l", "twist.json", err=anything)
-    equal(done.err, [told(done, "^prop.gltf: 1 joint of a skin that is not used lies up to 0\\.155", r"\(arm\)")])
+    equal(done.err, [one_line(done, "^prop.gltf: 1 joint of a skin that is not used lies up to 0\\.155", r"\(arm\)")])
 
 
 @case
@@ -200,10 +200,10 @@ def artist_06_nothing_moved_no_word(run):
     os.environ["XDG_CACHE_HOME"] = run.path("cache")
     why = ("no vertex moves", "pull.json", "moves no control point", r"-1 -1 0 to 3 1 0")
     for arguments in (["deform", "face.obj", "o.obj"], ["view", "face.obj", "-o", "o.html"], ["view", "face.obj", "-o", "o.png"]):
-        told(run.ffd(*arguments, "-l", "pull.json", "--force", err=anything), *why)
+        one_line(run.ffd(*arguments, "-l", "pull.json", "--force", err=anything), *why)
     equal(run.read("o.obj"), run.read("face.obj"))
     run.write("m.jsonl", json.dumps({"in": "face.obj", "lattice": "pull.json", "out": "b.obj"}) + "\n")
-    told(run.ffd("batch", "m.jsonl", err=anything), *why)
+    one_line(run.ffd("batch", "m.jsonl", err=anything), *why)
 
 
 main()

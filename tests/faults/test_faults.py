@@ -15,7 +15,7 @@ from bspline import BoxVolume
 from exact_determinant import ExactVolume, preset
 from gltf_reader import Gltf
 from harness import INVALID, NO, UNSUPPORTED, case, check, equal, float32, main, near, npy, obj_of, obj_vertices
-from said import anything, counts, entry, not_told, told
+from messages import anything, counts, entry, no_line, one_line
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 EPS = 2.0 ** -52
@@ -162,7 +162,7 @@ def weights_times_a_factor_move_nothing(run):
     file = json.loads(run.text("l2.json"))
     for rest, factor in (([1] * 64, 7), ([1 + i % 7 for i in range(64)], 0.3), (file["weights"], 3)):
         run.write("f.json", {**file, "weights": rest, "deformed": {"weights": [factor * h for h in rest]}})
-        told(run.ffd("deform", "m.obj", "out.obj", "-l", "f.json", "--fail-on", "folds", "--force", err=anything),
+        one_line(run.ffd("deform", "m.obj", "out.obj", "-l", "f.json", "--fail-on", "folds", "--force", err=anything),
              f"the deformed weights of f.json are those at rest times {factor}: a common factor moves nothing")
         equal(run.read("out.obj"), run.read("m.obj"))
 
@@ -185,14 +185,14 @@ def maths3_10_box_weights_open_knots(run):
     for arguments in (("check", "m.obj", "-l", "l.json"), ("embed", "m.obj", "-l", "l.json", "-o", "u.npy"),
                       ("jacobian", "m.obj", "-l", "l.json", "-o", "j.npz")):
         done = run.ffd(*arguments, err=anything)
-        told(done, "l.json", "not its whole box", "u, v, w", "not clamped", f"{off:.3g} off")
+        one_line(done, "l.json", "not its whole box", "u, v, w", "not clamped", f"{off:.3g} off")
     near([info(run, "l.json")["border_off"]], [off], 1e-15)
     # Where the weights do not vary along the open direction, and where all knots are clamped, nothing is missing.
     for knots, weights in (("open", [1 + i // 4 for i in range(64)]), ("clamped", file["weights"])):
         along = ["open", "clamped", "clamped"] if knots == "open" else ["clamped"] * 3
         run.write("s.json", {**file, "knots": along, "weights": weights})
         done = run.ffd("check", "m.obj", "-l", "s.json", "--report", "r.json", "--force", err=anything)
-        not_told(done, "whole box")
+        no_line(done, "whole box")
         counts(json.loads(run.read("r.json"))["jobs"][0], inside=6, outside=0)
         check("border_off" not in info(run, "s.json"), knots)
 
@@ -212,9 +212,9 @@ def cylinders_that_weights_change_are_named(run):
         done = run.ffd("check", "m.obj", "-l", "l.json", err=anything)
         off = info(run, "l.json").get("border_off", 0)
         if off:
-            told(done, "l.json", "not its whole cylinder", f"{off:.3g} off")
+            one_line(done, "l.json", "not its whole cylinder", f"{off:.3g} off")
         else:
-            not_told(done, "whole cylinder")
+            no_line(done, "whole cylinder")
         return off
 
     equal(warned(product, "clamped", "closed", "clamped"), 0)
@@ -232,7 +232,7 @@ def a_box_round_a_mesh_that_weights_change_is_named(run):
                          "knots": ["open", "clamped", "clamped"], "rest": {"box": "mesh", "margin": 0.5},
                          "weights": [1 + i % 3 for i in range(27)]})
     # Along u the ends are (P0 + 2 P1)/3 and (2 P1 + 3 P2)/5 of the points at -1.5, 0.5, 2.5 and the sides -0.5, 1.5.
-    told(run.ffd("check", "m.obj", "-l", "l.json", err=anything), "l.json", "not its whole box", "along u that", "0.333 off")
+    one_line(run.ffd("check", "m.obj", "-l", "l.json", err=anything), "l.json", "not its whole box", "along u that", "0.333 off")
 
 
 # Torn edges
@@ -247,7 +247,7 @@ def maths3_11_blocks_jump_unseen(run):
         equal([tear["edges"], tear["largest"]], [2, 0.6], options)
         run.ffd("deform", "m.obj", "out.obj", *options, "--fail-on", "tear", code=NO, err=anything)
         check(not run.exists("out.obj"), "nothing is written")
-    told(run.ffd("deform", "m.obj", "out.obj", *both, "--blocks", err=anything), "blocks", "differently", r"\b0\.6\b")
+    one_line(run.ffd("deform", "m.obj", "out.obj", *both, "--blocks", err=anything), "blocks", "differently", r"\b0\.6\b")
 
 
 @case
@@ -260,7 +260,7 @@ def maths3_12_extend_jumps_between_arms(run):
     near([tear["largest"]], [1], 1e-9)
     run.ffd("deform", "m.obj", "out.obj", *options, "--fail-on", "tear,folds", code=NO, err=anything)
     check(not run.exists("out.obj"), "nothing is written")
-    told(run.ffd("deform", "m.obj", "out.obj", *options, err=anything), "border", r"\bstep to a neighbour is 1\b")
+    one_line(run.ffd("deform", "m.obj", "out.obj", *options, err=anything), "border", r"\bstep to a neighbour is 1\b")
 
 
 # The fold proof
@@ -322,7 +322,7 @@ def maths_04_skin_weights_not_one(run):
     """Vertices stand where the weights, divided by their sum, place them; a warning says of how many."""
     use(run, "maths-04-skin-weights-not-one")
     done = run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", err=anything)
-    told(done, r"\b30\b", "weights", r"\bsum\b")
+    one_line(done, r"\b30\b", "weights", r"\bsum\b")
     file = json.loads(run.text("l.json"))
     box = file["rest"]["box"]
     volume = BoxVolume(box["min"], box["max"], lambda p: p, (5, 5, 5))
@@ -413,7 +413,7 @@ def wild_03_nan_check_deform(run):
     use(run, "wild-03-nan-check-deform")
     for command in (["check", "scan.ply"], ["deform", "scan.ply", "out.ply"]):
         done = run.ffd(*command, "-l", "box.json", "--report", "r.json", err=anything)
-        told(done, r"\b1\b", "invalid")
+        one_line(done, r"\b1\b", "invalid")
         counts(entry(run, *command, "-l", "box.json"), status="ok", exit=0, vertices=3, inside=2, outside=0, invalid=1, moved=2)
     equal(run.text("out.ply").partition("end_header\n")[2], "1 0 0\nnan nan nan\n2 1 1\n")
     run.ffd("embed", "scan.ply", "-l", "box.json", "-o", "u.npy", "--status", "s.npy", err=anything)
@@ -431,7 +431,7 @@ def wild_04_splat_ply(run):
     """The volume turns by 90 degrees: the splats turn with it, and nothing has to be said of them."""
     use(run, "wild-04-splat-ply")
     done = run.ffd("deform", "splat.ply", "out.ply", "-l", "turn.json", err=anything)
-    not_told(done, "splat")
+    no_line(done, "splat")
     check(run.read("splat.ply") != run.read("out.ply"), "they turn")
     rows = [[float(x) for x in line.split()] for line in run.text("out.ply").partition("end_header\n")[2].splitlines()]
     near([row[:3] for row in rows], [[0, 1, 0], [0, 2, 0]], 1e-6)
@@ -444,7 +444,7 @@ def wild_05_msft_lod(run):
     """The coarse stand-in is deformed as it will be shown: in the place of the node it stands for."""
     use(run, "wild-05-msft-lod")
     done = run.ffd("deform", "lod.gltf", "out.gltf", "-l", "move.json", err=anything)
-    not_told(done, "left as it is|not in the scene")
+    no_line(done, "left as it is|not in the scene")
     equal(positions(run, "out.gltf", 0), QUAD_MOVED)
     equal(positions(run, "out.gltf", 1), QUAD_MOVED)
 
@@ -507,7 +507,7 @@ def wild_10_required_visibility(run):
     equal(positions(run, "out.gltf"), QUAD_MOVED)
     run.write("m.gltf", run.text("m.gltf").replace("KHR_node_visibility", "ACME_x"))
     done = run.ffd("deform", "m.gltf", "none.gltf", "-l", "move.json", code=UNSUPPORTED)
-    told(done, '"ACME_x"', "--allow-extension ACME_x")
+    one_line(done, '"ACME_x"', "--allow-extension ACME_x")
     run.ffd("deform", "m.gltf", "out.gltf", "-l", "move.json", "--force", "--allow-extension", "ACME_x", err=[])
     equal(positions(run, "out.gltf"), QUAD_MOVED)
 
@@ -542,7 +542,7 @@ def wild_12_parts_one_box(run):
         near(vertices, [volume.deform(p) for p in obj_vertices(run.text(name))], 1e-13, name)
     equal([found["body.obj"][i] for i in (1, 2)], [found["door.obj"][i] for i in (0, 3)], "the common border, to the bit")
     done = run.ffd("deform", "body.obj", "door.obj", "--out-dir", "o", "-l", "bend.json", "--force", lines=1)
-    told(done, "box", "--shared-box")
+    one_line(done, "box", "--shared-box")
     run.ffd("lattice", "new", "body.obj", "door.obj", "-o", "both.json")
     box = json.loads(run.text("both.json"))["rest"]["box"]
     near([box["min"], box["max"]], [low, high], 1e-14)
@@ -553,8 +553,8 @@ def wild_13_sockets_stay(run):
     """What stays behind is said, a line a kind: the socket on the body's corner, and the camera."""
     use(run, "wild-13-sockets-stay")
     done = run.ffd("deform", "rig.gltf", "out.gltf", "-l", "move.json", lines=2)
-    told(done, r"\b1 socket", "socket_hand")
-    told(done, r"\b1 camera", r"\bcam\b")
+    one_line(done, r"\b1 socket", "socket_hand")
+    one_line(done, r"\b1 camera", r"\bcam\b")
     equal(positions(run, "out.gltf"), QUAD_MOVED)
     equal(Gltf(run.path("out.gltf")).asset["nodes"], Gltf(run.path("rig.gltf")).asset["nodes"])
 
@@ -564,7 +564,7 @@ def wild_13c_wheel_pivot(run):
     """The vertices of an animated wheel move and its pivot stays: a line names the node."""
     use(run, "wild-13c-wheel-pivot")
     done = run.ffd("deform", "car.gltf", "out.gltf", "-l", "move.json", lines=1)
-    told(done, r"\b1\b", "pivot", r"\bwheel\b")
+    one_line(done, r"\b1\b", "pivot", r"\bwheel\b")
     near(positions(run, "out.gltf"), [[x + 1, y, z] for x, y, z in positions(run, "car.gltf")], 1e-7)
 
 
@@ -784,7 +784,7 @@ def wild_24_abutting_lattices(run):
     equal(job["tear"]["edges"], 0)
     equal(run.text("out.obj"), "v 0.5 0 0.5\nv 1 0 0.5\nv 1.5 0 0.5\nv 1 1 0.5\nf 1 2 4\nf 2 3 4\n")
     done = run.ffd("deform", "beam.obj", "out.obj", "-l", "a.json", "-l", "b.json", "--force", err=anything)
-    told(done, r"\b2 vertices", "common", "--blocks")
+    one_line(done, r"\b2 vertices", "common", "--blocks")
     equal([p[2] for p in obj_vertices(run.text("out.obj"))], [0.5, 1, 0.5, 1])
 
 
@@ -809,7 +809,7 @@ def wild_09_far_obj_to_glb(run):
     use(run, "wild-09-far-obj-to-glb")
     run.ffd("deform", "site.obj", "same.obj", "-l", "box.json")
     done = run.ffd("deform", "site.obj", "out.glb", "-l", "box.json", err=anything)
-    not_told(done, "precision")
+    no_line(done, "precision")
     equal(Gltf(run.path("out.glb")).asset["nodes"], [{"mesh": 0, "translation": [500000.5, 4649776, 120]}])
     near(positions(run, "out.glb"), [[x - 500000.5, y - 4649776, z - 120] for x, y, z in obj_vertices(run.text("same.obj"))],
          HALF_FLOAT / 2)
@@ -840,7 +840,7 @@ def wild_26c_texcoord_1_to_obj(run):
     """The set that the base colour takes; that the other one stays behind is said."""
     use(run, "wild-26c-texcoord-1-to-obj")
     done = run.ffd("deform", "m.gltf", "out.obj", "-l", "move.json", lines=1)
-    told(done, "further texture coordinates")
+    one_line(done, "further texture coordinates")
     equal(obj_texcoords(run, "out.obj"), [[0, 1], [1, 1], [1, 0], [0, 0]])
 
 

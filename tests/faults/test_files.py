@@ -15,7 +15,7 @@ import zlib
 
 from harness import (INVALID, IO, LIMIT, NO, PNG, UNSUPPORTED, USAGE, case, check, equal, glb, glb_split, gltf_json, gltf_vectors, lattice,
                      main, near)
-from said import anything, counts, entry, not_told, told
+from messages import anything, counts, entry, no_line, one_line
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 LIFT = lattice(moves=[{"by": [0, 0, 1]}])
@@ -132,17 +132,17 @@ def positions_are_where_the_accessor_says(run):
         code = INVALID if name == "m" else 0
         done = run.ffd("deform", name + ".gltf", "o.gltf", "-l", "l.json", "--force", "--report", "r.json", code=code, err=anything)
         if name == "m":
-            told(done, r"^m\.gltf:/accessors/0: a coordinate of -2e\+15 is more than 1e15 times the largest number of min and max, 1: ")
+            one_line(done, r"^m\.gltf:/accessors/0: a coordinate of -2e\+15 is more than 1e15 times the largest number of min and max, 1: ")
         elif name == "t":
-            not_told(done, "min|max")
+            no_line(done, "min|max")
     run.write("m.bin", struct.pack("<9f", 0, 0, 0, 3.5, 0, 0, 0, 1, 0))
     done = run.ffd("deform", "m.gltf", "o.gltf", "-l", "l.json", "--force", "--report", "r.json", err=anything)
-    told(done, r"^m\.gltf: /accessors/0/max: a position has x = 3\.5, more than the max 1$")
+    one_line(done, r"^m\.gltf: /accessors/0/max: a position has x = 3\.5, more than the max 1$")
     equal([(flaw["pointer"], flaw["count"]) for flaw in json.loads(run.text("r.json"))["jobs"][0]["flaws"]], [("/accessors/0/max", 1)])
     run.ffd("check", "m.gltf", "-l", "l.json", "--strict", code=INVALID, err=re.compile("more than the max 1$"))
     # Numbers that are not finite are counted elsewhere; those that min and max round to are equal.
     run.write("m.bin", struct.pack("<9f", 0, 0, 0, 1, float("inf"), 0, 0, float("nan"), 0))
-    not_told(run.ffd("info", "m.gltf", err=anything), "a position has|1e15")
+    no_line(run.ffd("info", "m.gltf", err=anything), "a position has|1e15")
     run.write("m.bin", struct.pack("<9f", 0, 0, 0, 0.1, 0.7, 0, 0, 0, 0))
     run.write("m.gltf", three([0, 0, 0], [0.1, 0.7, 0], b"")[0])
     run.ffd("info", "m.gltf")
@@ -170,11 +170,11 @@ def a_buffer_of_another_length_is_a_flaw(run):
         run.write("m.gltf", three([0, 0, 0], [1, 1, 0], b"")[0])
         run.write("m.bin", data + bytes(more))
         done = run.ffd("deform", "m.gltf", "o.gltf", "-l", "l.json", "--force", err=anything)
-        told(done, rf"^m\.gltf: /buffers/0: the buffer has {what}$")
+        one_line(done, rf"^m\.gltf: /buffers/0: the buffer has {what}$")
         run.ffd("info", "m.gltf", "--strict", code=INVALID, err=re.compile(what))
     run.write("m.gltf", three([0, 0, 0], [1, 1, 0], b"", byteLength=40)[0])
     run.write("m.bin", data)
-    told(run.ffd("info", "m.gltf", err=anything), "36 bytes, less than its byteLength 40")
+    one_line(run.ffd("info", "m.gltf", err=anything), "36 bytes, less than its byteLength 40")
     asset, data = gltf_json(TRIANGLE)
     asset["buffers"][0]["byteLength"] = 35
     run.write("m.gltf", three([0, 0, 0], [1, 1, 0], b"", byteLength=35)[0])
@@ -183,7 +183,7 @@ def a_buffer_of_another_length_is_a_flaw(run):
     for more, flaws in ((0, False), (4, True)):
         run.write("p.glb", glb(asset, data + bytes(more)))
         done = run.ffd("info", "p.glb", err=anything)
-        (told if flaws else not_told)(done, "the buffer has 40 bytes, more than its byteLength 36")
+        (one_line if flaws else no_line)(done, "the buffer has 40 bytes, more than its byteLength 36")
 
 
 # Names and numbers of a glTF
@@ -362,9 +362,9 @@ def offsets_and_indices_without_bytes_are_not_zeros_either(run):
         run.ffd(*deform)
     for words in (["info", "m.glb"], deform, ["check", "m.glb", "-l", "l.json"]):
         shown("SCALAR", 5123, low=[0], high=[2], mode=4, indices=1)
-        told(run.ffd(*words, err=anything), "accessor 1 has no bytes, but its max is 2: what the primitive draws is not known")
+        one_line(run.ffd(*words, err=anything), "accessor 1 has no bytes, but its max is 2: what the primitive draws is not known")
         shown("SCALAR", 5123, low=[0], high=[0], mode=4, indices=1)
-        not_told(run.ffd(*words, err=anything), "has no bytes")
+        no_line(run.ffd(*words, err=anything), "has no bytes")
 
 
 @case
@@ -383,7 +383,7 @@ def an_extension_beside_positions_keeps_the_old_geometry(run):
             run.ffd("deform", "m.glb", "o.glb", "-l", "l.json", "--force", code=UNSUPPORTED,
                     err=re.compile(rf"\(--allow-extension {name} deforms what else the file holds\)$"))
         for words in (["deform", "m.glb", "o.glb", "--force"], ["check", "m.glb"]):
-            told(run.ffd(*words, "-l", "l.json", *allow, err=anything),
+            one_line(run.ffd(*words, "-l", "l.json", *allow, err=anything),
                  f'the extension "{name}" holds geometry in a form of its own, which is not deformed')
 
 
@@ -458,7 +458,7 @@ def an_index_that_is_none_stays_a_flaw(run):
     for name, content in (("no.glb", drawn(5, strip, 5121)), ("triangles.glb", drawn(4, [0, 4, 1, 255, 8, 5], 5121, **RESTART)),
                           ("large.glb", drawn(5, [0, 4, 1, 255, 4, 12, 5], 5121, **RESTART))):
         run.write(name, content)
-        told(run.ffd("info", name, err=anything), "what the primitive draws is not known", "index 12" if name == "large.glb" else "index 255")
+        one_line(run.ffd("info", name, err=anything), "what the primitive draws is not known", "index 12" if name == "large.glb" else "index 255")
         run.ffd("info", name, "--strict", code=INVALID, err=anything)
 
 
@@ -541,13 +541,13 @@ def wild3_19_colours_of_faces_are_kept(run):
             equal(run.text("n.off").splitlines()[6:], back)
         for name in ("m.off", "m.ply"):
             for out in ("m.obj", "m.glb", "m.stl"):
-                told(run.ffd("deform", name, out, "-l", "l.json", "--force", err=anything), "cannot hold", "face colours")
-            told(run.ffd("view", name, "-o", "v.png", "--force", err=anything), "the colours of faces are not shown")
+                one_line(run.ffd("deform", name, out, "-l", "l.json", "--force", err=anything), "cannot hold", "face colours")
+            one_line(run.ffd("view", name, "-o", "v.png", "--force", err=anything), "the colours of faces are not shown")
     # Other spellings, and what is no colour.
     run.write("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
                        "property uchar diffuse_blue\nproperty list uchar int vertex_indices\nproperty uchar diffuse_red\n"
                        "property uchar diffuse_green\nproperty int id\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 3 0 1 2 1 2 7\n")
-    told(run.ffd("deform", "a.ply", "a.off", "-l", "l.json", err=anything), "further data of vertices and faces")
+    one_line(run.ffd("deform", "a.ply", "a.off", "-l", "l.json", err=anything), "further data of vertices and faces")
     equal(run.text("a.off").splitlines()[-1], "3 0 1 2 1 2 3")
     # Numbers of other ranges mean what they mean for vertices.
     for kind, colours, back, line in (("int", ["255 0 0", "0 0 200"], ["255 0 0", "0 0 200"], None),
@@ -560,12 +560,12 @@ def wild3_19_colours_of_faces_are_kept(run):
                            f"3 0 1 2 {colours[0]}\n3 0 2 3 {colours[1]}\n")
         done = run.ffd("deform", "a.ply", "a.off", "-l", "l.json", "--force", err=anything)
         equal(run.text("a.off").splitlines()[-2:], [f"3 0 1 2 {back[0]}", f"3 0 2 3 {back[1]}"])
-        told(done, line) if line else equal(done.err, [])
-        not_told(run.ffd("deform", "a.ply", "a.glb", "-l", "l.json", "--force", err=anything), "above 1|not finite")
+        one_line(done, line) if line else equal(done.err, [])
+        no_line(run.ffd("deform", "a.ply", "a.glb", "-l", "l.json", "--force", err=anything), "above 1|not finite")
     run.write("m.off", OFF + "3 0 1 2 300 0 0\n3 0 2 3 0 0 1\n3 1 2 3 0 0 1\n")
-    told(run.ffd("deform", "m.off", "m.ply", "-l", "l.json", "--force", err=anything), "above 1, and 1 in PLY: 1 colour")
+    one_line(run.ffd("deform", "m.off", "m.ply", "-l", "l.json", "--force", err=anything), "above 1, and 1 in PLY: 1 colour")
     run.write("m.off", OFF + "3 0 1 2 7\n3 0 2 3\n3 1 2 3\n")
-    told(run.ffd("deform", "m.off", "m.ply", "-l", "l.json", "--force", err=anything), "further data of vertices and faces")
+    one_line(run.ffd("deform", "m.off", "m.ply", "-l", "l.json", "--force", err=anything), "further data of vertices and faces")
 
 
 @case
@@ -577,10 +577,10 @@ def colours_of_stl_facets_are_kept(run):
         facets = b"".join(struct.pack("<12fH", 0, 0, 1, 0, 0, i, 1, 0, i, 0, 1, i, attribute) for i, attribute in enumerate(attributes))
         run.write("m.stl", header.ljust(80, b"\0") + struct.pack("<I", len(attributes)) + facets)
         done = run.ffd("deform", "m.stl", "m.ply", "-l", "l.json", "--force", err=anything)
-        not_told(done, "face colours")
+        no_line(done, "face colours")
         near = [[round(255 * x) for x in struct.unpack("<3f", colour)] for colour in ply_faces(run.read("m.ply"))[1]]
         equal(near, [list(c) for c in colours])
-        told(run.ffd("deform", "m.stl", "m.obj", "-l", "l.json", "--force", err=anything), "face colours")
+        one_line(run.ffd("deform", "m.stl", "m.obj", "-l", "l.json", "--force", err=anything), "face colours")
 
 
 # What a file needs beside it
@@ -609,15 +609,15 @@ def wild3_12_textures_of_a_ply_go_along(run):
     equal(run.read("out/sub/b.png"), PNG + b"sub/b.png")
     run.folder_of("ref")
     done = run.ffd("deform", "in/m.ply", "ref/m.ply", "-l", "l.json", "--resources", "reference", err=anything)
-    told(done, r'the output does not reach the image "a\.png" \(--resources copy copies it\)')
+    one_line(done, r'the output does not reach the image "a\.png" \(--resources copy copies it\)')
     equal(files_in(run, "ref"), ["m.ply"])
     run.ffd("deform", "in/m.ply", "in/n.ply", "-l", "l.json")
     run.write("up/in/m.ply", textured_ply("../out.png"))
     run.write("up/out.png", PNG)
     run.folder_of("up/to/x")
-    told(run.ffd("deform", "up/in/m.ply", "up/to/x/m.ply", "-l", "l.json", err=anything), "cannot be copied")
-    told(run.ffd("deform", "in/m.ply", "out/m.obj", "-l", "l.json", err=anything), "cannot hold", "textures")
-    told(run.ffd("view", "in/m.ply", "-o", "v.png", err=anything), "the textures that the file names are not shown")
+    one_line(run.ffd("deform", "up/in/m.ply", "up/to/x/m.ply", "-l", "l.json", err=anything), "cannot be copied")
+    one_line(run.ffd("deform", "in/m.ply", "out/m.obj", "-l", "l.json", err=anything), "cannot hold", "textures")
+    one_line(run.ffd("view", "in/m.ply", "-o", "v.png", err=anything), "the textures that the file names are not shown")
     # Two jobs of a batch that would copy different images to one place.
     run.write("b/m.ply", textured_ply("a.png"))
     run.write("b/a.png", PNG + b"other")
@@ -666,7 +666,7 @@ def artist_14_a_glb_of_a_gltf_holds_its_images(run):
     equal(files_in(run, "all"), ["b.glb", "in.glb"])
     # What is no image is not taken in.
     run.write("in/tex/a.png", "echo")
-    told(run.ffd("deform", "in/m.gltf", "out/t.glb", "-l", "l.json", err=anything), '"tex/a.png" does not have the content of an image and is not in the output')
+    one_line(run.ffd("deform", "in/m.gltf", "out/t.glb", "-l", "l.json", err=anything), '"tex/a.png" does not have the content of an image and is not in the output')
     run.write("in/m.gltf", {**asset, "images": [{"uri": "tex/a.png"}] * 40})
     run.write("in/tex/a.png", PNG + bytes(2 << 20))
     run.ffd("deform", "in/m.gltf", "out/l.glb", "-l", "l.json", code=LIMIT, err=re.compile("memory"))
@@ -689,7 +689,7 @@ def images_that_a_glb_cannot_hold_stay_uris(run):
                                      ("/a.png", "/a.png", address, 0), ("C:/a.png", "C:/a.png", address, 0), ("", "", no_name, 0),
                                      ("a.png\0.png", r"a.png\u0000.png", no_name, 0)):
         run.write("in/m.gltf", {**asset, "images": [{"uri": uri}]})
-        told(run.ffd("deform", "in/m.gltf", "out/m.glb", "-l", "l.json", "--force", err=anything), re.escape(f'm.gltf: the image "{shown}" {why}') + "$")
+        one_line(run.ffd("deform", "in/m.gltf", "out/m.glb", "-l", "l.json", "--force", err=anything), re.escape(f'm.gltf: the image "{shown}" {why}') + "$")
         written = run.read("out/m.glb")
         equal(glb_split(written)[0]["images"], [{"uri": uri}])
         check(b"secret" not in written)
@@ -717,10 +717,10 @@ def wild3_13_files_of_extensions_are_named(run):
     line = (r'4 files that extensions name are not copied: "schema\.json" of EXT_structural_metadata, "a b\.mp3" of KHR_audio_emitter, '
             r'"v\.mp4" of MPEG_media and 1 more$')
     for words in (["out/m.gltf"], ["out/m.glb"], ["out/n.gltf", "--resources", "reference"]):
-        told(run.ffd("deform", "in/m.gltf", *words, "-l", "l.json", err=anything), line)
+        one_line(run.ffd("deform", "in/m.gltf", *words, "-l", "l.json", err=anything), line)
     run.ffd("deform", "in/m.gltf", "in/n.gltf", "-l", "l.json")
     run.write("out/schema.json", "{}")
-    told(run.ffd("deform", "in/m.gltf", "out/m.gltf", "-l", "l.json", "--force", err=anything), "3 files that extensions name are not copied")
+    one_line(run.ffd("deform", "in/m.gltf", "out/m.gltf", "-l", "l.json", "--force", err=anything), "3 files that extensions name are not copied")
 
 
 @case
@@ -734,11 +734,11 @@ def files_of_obj_statements_are_named(run):
     run.folder_of("out")
     line = (r'm\.obj: 5 files that statements name are not copied: "c\.obj" of call, "a\.map" of maplib, "b\.map" of maplib and 2 more$')
     for words in ([], ["--resources", "reference", "--force"]):
-        told(run.ffd("deform", "in/m.obj", "out/m.obj", *words, "-l", "l.json", err=anything), line)
+        one_line(run.ffd("deform", "in/m.obj", "out/m.obj", *words, "-l", "l.json", err=anything), line)
     equal(files_in(run, "out"), ["m.mtl", "m.obj"])
     for name in ("t.obj", "b.map", "my shadow.obj", "a.map"):
         run.write("out/" + name, "there")
-    told(run.ffd("deform", "in/m.obj", "out/m.obj", "--force", "-l", "l.json", err=anything),
+    one_line(run.ffd("deform", "in/m.obj", "out/m.obj", "--force", "-l", "l.json", err=anything),
          r'm\.obj: 1 file that a statement names is not copied: "c\.obj" of call$')
     run.ffd("deform", "in/m.obj", "in/n.obj", "-l", "l.json")
     run.ffd("deform", "in/m.obj", "in/c.obj", "-l", "l.json", "--force", code=IO,
@@ -769,7 +769,7 @@ def what_standard_input_names_is_told(run):
               '"c.jpg" of images, "s.json" of EXT_structural_metadata'))
     for ending, text, said in cases:
         words = ["deform", "-", f"out/m.{ending}", "--input-format", ending, "-l", "l.json"]
-        told(run.ffd(*words, stdin=text.encode(), err=anything), re.escape(said) + "$")
+        one_line(run.ffd(*words, stdin=text.encode(), err=anything), re.escape(said) + "$")
         # To standard output nothing can go along; and what is beside the output already needs no word.
         run.ffd("deform", "-", "-", "--input-format", ending, "--output-format", ending, "-l", "l.json", stdin=text.encode())
     for name in ("m.mtl", "n.mtl", "x/c.obj", "a.png", "a b.png", "c.jpg", "s.json"):
@@ -808,7 +808,7 @@ def wild3_14_tiles_go_along(run):
     done = run.ffd("deform", "in/m.obj", "out/m.obj", "-l", "l.json", err=anything)
     equal(done.err, ['in/m.obj: the image "none.<UDIM>.png" is missing and was not copied'])
     equal(files_in(run, "out"), sorted([*tiles, "m.mtl", "m.obj"]))
-    told(run.ffd("view", "in/m.obj", "-o", "v.png", err=anything), r'cannot be shown: "tex/s\.<UDIM>\.png" has tiles$')
+    one_line(run.ffd("view", "in/m.obj", "-o", "v.png", err=anything), r'cannot be shown: "tex/s\.<UDIM>\.png" has tiles$')
     # Other spellings, and a name that no file has.
     for name, found in (("tex/s.<udim>.png", tiles[:3]), ("tex/s.%(UDIM)d.png", tiles[:3]), ("n_u<U>_v<V>.png", tiles[3:]), ("n_u<U>_v1.png", tiles[3:4]),
                         ("n_u<u>_v<v>.png", ["n_u0_v1.png", "n_u1_v1.png"]), ("<UDIM>/<UDIM>.png", ["1002/1002.png"])):
@@ -820,7 +820,7 @@ def wild3_14_tiles_go_along(run):
         shutil.rmtree(run.path("to"))
     run.write("in/m.mtl", "newmtl a\nmap_Kd <UDIM>" + "<" * 100000 + ".png\n")
     run.folder_of("to/x")
-    told(run.ffd("deform", "in/m.obj", "to/x/m.obj", "-l", "l.json", err=anything), "the image \"<UDIM><<<<", "missing and was not copied$")
+    one_line(run.ffd("deform", "in/m.obj", "to/x/m.obj", "-l", "l.json", err=anything), "the image \"<UDIM><<<<", "missing and was not copied$")
     run.write("in/m.mtl", "newmtl a\n" + "".join(f"map_Kd {i}.<UDIM>.png\n" for i in range(300)))
     run.ffd("deform", "in/m.obj", "out/n.obj", "-l", "l.json", code=LIMIT, err=re.compile("m.mtl: names more than 256 maps with tiles"))
 
@@ -845,7 +845,7 @@ def wild3_10_meshopt_version_1(run):
     facts = run.ffd("info", "packed.glb", "--json").json
     equal([facts["contents"]["stored"]["triangles"], facts.get("flaws", [])], [242, []])
     done = run.ffd("deform", "packed.glb", "out.glb", "-l", "twist.json", "--report", "r.json", err=anything)
-    told(done, "1 bufferView is written uncompressed")
+    one_line(done, "1 bufferView is written uncompressed")
     counts(json.loads(run.text("r.json"))["jobs"][0], vertices=144, inside=144, moved=144)
     asset, _ = glb_split(run.read("out.glb"))
     check("KHR_meshopt_compression" in asset["extensionsRequired"], "what is not moved stays compressed")
@@ -875,7 +875,7 @@ def every_mode_and_filter_of_meshopt(run):
     run.write("bent.glb", glb(asset, data))
     run.ffd("deform", "bent.glb", "b.obj", "-l", "l.json", err=anything)
     near([v[2] for v in columns(run.text("b.obj"), "v")], [x * y + 1 + x * x / 8 for x, y in grid], 1e-4, "the morph target")
-    told(run.ffd("deform", "every.glb", "o.glb", "-l", "l.json", err=anything), "bufferView.* written uncompressed")
+    one_line(run.ffd("deform", "every.glb", "o.glb", "-l", "l.json", err=anything), "bufferView.* written uncompressed")
     run.ffd("deform", "every.glb", "m.glb", "--morph", "up=l.json", err=anything)
 
 
@@ -951,7 +951,7 @@ def other_forms_of_splats_are_named(run):
         run.ffd("deform", "m.obj", "o" + ending, "-l", "l.json", code=USAGE, err=f"o{ending}: {said}")
         run.write("in/c" + ending, bytes(64))
         done = run.ffd("batch", "--in", "in/*", "-l", "l.json", "--out-dir", "out", "--force", code=NO, err=anything)
-        told(done, re.escape(said))
+        one_line(done, re.escape(said))
         check(run.exists("out/m.obj"), "the others are done")
         run.remove("in/c" + ending)
     run.ffd("info", "m.fbx", code=USAGE, err='m.fbx: the ending ".fbx" is not that of a mesh format (obj, gltf, glb, vrm, ply, off or stl)')
@@ -964,7 +964,7 @@ def ends_of_stl_in_two_words(run):
     text = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nend loop\nEND FACET\nend solid a\n"
     run.write("m.stl", text)
     done = run.ffd("deform", "m.stl", "o.stl", "-l", "l.json", err=anything)
-    told(done, '"endloop" or "endfacet" is written as two words')
+    one_line(done, '"endloop" or "endfacet" is written as two words')
     equal(run.text("o.stl"), text.replace(" 0\nvertex", " 1\nvertex").replace("0 1 0\nend", "0 1 1\nend"))
     run.ffd("info", "m.stl", "--strict", code=INVALID, err=re.compile("two words"))
     run.write("m.stl", text.replace("end loop", "end"))
@@ -982,7 +982,7 @@ def a_name_that_ends_in_a_backslash(run):
             run.write("m.obj", f"{corners}{statement}\n{below}\nf 2 4 3\n")
             run.ffd("info", "m.obj", err=[f"m.obj: line 5: {said}"])
             run.ffd("check", "m.obj", "-l", "l.json", "--strict", code=INVALID, err=f"m.obj:5: {said}")
-    told(run.ffd("deform", "m.obj", "o.obj", "-l", "l.json", err=anything), "line 5: " + said)
+    one_line(run.ffd("deform", "m.obj", "o.obj", "-l", "l.json", err=anything), "line 5: " + said)
     run.write("m.obj", f"{corners}usemtl wood\\\nv 2 2 0\nf 1 2 5\n")
     run.ffd("info", "m.obj", code=INVALID, err="m.obj:7: vertex index 5 is out of range: the file has 4 (the backslash at the end of "
                                                "line 5 joins the next one to it)")

@@ -12,7 +12,7 @@ import resource
 import struct
 
 from harness import INVALID, LIMIT, NO, PNG, SANITIZED, case, check, equal, gltf_json, lattice, main, obj_of
-from said import anything, told
+from messages import anything, one_line
 
 TWIST = [{"twist": {"axis": "y", "degrees": 40}}]
 BOX = lattice(low=(-1, -1, -1), high=(2, 2, 2), moves=TWIST)
@@ -135,7 +135,7 @@ def siege_11_what_is_no_image_is_not_copied(run):
     done = run.ffd("deform", "pk/m.gltf", "dst/m.gltf", "-l", "l.json", err=anything)
     equal(len(done.err), len(left), done.err)
     for name, why in left.items():
-        told(done, f'"{name}" .*{why}.* was not copied'.replace(".bash", r"\.bash"))
+        one_line(done, f'"{name}" .*{why}.* was not copied'.replace(".bash", r"\.bash"))
     equal(sorted(os.path.relpath(os.path.join(folder, name), run.path("dst"))
                  for folder, _, names in os.walk(run.path("dst")) for name in names), ["a/b.webp", "kept.png", "m.bin", "m.gltf"])
     # In its own folder and by reference nothing is copied, and there is nothing to say.

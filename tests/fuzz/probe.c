@@ -101,11 +101,11 @@ bool probe_error(const probe *of, ffd_volume volume, const double uvw[3], const 
             return false;
     }
     for (int side = -1; side <= 1; side += 2) {
-        double beside[3];
+        double near[3];
         precise_sample there;
         for (int a = 0; a < 3; a++)
-            beside[a] = ffd_knots_wrap(&lattice->knots[a], uvw[a] + side * of->u_error[a]);
-        precise_evaluate(lattice, volume, beside, of->centre, &there);
+            near[a] = ffd_knots_wrap(&lattice->knots[a], uvw[a] + side * of->u_error[a]);
+        precise_evaluate(lattice, volume, near, of->centre, &there);
         for (int i = 0; i < 9; i++)
             sway[i] = fmaxl(sway[i], there.sway[i]);
     }

@@ -26,7 +26,7 @@ two_commands() {
         done
     done
 }
-others='no-rights elsewhere pip meson deb'
+others='no-rights elsewhere pip meson deb container'
 
 # make FOLDER-ARGUMENTS...: the root of the present line
 make() {
@@ -112,6 +112,13 @@ run_meson() {
 run_deb() {
     package=$(sed -n '/^```sh package$/,/^```$/p' "$root/README.md" | sed '1d;$d' | tr '\n' ';')
     make -- dpkg-dev && timed deb "set -e; apt-get -qq update; $(echo "$package" | sed 's/dpkg-buildpackage/apt-get -qq build-dep .\/; &/') ls ../*.deb"
+}
+
+# The commands of the Containerfile, and what they made in a root that is empty.
+run_container() {
+    commands=$(sed -n 's/^RUN //p' "$root/data/packaging/Containerfile" | tr '\n' ';')
+    make && timed container "set -e; $commands mkdir /empty; cp /build/src/cli/ffd data/models/spot.obj data/lattices/twist.json /empty;
+        env -i /usr/sbin/chroot /empty /ffd deform spot.obj out.obj -l twist.json; ls /empty/out.obj"
 }
 
 [ "${1-}" != --list ] || { two_commands && echo "$others" | tr ' ' '\n' && exit 0; }

@@ -12,8 +12,11 @@ for other in ("rules", "readme"):
 from test_readme import block, blocks, pages
 from tree import ROOT, files, finish, read, skip
 
+VERSION = re.search(r'^#define FFD_VERSION "(.*)"$', read("include/ffd/version.h"), re.M)[1]
+# What of it programs are linked with.
+ABI = VERSION.rsplit(".", 1)[0]
 # From the folder of libraries.
-MODULES = [f"ffd-0.2/ffd-{name}.so" for name in ("draco", "image", "meshopt", "openmesh", "tinygltf")]
+MODULES = [f"ffd-{ABI}/ffd-{name}.so" for name in ("draco", "image", "meshopt", "openmesh", "tinygltf")]
 
 
 def need(*tools):
@@ -47,11 +50,6 @@ def copy_source(target):
         os.makedirs(os.path.dirname(os.path.join(target, path)), exist_ok=True)
         shutil.copy(os.path.join(ROOT, path), os.path.join(target, path), follow_symlinks=False)
     return target
-
-
-def version():
-    """That of the headers."""
-    return re.search(r'#define FFD_VERSION "(.*)"', read("include/ffd/version.h"))[1]
 
 
 class Stage:

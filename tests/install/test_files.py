@@ -30,7 +30,7 @@ def expected(installed):
     if options["default_library"] != "shared":
         paths.append(f"{library}/libffd.a")
     if options["default_library"] != "static":
-        paths += [f"{library}/{name}" for name in ("libffd.so", "libffd.so.0.2", "libffd.so.0.2.0", *stage.MODULES)]
+        paths += [f"{library}/{name}" for name in ("libffd.so", f"libffd.so.{stage.ABI}", f"libffd.so.{stage.ABI}.0", *stage.MODULES)]
         paths += [f"{library}/cmake/ffd/{name}.cmake" for name in ("ffdConfig", "ffdConfigVersion")]
     return {path: 0o755 if path.endswith("bin/ffd") or ".so" in path else 0o644 for path in paths}
 

@@ -106,7 +106,7 @@ def check_cmake(place, findings):
     if not shutil.which("cmake"):
         return
     with open(place.path("CMakeLists.txt"), "w", encoding="ascii") as file:
-        file.write(CMAKE.replace("@VERSION@", stage.version()))
+        file.write(CMAKE.replace("@VERSION@", stage.VERSION))
     libraries = place.environment["LD_LIBRARY_PATH"]
     place.run(f"cmake -S . -B build-cmake -DCMAKE_PREFIX_PATH={libraries}/cmake && cmake --build build-cmake")
     place.run("build-cmake/by_cmake data/lattices/wave.json <points.txt >by_cmake.txt")

@@ -24,7 +24,8 @@ import tempfile
 import flags
 import stage
 
-PACKAGES = ["ffd", "libffd0.2", "libffd-dev"]
+LIBRARY = f"libffd{stage.ABI}"
+PACKAGES = ["ffd", LIBRARY, "libffd-dev"]
 MESH, LATTICE = "models/spot.obj", "lattices/twist.json"
 NEEDS_MODULES = "models/character.glb"
 
@@ -32,15 +33,15 @@ NEEDS_MODULES = "models/character.glb"
 CHECK = """set -eu
 cd /check
 apt-get -qq update
-apt-get install --yes --no-install-recommends ./ffd_*.deb ./libffd0.2_*.deb
+apt-get install --yes --no-install-recommends ./ffd_*.deb ./LIBRARY_*.deb
 ldconfig -p | grep -q 'libffd\\.so\\.0'
 ffd --version >version
 ffd deform spot.obj out.obj -l twist.json --report report.json
 ffd info character.glb >info
-apt-get purge --yes ffd libffd0.2
+apt-get purge --yes ffd LIBRARY
 find / -xdev -path /check -prune -o -path /src -prune -o -path /proc -prune -o -path /var/lib -prune -o -path /var/log -prune -o \\
     -name '*ffd*' -print >left
-"""
+""".replace("LIBRARY", LIBRARY)
 
 
 def pack(folder, findings):
@@ -147,7 +148,7 @@ def run_in_clean_root(folder, packages):
     data = os.path.join(stage.ROOT, "data")
     result = os.path.join(root, "check")
     os.mkdir(result)
-    for path in (packages["ffd"], packages["libffd0.2"], os.path.join(data, MESH), os.path.join(data, LATTICE),
+    for path in (packages["ffd"], packages[LIBRARY], os.path.join(data, MESH), os.path.join(data, LATTICE),
                  os.path.join(data, NEEDS_MODULES)):
         shutil.copy(path, result)
     stage.run([*tool, "run", root, CHECK])

@@ -104,28 +104,28 @@ def runs(place, program):
 def check_pkg_config(place):
     place.run("cc -std=c11 main.c $(pkg-config --cflags --libs ffd) -o main")
     yield from runs(place, "./main")
-    if place.run("pkg-config --modversion ffd").strip() != stage.version():
+    if place.run("pkg-config --modversion ffd").strip() != stage.VERSION:
         yield "ffd.pc is of another version than the headers"
     for name in re.findall(r"nlohmann\S*|tinygltf|libxxhash", place.run("pkg-config --print-requires --print-requires-private ffd")):
         yield f"ffd.pc requires {name}, of which only headers are used"
 
 
 def check_cmake(place):
-    place.write("CMakeLists.txt", CMAKE.replace("@VERSION@", stage.version()))
+    place.write("CMakeLists.txt", CMAKE.replace("@VERSION@", stage.VERSION))
     place.run(f"cmake -S . -B build-cmake -DCMAKE_PREFIX_PATH={place.libraries}/cmake && cmake --build build-cmake")
     yield from runs(place, "build-cmake/by_cmake")
     yield from runs(place, "build-cmake/by_cmake_static")
 
 
 def requests():
-    major, minor, _ = map(int, stage.version().split("."))
+    major, minor, _ = map(int, stage.VERSION.split("."))
     names = {"P": f"{major}.{minor - 1}", "V": f"{major}.{minor}", "N": f"{major}.{minor + 1}", "W": f"{major}.0{minor}"}
     return [re.sub("[PVNW]", lambda match: names[match[0]], request) for request in REQUESTS]
 
 
 def answers(place, size, other):
     """Of CMake: folder and request -> what it found."""
-    script = COMPARISON.replace("@VERSION@", stage.version()).replace("@SIZE@", str(size)).replace("@OTHER-SIZE@", str(other))
+    script = COMPARISON.replace("@VERSION@", stage.VERSION).replace("@SIZE@", str(size)).replace("@OTHER-SIZE@", str(other))
     for folder in ("ours", "theirs"):
         place.write(f"{folder}/ffdConfig.cmake", "")
         script += "".join(f'ask({folder} "{request}")\n' for request in requests())
@@ -142,7 +142,7 @@ def check_versions(place):
             ours, theirs = (found[f"{folder}: '{request}'"] for folder in ("ours", "theirs"))
             if ours.split()[:2] != theirs.split()[:2]:
                 yield f"find_package(ffd {request}), pointers of {other} bytes: {ours}, but by CMake's file {theirs}"
-    minor = stage.version().rpartition(".")[0]
+    minor = stage.VERSION.rpartition(".")[0]
     if not found[f"ours: '{minor}'"].startswith("0 ") or not answers(place, size, size)[f"ours: '{minor}'"].startswith("1 "):
         yield f"find_package(ffd {minor}) does not depend on the size of pointers"
 

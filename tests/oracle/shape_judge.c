@@ -147,7 +147,7 @@ typedef struct domain_point {
     bool sure, maybe, regular;
 } domain_point;
 
-static void look_at(const judge *j, const long double p[3], domain_point *x)
+static void examine(const judge *j, const long double p[3], domain_point *x)
 {
     long double point[3], jacobian[9], inverse[9], least[3], largest[3];
     tolerances(j, p, least, largest);
@@ -213,7 +213,7 @@ static int all_roots(const judge *j, const long double p[3], domain_point candid
         bool known = false;
         oracle_descend(&j->volume, p, roots[k]);
         memcpy(x.uvw, roots[k], sizeof x.uvw);
-        look_at(j, p, &x);
+        examine(j, p, &x);
         for (int i = 0; i < count; i++)
             known = known || same_root(j, &candidates[i], x.uvw, 100);
         if (x.maybe && !known)
@@ -351,7 +351,7 @@ static bool root_of_rounded(const judge *j, const long double p[3], const long d
     domain_point x = {.sure = false};
     memcpy(x.uvw, known, sizeof x.uvw);
     oracle_descend(&j->volume, p, x.uvw);
-    look_at(j, p, &x);
+    examine(j, p, &x);
     memcpy(root, x.uvw, sizeof x.uvw);
     return x.sure;
 }
@@ -425,7 +425,7 @@ void judge_expect(judge *j, int i, int status, const long double uvw[3], const b
     seen_from_origin(j, i, q);
     if (status == FFD_VERTEX_INSIDE) /* the root of the rounded point */
         oracle_descend(&j->volume, q, x.uvw);
-    look_at(j, q, &x);
+    examine(j, q, &x);
     if (status == FFD_VERTEX_SINGULAR)
         reach_of_singular(j, q, &x);
     j->judged++;

@@ -152,8 +152,8 @@ typedef struct least_place {
     long double lo[3], hi[3], t[3]; /* its cell, and its parameters there */
 } least_place;
 
-static void look(const subject *x, least_place *least, const long double lo[3], const long double hi[3],
-                 const long double t[3])
+static void examine(const subject *x, least_place *least, const long double lo[3], const long double hi[3],
+                    const long double t[3])
 {
     long double uvw[3], size;
     parameters(&x->deformed, lo, hi, t, uvw);
@@ -181,7 +181,7 @@ static least_place sample_least(const subject *x)
             const long double t[3] = {(long double)(step % (STEPS + 1)) / STEPS,
                                       (long double)(step / (STEPS + 1) % (STEPS + 1)) / STEPS,
                                       (long double)(step / (STEPS + 1) / (STEPS + 1)) / STEPS};
-            look(x, &least, lo, hi, t);
+            examine(x, &least, lo, hi, t);
         }
     }
     return least;
@@ -197,7 +197,7 @@ static void descend(const subject *x, least_place *least)
             long double t[3];
             for (int a = 0; a < 3; a++)
                 t[a] = fminl(fmaxl(before.t[a] + way[a] * reach, 0), 1);
-            look(x, least, before.lo, before.hi, t);
+            examine(x, least, before.lo, before.hi, t);
         }
         if (!(least->value < before.value))
             reach /= 2;

@@ -6,7 +6,7 @@ from cases import text
 from harness import check, equal, float32
 from matrices import apply
 from pose import Rig, largest_difference, size_of
-from said import anything, entry
+from messages import anything, entry
 
 TIMES = 20
 CLOSE = 2e-6  # of the size: keys, positions and inverse binds are single precision

@@ -16,7 +16,7 @@ from cases import LARGER, affine, text
 from harness import case, check, main
 from matrices import apply, origin
 from pose import Rig, largest_difference, size_of
-from said import anything
+from messages import anything
 
 MOST = 300  # edges looked at, of each character
 TIMES = 10

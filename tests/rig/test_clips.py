@@ -12,7 +12,7 @@ from cases import BENT, WAVED, text
 from harness import case, check, equal, main
 from made import Arm, posed
 from pose import Rig, size_of
-from said import anything
+from messages import anything
 from shown import difference
 
 CLOSE = 1e-6  # of the size

@@ -14,7 +14,7 @@ from made import Arm, posed
 from matrices import apply, turn
 from pose import largest_difference, size_of
 from rule import Deformation, Following
-from said import anything, entry, not_told, told
+from messages import anything, entry, no_line, one_line
 
 QUANTIZED = 4e-5  # rotations in 16 bits are off by so much of length 1
 
@@ -219,20 +219,20 @@ def keep_says_how_far_joints_lag(run):
     """Once, with the number and the name; not under follow, not for less than a thousandth of the scene."""
     before, _, job = deformed(run, plain(), BENT, rig="keep")
     done = run.ffd("deform", "a.glb", "c.glb", "-l", "l0.json", "--force", err=anything)
-    line = told(done, "--rig")
+    line = one_line(done, "--rig")
     check(job["rig"]["worst"] in line and "1 skin" in line, line)
     number = float(re.search(r"up to ([0-9.e+-]+)", line).group(1))
     check(abs(number - job["rig"]["largest_lag"]) <= 0.05 * number, line)
-    not_told(run.ffd("deform", "a.glb", "c.glb", "-l", "l0.json", "--force", "--rig", "follow", err=anything), "--rig|lie up to")
+    no_line(run.ffd("deform", "a.glb", "c.glb", "-l", "l0.json", "--force", "--rig", "follow", err=anything), "--rig|lie up to")
     done = run.ffd("check", "a.glb", "-l", "l0.json", err=anything)
-    told(done, "--rig")
+    one_line(done, "--rig")
     check(f"({job['rig']['worst']})" in done.out.decode(), "check prints whose lag is the largest")
     size = size_of(before.vertices())
     for factor, says in ((0.5e-3, False), (3e-3, True)):
         small = affine((1, 0, 0, factor * size, 0, 1, 0, 0, 0, 0, 1, 0))
         run.write("s.json", text(small))
         done = run.ffd("deform", "a.glb", "c.glb", "-l", "s.json", "--force", err=anything)
-        (told if says else not_told)(done, "--rig")
+        (one_line if says else no_line)(done, "--rig")
 
 
 @case

@@ -14,7 +14,7 @@ from made import FLOAT, SHORT, Arm, cubic, posed, turns
 from matrices import to_numbers
 from pose import largest_difference, size_of
 from rule import Deformation, Following
-from said import anything, told
+from messages import anything, one_line
 
 SLOW = 20 if SANITIZED else 1
 NAN, LARGE = float("nan"), 3e38
@@ -258,7 +258,7 @@ def keys_of_one_sampler_that_become_those_of_many_are_limited(run):
     run.write("a.glb", many(10_000, False, keys=10_000).glb())
     time, done = seconds(run, "deform", "a.glb", "b.glb", "-l", "l.json", "--rig", "follow", code=LIMIT)
     check(time < SLOW * 3 and not run.exists("b.glb"), f"{time} s; {done.err}")
-    told(done, "a.glb")
+    one_line(done, "a.glb")
 
 
 @case

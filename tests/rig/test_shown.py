@@ -17,7 +17,7 @@ from harness import case, check, equal, main
 from matrices import apply
 from pose import Rig
 from rule import Deformation
-from said import anything
+from messages import anything
 from shown import difference, poses_of
 
 CLOSE = 2e-6  # of the size: three.js keeps keys, weights and inverse binds in single precision

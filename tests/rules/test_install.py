@@ -17,6 +17,8 @@ import tempfile
 
 import tree
 
+ABI = re.search(r'^#define FFD_VERSION "(.*)\.\d+"$', tree.read("include/ffd/version.h"), re.M)[1]
+
 PROGRAM = r"""
 #include <ffd/ffd.h>
 #include <stdio.h>
@@ -103,7 +105,7 @@ def main():
                    for option in json.loads(run(["meson", "introspect", "--buildoptions", build]))}
         pc = installed(stage, "ffd.pc")
         libraries = os.path.dirname(installed(stage, "libffd.a"))
-        installed(stage, "libffd.so.0.2")
+        installed(stage, f"libffd.so.{ABI}")
         for header in (path for path in tree.files() if path.startswith("include/ffd/")):
             checked += 1
             if not os.path.isfile(stage + options["prefix"] + "/" + header):

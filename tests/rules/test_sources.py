@@ -13,7 +13,7 @@ import sys
 import tree
 
 TOP = {
-    ".ci", ".clang-format", ".editorconfig", ".gitattributes", ".gitignore", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE", "README.md",
+    ".ci", ".clang-format", ".editorconfig", ".gitattributes", ".github", ".gitignore", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE", "README.md",
     "data", "doc", "include", "meson.build", "meson_options.txt", "pyproject.toml", "src", "subprojects", "tests",
 }
 

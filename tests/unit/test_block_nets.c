@@ -139,7 +139,7 @@ static void however_their_directions_run(void **state)
 
 static void faces_that_are_not_one_do_not_join(void **state)
 {
-    block half = right, shifted = right, deep = right, finer = right, beside = right;
+    block half = right, shifted = right, deep = right, finer = right, adjacent = right;
     half.high[1] = 0.5;
     shifted.low[1] = 0.25;
     shifted.high[1] = 1.25;
@@ -150,10 +150,10 @@ static void faces_that_are_not_one_do_not_join(void **state)
     assert_false(join(2, (const block[]){left, deep}));
     assert_false(join(2, (const block[]){left, finer}));
     /* Two that have an edge in common, and a third that is beside both. */
-    beside.low[1] = 1;
-    beside.high[1] = 2;
-    assert_false(join(2, (const block[]){left, beside}));
-    assert_true(join(3, (const block[]){left, beside, right}));
+    adjacent.low[1] = 1;
+    adjacent.high[1] = 2;
+    assert_false(join(2, (const block[]){left, adjacent}));
+    assert_true(join(3, (const block[]){left, adjacent, right}));
     (void)state;
 }
 

@@ -577,9 +577,9 @@ static void compare_derivative(const ffd_lattice *lattice, const boundary *borde
         ++*compared;
         for (int a = 0; a < 3; a++) {
             const double difference = (ahead.uvw[a] - behind.uvw[a]) / (2 * h);
-            const double said = nearest->uvw_by_p[3 * a + c];
-            if (!(fabs(said - difference) <= 0.001 * fabs(difference) + 0.0001 / lattice->diagonal))
-                fail_msg("d(uvw[%d])/dp[%d] is %.9g, not %.9g", a, c, difference, said);
+            const double found = nearest->uvw_by_p[3 * a + c];
+            if (!(fabs(found - difference) <= 0.001 * fabs(difference) + 0.0001 / lattice->diagonal))
+                fail_msg("d(uvw[%d])/dp[%d] is %.9g, not %.9g", a, c, difference, found);
         }
     }
 }

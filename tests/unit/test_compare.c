@@ -112,7 +112,7 @@ static void each_kind_has_its_own_name(void **state)
     assert_null(ffd_difference_kind_name(FFD_DIFFERENCE_KIND_COUNT));
 }
 
-static void say_nothing(const void *context, char *text, size_t capacity)
+static void no_label(const void *context, char *text, size_t capacity)
 {
     snprintf(text, capacity, "%s", (const char *)context);
 }
@@ -140,7 +140,7 @@ static void the_worst_is_the_first_largest_of_the_first_kind(void **state)
     ffd_difference_begin(&c, 0, 0);
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
         const double a[3] = {steps[i].amount}, b[3] = {0};
-        ffd_difference_vector(&c, steps[i].kind, 3, a, b, say_nothing, steps[i].place);
+        ffd_difference_vector(&c, steps[i].kind, 3, a, b, no_label, steps[i].place);
         assert_string_equal(c.worst.text, steps[i].worst);
         assert_string_equal(c.first.text, steps[0].worst);
         assert_int_equal(c.differences, i + 1);

@@ -195,14 +195,14 @@ static void only_points_near_the_moved_corner_act(void **state)
     (void)state;
     sample s = make("\"size\":[6,6,6],\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[3,3,3]}},"
                     "\"moves\":[{\"at\":[-1,-1,-1],\"by\":[1,2,-4]}]");
-    const double beyond[3] = {5, 5, 5}, beside[3] = {1, 5, 5}, zero[9] = {0};
+    const double beyond[3] = {5, 5, 5}, next_to[3] = {1, 5, 5}, zero[9] = {0};
     double delta[3], gradient[9];
     boundary_point nearest = nearest_to(&s, beyond);
     assert_int_equal(ffd_extension_displacement(s.lattice, &nearest, 0, delta, gradient), 1);
     assert_true(delta[0] == 1 && delta[1] == 2 && delta[2] == -4);
     for (int i = 0; i < 9; i++)
         assert_true(gradient[i] == 0); /* the corner is the nearest point all around */
-    nearest = nearest_to(&s, beside);
+    nearest = nearest_to(&s, next_to);
     assert_int_equal(ffd_extension_displacement(s.lattice, &nearest, 0, delta, gradient), 0);
     assert_memory_equal(delta, zero, sizeof delta);
     clear(&s);

@@ -109,12 +109,12 @@ static ffd_status take(void *user, const char *name, const void *bytes, size_t s
     return FFD_OK;
 }
 
-static char said[8192];
+static char logged[8192];
 
 static void note(void *user, ffd_log_level level, const char *line)
 {
     (void)user;
-    snprintf(said + strlen(said), sizeof said - strlen(said), "%d %s\n", (int)level, line);
+    snprintf(logged + strlen(logged), sizeof logged - strlen(logged), "%d %s\n", (int)level, line);
 }
 
 /* Meshes */
@@ -289,7 +289,7 @@ static void begin(both *b, void (*make)(name_list *), const char *output)
     b->desc.log = note;
     b->desc.sink = take;
     b->desc.sink_user = &b->sink;
-    said[0] = 0;
+    logged[0] = 0;
 }
 
 /* Gives the same input to a job on files. */
@@ -302,7 +302,7 @@ static void use_files(both *b)
     b->source = (ffd_lattice_source){.path = b->path};
     b->desc.lattices = &b->source;
     b->desc.sink = NULL;
-    said[0] = 0;
+    logged[0] = 0;
 }
 
 static void end(both *b)
@@ -318,17 +318,17 @@ static void compare_jobs(void (*make)(name_list *), const char *output, size_t f
     both b;
     ffd_job_result in_memory = {.struct_size = sizeof in_memory}, on_files = in_memory;
     ffd_error error = {0};
-    char lines[sizeof said];
+    char lines[sizeof logged];
     begin(&b, make, output);
     if (ffd_deform_run(&b.desc, &in_memory, &error))
         fail_msg("%s: %s", error.file, error.message);
-    memcpy(lines, said, sizeof lines);
+    memcpy(lines, logged, sizeof lines);
     use_files(&b);
     assert_int_equal(ffd_deform_run(&b.desc, &on_files, NULL), FFD_OK);
     assert_int_equal(b.sink.files.count, files);
     assert_string_equal(b.sink.files.files[files - 1].name, b.output); /* the mesh comes last */
     check_same(&b.sink.files, "out");
-    assert_string_equal(lines, said);
+    assert_string_equal(lines, logged);
     assert_memory_equal(in_memory.counts, on_files.counts, sizeof on_files.counts);
     assert_memory_equal(&in_memory.bounds.after, &on_files.bounds.after, sizeof on_files.bounds.after);
     assert_int_equal(in_memory.moved, on_files.moved);
@@ -401,7 +401,7 @@ static void names_are_the_callers(void **state)
     assert_non_null(find(&b.sink.files, "tex/skin.png"));
     assert_string_equal(b.sink.files.files[2].name, "moved.gltf");
     assert_int_equal(b.resolver.calls, 3);
-    assert_string_equal(said, "0 the image \"lost.png\" is missing and was not copied\n");
+    assert_string_equal(logged, "0 the image \"lost.png\" is missing and was not copied\n");
     clear(&b.sink.files);
     b.desc.input.path = "head.gltf"; /* the input's name as the output is not a conflict */
     b.desc.output = "head.gltf";

@@ -21,7 +21,7 @@
 
 static mesh_materials found;
 static ffd_error error;
-static char said[4000]; /* lines of the log */
+static char logged[4000]; /* lines of the log */
 static size_t line_count;
 
 static void keep_line(void *user, ffd_log_level level, const char *line)
@@ -29,8 +29,8 @@ static void keep_line(void *user, ffd_log_level level, const char *line)
     (void)user;
     assert_int_equal(level, FFD_LOG_WARNING);
     assert_null(strpbrk(line, "\r\n"));
-    assert_true(strlen(said) + strlen(line) + 2 < sizeof said);
-    strcat(strcat(said, line), "\n");
+    assert_true(strlen(logged) + strlen(line) + 2 < sizeof logged);
+    strcat(strcat(logged, line), "\n");
     line_count++;
 }
 
@@ -43,7 +43,7 @@ static ffd_status list_bytes(ffd_format format, const char *path, const void *by
     mesh_document *document = NULL;
     file_input input = {.data = bytes, .size = size};
     ffd_materials_free(&found);
-    *said = 0;
+    *logged = 0;
     line_count = 0;
     error = (ffd_error){0};
     ffd_status status = ffd_format_open(table, &input, &source, &document, &error);
@@ -288,7 +288,7 @@ static void only_extensions_have_the_image(void **state)
     check_image(0, "a.png", "");
     for (size_t i = 1; i < 4; i++)
         check_lost_image(i);
-    assert_string_equal(said,
+    assert_string_equal(logged,
                         "2 images of materials cannot be shown: \"texture 1\" has an image of "
                         "KHR_texture_basisu only, \"texture 2\" has an image of EXT_texture_webp only\n");
 }
@@ -331,11 +331,11 @@ static void images_that_cannot_be_had(void **state)
                  traps[i][0]);
         list_gltf(text);
         check_lost_image(1);
-        assert_string_equal(said, expected);
+        assert_string_equal(logged, expected);
         snprintf(text, sizeof text, "newmtl a\nmap_Kd %s\nnewmtl b\nmap_Kd %s\n", traps[i][0], traps[i][0]);
         list_library(text);
         check_lost_image(1);
-        assert_string_equal(said, expected);
+        assert_string_equal(logged, expected);
     }
 }
 
@@ -344,7 +344,7 @@ static void one_line_says_all(void **state)
     (void)state;
     list_library("newmtl a\nmap_Kd 1.png\nnewmtl b\nmap_Kd /2.png\nnewmtl c\nmap_Kd \x01"
                  "3.png\nnewmtl d\nmap_Kd 4.png\nnewmtl e\nmap_Kd 5.png\nnewmtl f\nmap_Kd /2.png\n");
-    assert_string_equal(said,
+    assert_string_equal(logged,
                         "5 images of materials cannot be shown: \"1.png\" is missing, \"/2.png\" is outside "
                         "the model's folder, \"?3.png\" is missing and 2 more\n");
     list_gltf("\"materials\":[" TEXTURED(0) "," TEXTURED(1) "," TEXTURED(2) "," TEXTURED(
@@ -352,7 +352,7 @@ static void one_line_says_all(void **state)
            "\"textures\":[{\"source\":0},{\"source\":1},{\"source\":2},{\"source\":3}],\"images\":["
            "{\"uri\":\"https://a.b/c.png\"},{\"uri\":\"data:image/png;base64,?\",\"name\":\"odd\"},{},"
            "{\"bufferView\":3}]");
-    assert_string_equal(said,
+    assert_string_equal(logged,
                         "4 images of materials cannot be shown: \"image 0\" is outside the model's folder, "
                         "\"odd\" is not valid base64, \"image 2\" has no bytes and 1 more\n");
 }
@@ -366,12 +366,12 @@ static void standard_input_has_no_folder(void **state)
            "[{\"source\":0}],\"images\":[{\"uri\":\"a.png\"}]}";
     assert_int_equal(list_bytes(FFD_FORMAT_OBJ, "-", obj, sizeof obj - 1), FFD_OK);
     assert_int_equal(found.count, 0);
-    assert_string_equal(said,
+    assert_string_equal(logged,
                         "1 material library cannot be read, and its materials are unknown: \"m.mtl\" is a "
                         "file, and standard input has no folder\n");
     assert_int_equal(list_bytes(FFD_FORMAT_GLTF, "-", text, sizeof text - 1), FFD_OK);
     check_lost_image(0);
-    assert_string_equal(said,
+    assert_string_equal(logged,
                         "1 image of a material cannot be shown: \"a.png\" is a file, and standard input "
                         "has no folder\n");
 }
@@ -415,15 +415,15 @@ static void hostile_json(void **state)
         check_lost_image(1);
         check_wrap(1, TEXTURE_REPEAT, TEXTURE_REPEAT);
         assert_string_equal(
-            said, "2 images of materials cannot be shown: \"a texture\" that a material names is not "
-                  "there, \"texture 0\" names an image that is not there\n");
+            logged, "2 images of materials cannot be shown: \"a texture\" that a material names is not "
+                    "there, \"texture 0\" names an image that is not there\n");
     }
     list_gltf("\"materials\":7,\"textures\":\"x\",\"samplers\":{\"a\":1}");
     assert_int_equal(found.count, 0);
     list_gltf("\"materials\":[" TEXTURED(0) "," TEXTURED(1) "],\"textures\":[1,{}]");
     assert_string_equal(
-        said, "2 images of materials cannot be shown: \"texture 0\" has no image, \"texture 1\" has no "
-              "image\n");
+        logged, "2 images of materials cannot be shown: \"texture 0\" has no image, \"texture 1\" has no "
+                "image\n");
 }
 
 static void long_names(void **state)
@@ -440,11 +440,11 @@ static void long_names(void **state)
     list_gltf(text);
     assert_string_equal(found.list[0].name, name);
     check_lost_image(0);
-    assert_true(line_count == 1 && strlen(said) < 200);
+    assert_true(line_count == 1 && strlen(logged) < 200);
     snprintf(text, sizeof text, "newmtl %s\nmap_Kd %s.png\n", name, name);
     list_library(text);
     assert_string_equal(found.list[0].name, name);
-    assert_true(line_count == 1 && strlen(said) < 200);
+    assert_true(line_count == 1 && strlen(logged) < 200);
 }
 
 static void colours_of_libraries(void **state)
@@ -499,7 +499,7 @@ static void maps_of_libraries(void **state)
     check_colour(3, 1, 0, 0, 1);
     check_wrap(0, TEXTURE_CLAMP, TEXTURE_CLAMP);
     check_wrap(1, TEXTURE_REPEAT, TEXTURE_REPEAT);
-    assert_string_equal(said, "");
+    assert_string_equal(logged, "");
 }
 
 static void libraries_that_cannot_be_read(void **state)
@@ -512,9 +512,9 @@ static void libraries_that_cannot_be_read(void **state)
     list_obj("mtllib pipe.mtl\nmtllib odd.mtl\nmtllib /etc/x.mtl\nmtllib ../m.mtl\nmtllib m.mtl\nv 0 0 0\n");
     assert_int_equal(found.count, 1);
     assert_string_equal(
-        said, "4 material libraries cannot be read, and their materials are unknown: \"pipe.mtl\" cannot "
-              "be read, \"odd.mtl\" does not have the content of a material library, \"/etc/x.mtl\" is "
-              "outside the model's folder and 1 more\n");
+        logged, "4 material libraries cannot be read, and their materials are unknown: \"pipe.mtl\" cannot "
+                "be read, \"odd.mtl\" does not have the content of a material library, \"/etc/x.mtl\" is "
+                "outside the model's folder and 1 more\n");
 }
 
 /* A short file may use 100 MB, and its images together need more. */

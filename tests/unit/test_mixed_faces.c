@@ -27,11 +27,11 @@ static bool is_marked(const vertex_marks *marks, size_t vertex)
 static void assert_narrow(const mesh_faces *faces)
 {
     bool used[MANY] = {false};
-    for (size_t v = 0; faces->numbers && v + 1 < faces->vertex_count; v++)
-        assert_true(faces->numbers[v] < faces->numbers[v + 1]);
+    for (size_t v = 0; faces->vertices && v + 1 < faces->vertex_count; v++)
+        assert_true(faces->vertices[v] < faces->vertices[v + 1]);
     for (size_t c = 0; c < faces->start[faces->face_count]; c++)
         used[faces->corners[c]] = true;
-    for (size_t v = 0; faces->numbers && v < faces->vertex_count; v++)
+    for (size_t v = 0; faces->vertices && v < faces->vertex_count; v++)
         assert_true(used[v]);
 }
 
@@ -73,7 +73,7 @@ static size_t assert_mixed(const mesh_document *document, const mesh_faces *all,
     mesh_faces mixed;
     size_t found = 0;
     assert_int_equal(document->format->mixed_faces(document, MESH_STORED, marks, &mixed, NULL), FFD_OK);
-    if (!mixed.numbers)
+    if (!mixed.vertices)
         assert_int_equal(mixed.vertex_count, marks->vertices);
     assert_narrow(&mixed);
     for (size_t f = 0; f < all->face_count; f++) {

@@ -194,17 +194,17 @@ static void results_in_place_give_the_same_file(void **state)
     for (int round = 0; round < 400; round++) {
         writer w = {.d = &d};
         const uint64_t seed = draw_bits(&d);
-        byte_buffer beside = {0}, in_place = {0};
+        byte_buffer to_file = {0}, in_place = {0};
         if (round % 2)
             draw_file(&w);
         else
             draw_plain_file(&w);
-        saved_text(&w, seed, false, &beside);
+        saved_text(&w, seed, false, &to_file);
         saved_text(&w, seed, true, &in_place);
-        assert_int_equal(beside.size, in_place.size);
-        assert_memory_equal(beside.data, in_place.data, beside.size);
-        different += beside.size != strlen(w.text) || memcmp(beside.data, w.text, beside.size) != 0;
-        ffd_buffer_free(&beside);
+        assert_int_equal(to_file.size, in_place.size);
+        assert_memory_equal(to_file.data, in_place.data, to_file.size);
+        different += to_file.size != strlen(w.text) || memcmp(to_file.data, w.text, to_file.size) != 0;
+        ffd_buffer_free(&to_file);
         ffd_buffer_free(&in_place);
     }
     assert_true(different > 300);

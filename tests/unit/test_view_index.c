@@ -46,7 +46,7 @@ static const ffd_job_result figures = {.displacement = {.max = 0.1},
                                        .tear = {.is_known = true},
                                        .has_flipped = true};
 
-static const index_row plain = {.number = 7,
+static const index_row plain = {.line = 7,
                                 .input = "a.obj",
                                 .output = "o/a.obj",
                                 .picture = "o/a.obj.png",
@@ -94,8 +94,8 @@ static void what_is_not_known_has_no_key(void **state)
 {
     (void)state;
     const ffd_job_result unknown = {.vertices = 3, .displacement = {.max = (double)NAN}};
-    const index_row rows[] = {{.number = 1, .state = INDEX_FAILED},
-                              {.number = 2, .state = INDEX_DONE, .figures = &unknown}};
+    const index_row rows[] = {{.line = 1, .state = INDEX_FAILED},
+                              {.line = 2, .state = INDEX_DONE, .figures = &unknown}};
     for (size_t i = 0; i < 2; i++) {
         const char *const page = page_of("", &rows[i], 1);
         expect(page, "<td class=\"picture none\">no picture</td>");

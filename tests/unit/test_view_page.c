@@ -17,13 +17,13 @@
 /* Without geometry. */
 #define LARGEST_PAGE 700000
 
-static char said[1000];
+static char logged[1000];
 
 static void listen(void *user, ffd_log_level level, const char *line)
 {
     (void)user;
     assert_int_equal(level, FFD_LOG_WARNING);
-    strncat(said, line, sizeof said - strlen(said) - 1);
+    strncat(logged, line, sizeof logged - strlen(logged) - 1);
 }
 
 static ffd_status write_page(const view_scene *scene, const view_page_options *options)
@@ -59,7 +59,7 @@ static char *page_of(const view_scene *scene, bool full)
 {
     const mesh_log log = {listen, NULL};
     const view_page_options options = {.full = full, .log = &log};
-    *said = 0;
+    *logged = 0;
     assert_int_equal(write_page(scene, &options), FFD_OK);
     return read_page();
 }
@@ -250,9 +250,9 @@ static void colors_numbers_and_cages_are_there(void **state)
     scene.colors = hand_array(4, 4 * sizeof(double));
     const double colors[4] = {1, 0.5, -3, NAN};
     memcpy(scene.colors, colors, sizeof colors);
-    scene.numbers = hand_array(4, sizeof *scene.numbers);
+    scene.indices = hand_array(4, sizeof *scene.indices);
     for (size_t v = 0; v < 4; v++)
-        scene.numbers[v] = 10 + v;
+        scene.indices[v] = 10 + v;
     hand_cage(&scene, "cage", 3, 2, 2, low, high, wave);
     char *page = page_of(&scene, false);
     unsigned char *bytes = bytes_of(page, "data-color", 16);
@@ -269,7 +269,7 @@ static void colors_numbers_and_cages_are_there(void **state)
     }
     ffd_free(bytes);
     ffd_free(page);
-    scene.numbers[3] = (uint64_t)1 << 40;
+    scene.indices[3] = (uint64_t)1 << 40;
     page = page_of(&scene, false);
     ffd_free(bytes_of(page, "data-number", 32));
     ffd_free(page);
@@ -286,11 +286,11 @@ static void a_cage_of_too_many_points_is_left_out_and_said(void **state)
     char *page = page_of(&scene, false);
     assert_null(strstr(page, "data-cage-0\""));
     assert_non_null(strstr(page, "data-cage-1\""));
-    assert_non_null(strstr(said, "1 of 2 lattices are not drawn"));
+    assert_non_null(strstr(logged, "1 of 2 lattices are not drawn"));
     ffd_free(page);
     page = page_of(&scene, true);
     assert_non_null(strstr(page, "data-cage-0\""));
-    assert_string_equal(said, "");
+    assert_string_equal(logged, "");
     ffd_free(page);
     ffd_view_scene_free(&scene);
 }
@@ -310,7 +310,7 @@ static void what_is_not_finite_is_left_out_and_said(void **state)
     assert_int_equal(value_of(page, "vertices", 0), count - 3);
     assert_int_equal(value_of(page, "triangles", 0), left);
     assert_int_equal(value_of(page, "notFinite", 0), 3);
-    assert_non_null(strstr(said, "3 vertices are not finite, and 10 triangles there are not drawn"));
+    assert_non_null(strstr(logged, "3 vertices are not finite, and 10 triangles there are not drawn"));
     unsigned char *const triangles = bytes_of(page, "data-triangle", 12 * left);
     for (size_t i = 0; i < 3 * left; i++)
         assert_true(load_u32(triangles + 4 * i) < count - 3);
@@ -393,15 +393,15 @@ static void a_page_of_many_vertices_is_reduced_and_says_so(void **state)
     char *const page = page_of(&scene, false);
     check_rig(page, (size_t)value_of(page, "vertices", 0));
     assert_non_null(
-        strstr(said, "vertices follow more than 4 joints (up to 5): animations move them by the largest"));
+        strstr(logged, "vertices follow more than 4 joints (up to 5): animations move them by the largest"));
     assert_in_range((size_t)value_of(page, "vertices", 0), 150000, VIEW_PAGE_VERTICES);
     assert_int_equal(value_of(page, "verticesAll", 0), 461 * 461);
-    assert_non_null(strstr(said, "of 212521 vertices are drawn: the mesh is simplified (see full)"));
+    assert_non_null(strstr(logged, "of 212521 vertices are drawn: the mesh is simplified (see full)"));
     assert_non_null(strstr(page, "of 212521 vertices are drawn: the mesh is simplified (see full)\""));
     ffd_free(page);
     char *const full = page_of(&scene, true);
     assert_int_equal(value_of(full, "vertices", 0), 461 * 461);
-    assert_null(strstr(said, "simplified"));
+    assert_null(strstr(logged, "simplified"));
     ffd_free(full);
     ffd_view_scene_free(&scene);
     ffd_free(skeleton.starts);
@@ -413,7 +413,7 @@ static void a_scene_of_nothing_is_a_page(void **state)
     (void)state;
     view_scene scene = {0};
     char *page = page_of(&scene, false);
-    assert_non_null(strstr(said, "the mesh has no vertices"));
+    assert_non_null(strstr(logged, "the mesh has no vertices"));
     ffd_free(page);
     scene.vertex_count = 5; /* a mesh of vertices alone is shown as points */
     scene.before = hand_array(5, 3 * sizeof(double));

@@ -11,7 +11,7 @@ import json
 import sys
 from ctypes import byref, c_double, c_int, c_size_t, c_ssize_t, c_void_p
 
-LIBRARY = ctypes.CDLL("libffd.so.0.2")
+LIBRARY = ctypes.CDLL("libffd.so.0.3")
 
 
 class Span(ctypes.Structure):

@@ -152,7 +152,7 @@ bool ffd_file_stamp(const char *path, file_stamp *stamp)
         return false;
     *stamp = (file_stamp){
         .device = (uint64_t)info.st_dev,
-        .number = (uint64_t)info.st_ino,
+        .inode = (uint64_t)info.st_ino,
         .size = (uint64_t)info.st_size,
         .written = {(int64_t)info.st_mtim.tv_sec, (int64_t)info.st_mtim.tv_nsec},
         .changed = {(int64_t)info.st_ctim.tv_sec, (int64_t)info.st_ctim.tv_nsec},

@@ -65,7 +65,7 @@ const char *ffd_file_display_name(const char *path);
 bool ffd_file_exists(const char *path);
 /* Identifies a file and its state: identity, size and times. */
 typedef struct file_stamp {
-    uint64_t device, number, size;
+    uint64_t device, inode, size;
     int64_t written[2], changed[2]; /* mtime and ctime: seconds and nanoseconds */
 } file_stamp;
 /* Reads the stamp of a regular file. Returns false if there is none. */

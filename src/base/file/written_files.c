@@ -4,14 +4,14 @@
 
 /* The members of a stamp that identify a file. */
 typedef struct file_key {
-    uint64_t device, number;
+    uint64_t device, inode;
 } file_key;
 
 _Static_assert(sizeof(file_key) == 2 * sizeof(uint64_t), "a key has no padding");
 
 static file_key key_of(const file_stamp *stamp)
 {
-    return (file_key){stamp->device, stamp->number};
+    return (file_key){stamp->device, stamp->inode};
 }
 
 bool ffd_written_holds(const written_files *written, const char *path)

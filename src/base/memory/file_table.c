@@ -6,10 +6,10 @@
 #define FEWEST_SLOTS ((size_t)1024)
 
 /* Returns 0 for a free slot. */
-static uint64_t number_of(const file_entry *entry)
+static uint64_t index_of(const file_entry *entry)
 {
     unsigned char bytes[8] = {0};
-    memcpy(bytes, entry->number, sizeof entry->number);
+    memcpy(bytes, entry->index, sizeof entry->index);
     return load_u64(bytes);
 }
 
@@ -28,7 +28,7 @@ static file_entry *find_sorted(const file_table *table, const file_entry *entry)
 static file_entry *find_recent(const file_table *table, const file_entry *entry)
 {
     size_t i = (size_t)load_u64(entry->file) & (table->slots - 1);
-    while (number_of(&table->recent[i]) && compare(&table->recent[i], entry) != 0)
+    while (index_of(&table->recent[i]) && compare(&table->recent[i], entry) != 0)
         i = (i + 1) & (table->slots - 1);
     return &table->recent[i];
 }
@@ -38,7 +38,7 @@ static void merge(file_table *table)
 {
     size_t kept = 0, to = table->count + table->used, from = table->count;
     for (size_t i = 0; i < table->slots; i++)
-        if (number_of(&table->recent[i]))
+        if (index_of(&table->recent[i]))
             table->recent[kept++] = table->recent[i];
     if (kept > 0) /* the array may be NULL */
         qsort(table->recent, kept, sizeof *table->recent, compare);
@@ -74,34 +74,34 @@ static bool reserve_slot(file_table *table)
     return true;
 }
 
-ffd_status ffd_files_put(file_table *table, const hash128 *file, uint64_t number, ffd_error *error)
+ffd_status ffd_files_put(file_table *table, const hash128 *file, uint64_t index, ffd_error *error)
 {
     file_entry entry;
     unsigned char bytes[8];
-    store_u64(bytes, number + 1);
+    store_u64(bytes, index + 1);
     memcpy(entry.file, file->bytes, sizeof entry.file);
-    memcpy(entry.number, bytes, sizeof entry.number);
+    memcpy(entry.index, bytes, sizeof entry.index);
     file_entry *place = find_sorted(table, &entry);
     if (!place && !reserve_slot(table))
         return ffd_fail_memory(error);
     place = find_sorted(table, &entry);
     if (!place) {
         place = find_recent(table, &entry);
-        table->used += number_of(place) == 0;
+        table->used += index_of(place) == 0;
     }
     *place = entry;
     return FFD_OK;
 }
 
-bool ffd_files_find(const file_table *table, const hash128 *file, uint64_t *number)
+bool ffd_files_find(const file_table *table, const hash128 *file, uint64_t *index)
 {
     file_entry entry;
     memcpy(entry.file, file->bytes, sizeof entry.file);
     const file_entry *place = find_sorted(table, &entry);
     if (!place && table->slots)
         place = find_recent(table, &entry);
-    const uint64_t found = place ? number_of(place) : 0;
-    *number = found - 1;
+    const uint64_t found = place ? index_of(place) : 0;
+    *index = found - 1;
     return found;
 }
 

@@ -1,4 +1,4 @@
-/* file_table.h - a compact table of numbers by the place of a file (place.h). */
+/* file_table.h - a compact table of indices by the place of a file (place.h). */
 #ifndef FFD_BASE_MEMORY_FILE_TABLE_H
 #define FFD_BASE_MEMORY_FILE_TABLE_H
 
@@ -7,10 +7,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* 16 bytes a file: the first bytes of its place, and its number. */
+/* 16 bytes a file: the first bytes of its place, and its index. */
 typedef struct file_entry {
     unsigned char file[11];
-    unsigned char number[5]; /* the number plus 1; 0: free */
+    unsigned char index[5]; /* the index plus 1; 0: free */
 } file_entry;
 
 /* All zeros: empty. */
@@ -21,10 +21,10 @@ typedef struct file_table {
     size_t slots, used;
 } file_table;
 
-/* Sets the number of a file, which must be below 2^40 - 1. Errors: FFD_E_MEMORY. */
-ffd_status ffd_files_put(file_table *table, const hash128 *file, uint64_t number, ffd_error *error);
-/* Finds the number of a file. Returns false if it has none. */
-bool ffd_files_find(const file_table *table, const hash128 *file, uint64_t *number);
+/* Sets the index of a file, which must be below 2^40 - 1. Errors: FFD_E_MEMORY. */
+ffd_status ffd_files_put(file_table *table, const hash128 *file, uint64_t index, ffd_error *error);
+/* Finds the index of a file. Returns false if it has none. */
+bool ffd_files_find(const file_table *table, const hash128 *file, uint64_t *index);
 /* Frees the entries; leaves an empty table. */
 void ffd_files_free(file_table *table);
 

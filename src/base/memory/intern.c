@@ -62,7 +62,7 @@ static bool add_key(intern_table *table, const void *key, size_t size)
     return true;
 }
 
-bool ffd_intern(intern_table *table, const void *key, size_t size, uint32_t *number)
+bool ffd_intern(intern_table *table, const void *key, size_t size, uint32_t *index)
 {
     if (!make_slots(table))
         return false;
@@ -72,14 +72,14 @@ bool ffd_intern(intern_table *table, const void *key, size_t size, uint32_t *num
             return false;
         *slot = (uint32_t)(table->count - 1);
     }
-    *number = *slot;
+    *index = *slot;
     return true;
 }
 
-bool ffd_intern_find(const intern_table *table, const void *key, size_t size, uint32_t *number)
+bool ffd_intern_find(const intern_table *table, const void *key, size_t size, uint32_t *index)
 {
-    *number = table->count > 0 ? *find_slot(table, key, size) : FREE_SLOT;
-    return *number != FREE_SLOT;
+    *index = table->count > 0 ? *find_slot(table, key, size) : FREE_SLOT;
+    return *index != FREE_SLOT;
 }
 
 const char *ffd_intern_key(const intern_table *table, uint32_t index)

@@ -6,9 +6,9 @@
 #include <stdatomic.h>
 
 typedef struct worker_thread {
-    void (*run)(void *work, int number);
+    void (*run)(void *work, int index);
     void *work;
-    int number;
+    int index;
     const deadline *deadline; /* of the calling thread */
     pthread_t thread;
 } worker_thread;
@@ -17,20 +17,20 @@ static void *start(void *argument)
 {
     const worker_thread *self = argument;
     ffd_deadline_set(self->deadline);
-    self->run(self->work, self->number);
+    self->run(self->work, self->index);
     return NULL;
 }
 
 /* Runs `run` in this many threads. Worker 0 is the calling thread, which does all the work if no others can
    be started. */
-static void start_workers(void (*run)(void *work, int number), void *work, int threads)
+static void start_workers(void (*run)(void *work, int index), void *work, int threads)
 {
     worker_thread *others = threads > 1 ? ffd_alloc_zero((size_t)threads - 1, sizeof *others) : NULL;
     int started = 0;
     while (others && started < threads - 1) {
         worker_thread *next = &others[started];
         *next =
-            (worker_thread){.run = run, .work = work, .number = started + 1, .deadline = ffd_deadline_get()};
+            (worker_thread){.run = run, .work = work, .index = started + 1, .deadline = ffd_deadline_get()};
         if (pthread_create(&next->thread, NULL, start, next) != 0)
             break;
         started++;

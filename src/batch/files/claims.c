@@ -136,16 +136,16 @@ static ffd_status claim_copy(run_files *files, batch_job *job, const char *sourc
 {
     const char *const input = files->scan.input;
     ffd_status status = FFD_OK;
-    uint64_t line, number;
+    uint64_t line, index;
     if (!ffd_file_exists(source))
         return FFD_OK;
     char *const target = ffd_path_sibling(job->target, source + (ffd_path_name(input) - input));
     if (!target)
         return ffd_fail_memory(error);
     const hash128 file = ffd_run_place(files, target);
-    const bool is_copy = ffd_files_find(&files->copies, &file, &number);
-    if (is_copy && !is_same_copy(files->copied[number].source, source))
-        ffd_run_refuse(files, job, "", target, files->copied[number].line);
+    const bool is_copy = ffd_files_find(&files->copies, &file, &index);
+    if (is_copy && !is_same_copy(files->copied[index].source, source))
+        ffd_run_refuse(files, job, "", target, files->copied[index].line);
     else if (ffd_files_find(&files->writes, &file, &line))
         ffd_run_refuse(files, job, "", target, line);
     else if (!is_copy && is_read(files, job, &file, &line) && !ffd_file_exists(target))

@@ -25,12 +25,12 @@ hash128 ffd_run_read_place(run_files *files, const char *path)
 
 bool ffd_run_writer(const run_files *files, const hash128 *file, uint64_t *line)
 {
-    uint64_t number;
+    uint64_t index;
     if (ffd_files_find(&files->writes, file, line))
         return true;
-    if (!ffd_files_find(&files->copies, file, &number))
+    if (!ffd_files_find(&files->copies, file, &index))
         return false;
-    *line = files->copied[number].line;
+    *line = files->copied[index].line;
     return true;
 }
 

@@ -93,13 +93,13 @@ static void add_lattices(job_description *job, const job_commons *commons)
             ffd_description_add(job, JOB_LATTICE, NULL, defaults->lattices[i].path);
 }
 
-char *ffd_output_name(const job_commons *commons, const char *input, uint64_t number)
+char *ffd_output_name(const job_commons *commons, const char *input, uint64_t ordinal)
 {
     char *const named = commons->ending ? ffd_path_with_ending(input, commons->ending) : ffd_text_copy(input);
     char *const stem = named ? ffd_path_stem(named) : NULL;
     byte_buffer text = {.failed = !stem};
-    if (stem && number)
-        ffd_buffer_format(&text, "%s-%" PRIu64 "%s", stem, number, ffd_path_ending(named));
+    if (stem && ordinal)
+        ffd_buffer_format(&text, "%s-%" PRIu64 "%s", stem, ordinal, ffd_path_ending(named));
     else if (stem)
         ffd_buffer_text(&text, ffd_path_name(named));
     ffd_free(stem);
@@ -108,9 +108,9 @@ char *ffd_output_name(const job_commons *commons, const char *input, uint64_t nu
 }
 
 /* Adds the output, in the folder of outputs. number: as in ffd_output_name. */
-static void add_output(const job_commons *commons, const char *input, uint64_t number, job_description *job)
+static void add_output(const job_commons *commons, const char *input, uint64_t ordinal, job_description *job)
 {
-    char *const name = ffd_output_name(commons, input, number);
+    char *const name = ffd_output_name(commons, input, ordinal);
     if (name)
         add_path(job, JOB_OUTPUT, commons->out_dir, name);
     else
@@ -135,8 +135,8 @@ static void describe_cell(const job_commons *commons, size_t i, const char *colu
         add_path(job, *column == 'i' ? JOB_INPUT : JOB_LATTICE, commons->folder, cell);
 }
 
-void ffd_describe_row(const job_commons *commons, const csv_row *columns, const csv_row *row, uint64_t number,
-                      job_description *job, csv_flaw *flaw)
+void ffd_describe_row(const job_commons *commons, const csv_row *columns, const csv_row *row,
+                      uint64_t ordinal, job_description *job, csv_flaw *flaw)
 {
     const char *column = NULL, *cell = NULL;
     for (size_t i = 0; i < row->count; i++) {
@@ -149,7 +149,7 @@ void ffd_describe_row(const job_commons *commons, const csv_row *columns, const 
         ffd_description_add(job, JOB_INPUT, NULL, commons->input);
     const char *const input = ffd_description_find(job, JOB_INPUT);
     if (commons->out_dir && input && !ffd_description_find(job, JOB_OUTPUT))
-        add_output(commons, input, number, job);
+        add_output(commons, input, ordinal, job);
     if (!ffd_description_find(job, JOB_LATTICE))
         add_lattices(job, commons);
 }

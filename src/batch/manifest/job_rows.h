@@ -27,13 +27,13 @@ typedef struct csv_flaw {
     char column[48], mixed[48];
 } csv_flaw;
 
-/* Returns the name of the output of an input, which names none. number: appended if the input has several
+/* Returns the name of the output of an input, which names none. ordinal: appended if the input has several
    outputs (STEM-ROW.EXT); 0: not appended. Free it with ffd_free; NULL: memory ran out. */
-char *ffd_output_name(const job_commons *commons, const char *input, uint64_t number);
-/* Describes a row. Its cells must be UTF-8, as many as the columns. number: of the row, for the name of an
+char *ffd_output_name(const job_commons *commons, const char *input, uint64_t ordinal);
+/* Describes a row. Its cells must be UTF-8, as many as the columns. ordinal: of the row, for the name of an
    output without one (0: use the input's name). */
-void ffd_describe_row(const job_commons *commons, const csv_row *columns, const csv_row *row, uint64_t number,
-                      job_description *job, csv_flaw *flaw);
+void ffd_describe_row(const job_commons *commons, const csv_row *columns, const csv_row *row,
+                      uint64_t ordinal, job_description *job, csv_flaw *flaw);
 /* Describes a job for a single file. */
 void ffd_describe_file(const job_commons *commons, const char *path, job_description *job);
 

@@ -48,7 +48,7 @@ static ffd_status read_manifest_line(job_source *source, batch_job *job)
     const line_reader *const reader = &source->reader;
     if (!reader->too_long)
         return ffd_job_parse(&source->frame, reader->line.data, reader->line.size, job);
-    ffd_fail_line(&job->error, FFD_E_INVALID, source->frame.name, (size_t)reader->number,
+    ffd_fail_line(&job->error, FFD_E_INVALID, source->frame.name, (size_t)reader->count,
                   "the line has more than %zu bytes", LINE_MOST);
     return FFD_OK;
 }
@@ -101,8 +101,8 @@ static ffd_status read_row(job_source *source, bool valid, batch_job *job)
     if (!ffd_table_check(&source->table, valid, &job->error))
         return FFD_OK;
     const job_commons commons = list_commons(source);
-    const uint64_t number = source->numbers_outputs && is_repeated(source) ? source->count : 0;
-    ffd_describe_row(&commons, &source->table.columns, &source->table.row, number, &description, &flaw);
+    const uint64_t ordinal = source->numbers_outputs && is_repeated(source) ? source->count : 0;
+    ffd_describe_row(&commons, &source->table.columns, &source->table.row, ordinal, &description, &flaw);
     if (flaw.cell[0])
         ffd_flaw_line(&source->table.flaws, source->frame.name, (size_t)job->line, &job->error,
                       "\"%s\" is no number in JSON, and is read as %s", flaw.cell, flaw.number);
@@ -285,7 +285,7 @@ static ffd_status find_next(job_source *source, line_state *state, bool *valid, 
         return ask_caller(source, state, error);
     if (source->desc.manifest) {
         const ffd_status status = ffd_lines_next_filled(&source->reader, state, error);
-        source->line = source->reader.number;
+        source->line = source->reader.count;
         return status;
     }
     if (source->desc.table) {

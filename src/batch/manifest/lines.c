@@ -54,7 +54,7 @@ static ffd_status take_bytes(line_reader *reader, line_state *state, ffd_error *
             return FFD_OK;
         if (reader->left_out >= LINE_LOST)
             return ffd_fail_line(error, FFD_E_INVALID, ffd_stream_name(reader->stream),
-                                 (size_t)reader->number + 1, "the line does not end within %zu bytes",
+                                 (size_t)reader->count + 1, "the line does not end within %zu bytes",
                                  LINE_LOST);
     }
     *state = LINE_LATER;
@@ -70,7 +70,7 @@ ffd_status ffd_lines_next(line_reader *reader, bool append, line_state *state, f
     reader->is_partial = *state == LINE_LATER;
     if (status || reader->is_partial)
         return status;
-    reader->number += *state == LINE_READ;
+    reader->count += *state == LINE_READ;
     return end_line(reader, error);
 }
 
@@ -111,7 +111,7 @@ static ffd_status check_first(line_reader *reader, ffd_error *error)
     reader->has_begun = true;
     if (!stand_in)
         return FFD_OK;
-    return ffd_fail_line(error, FFD_E_INVALID, ffd_stream_name(reader->stream), (size_t)reader->number,
+    return ffd_fail_line(error, FFD_E_INVALID, ffd_stream_name(reader->stream), (size_t)reader->count,
                          "has no jobs: it seems to be %s", stand_in);
 }
 
@@ -120,7 +120,7 @@ ffd_status ffd_lines_next_filled(line_reader *reader, line_state *state, ffd_err
     ffd_status status;
     do {
         status = ffd_lines_next(reader, false, state, error);
-        if (!status && *state == LINE_READ && reader->number == 1)
+        if (!status && *state == LINE_READ && reader->count == 1)
             status = check_mark(reader, error);
     } while (!status && *state == LINE_READ && is_blank(&reader->line));
     return status || *state != LINE_READ ? status : check_first(reader, error);

@@ -14,7 +14,7 @@
 
 typedef struct line_reader {
     byte_stream *stream;
-    uint64_t number;  /* of the last line, from 1 */
+    uint64_t count;   /* lines read */
     byte_buffer line; /* the last line, without its line break, terminated by 0 */
     bool is_partial;  /* its rest has not arrived yet */
     bool has_begun;   /* a line that is not blank has been read */

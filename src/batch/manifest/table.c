@@ -16,7 +16,7 @@ static ffd_status next_row(csv_table *table, csv_row *row, line_state *state, bo
         return FFD_OK;
     if (!table->row_goes_on) {
         status = ffd_lines_next_filled(reader, state, error);
-        table->line = reader->number;
+        table->line = reader->count;
         table->scan = (csv_scan){0};
     }
     const char only[] = {table->separator, 0}, *const separators = table->separator ? only : CSV_SEPARATORS;
@@ -111,7 +111,7 @@ bool ffd_table_has(const csv_table *table, const char *column)
 }
 
 /* Marks the ignored columns. names: of the columns, with their numbers, but for those without a name. */
-static ffd_status skip_ignored(csv_table *table, const intern_table *names, const size_t *numbers,
+static ffd_status skip_ignored(csv_table *table, const intern_table *names, const size_t *indices,
                                ffd_error *error)
 {
     const char *word = table->ignored;
@@ -124,7 +124,7 @@ static ffd_status skip_ignored(csv_table *table, const intern_table *names, cons
             return ffd_fail_line(error, FFD_E_INVALID, table->name, (size_t)table->line,
                                  "the table has no column \"%.*s\" ({csv_ignore})",
                                  (int)(length < 60 ? length : 60), word);
-        table->skipped[numbers[known]] = true;
+        table->skipped[indices[known]] = true;
     }
     return FFD_OK;
 }
@@ -179,7 +179,7 @@ static ffd_status note_name(csv_table *table, const char *name, size_t index, ff
 
 /* names: gets the names of the columns, and numbers their numbers. */
 static ffd_status check_name(csv_table *table, const char *name, size_t index, intern_table *names,
-                             size_t *numbers, ffd_error *error)
+                             size_t *indices, ffd_error *error)
 {
     uint32_t known;
     const size_t before = names->count;
@@ -192,7 +192,7 @@ static ffd_status check_name(csv_table *table, const char *name, size_t index, i
         return ffd_fail_line(error, FFD_E_INVALID, table->name, (size_t)table->line,
                              "two columns of the table are named \"%.60s\"", name);
     if (*name)
-        numbers[known] = index;
+        indices[known] = index;
     return note_name(table, name, index, error);
 }
 
@@ -205,17 +205,17 @@ static ffd_status check_columns(csv_table *table, ffd_error *error)
         return ffd_fail_line(error, FFD_E_INVALID, table->name, (size_t)table->line,
                              "the name of a column is not text in UTF-8");
     table->skipped = ffd_alloc_zero(columns->count, sizeof *table->skipped);
-    size_t *const numbers = ffd_alloc(columns->count, sizeof *numbers);
+    size_t *const indices = ffd_alloc(columns->count, sizeof *indices);
     table->points = ffd_alloc_zero(columns->count, sizeof *table->points);
-    ffd_status status = table->skipped && table->points && numbers ? FFD_OK : ffd_fail_memory(error);
+    ffd_status status = table->skipped && table->points && indices ? FFD_OK : ffd_fail_memory(error);
     for (size_t i = 0; i < columns->count && !status; i++) {
         name = ffd_csv_next(columns, name);
-        status = check_name(table, name, i, &names, numbers, error);
+        status = check_name(table, name, i, &names, indices, error);
     }
     if (!status)
-        status = skip_ignored(table, &names, numbers, error);
+        status = skip_ignored(table, &names, indices, error);
     ffd_intern_free(&names);
-    ffd_free(numbers);
+    ffd_free(indices);
     return status ? status : note_blanks(table, columns, error);
 }
 

@@ -63,10 +63,10 @@ static void sum_point(const boundary *border, const boundary_face *face, const s
 }
 
 /* Computes the control point of two basis functions. */
-static void control_point(const boundary *border, int number, const size_t function[2], double result[N])
+static void control_point(const boundary *border, int index, const size_t function[2], double result[N])
 {
-    const boundary_face *face = &border->faces[number];
-    const knot_vector *knots[2] = {boundary_knots(border, number, 0), boundary_knots(border, number, 1)};
+    const boundary_face *face = &border->faces[index];
+    const knot_vector *knots[2] = {boundary_knots(border, index, 0), boundary_knots(border, index, 1)};
     const size_t point[2] = {ffd_knots_point(knots[0], function[0]), ffd_knots_point(knots[1], function[1])};
     if (face->points)
         memcpy(result, face->points + N * (point[0] + knots[0]->points * point[1]), N * sizeof *result);
@@ -80,9 +80,9 @@ static void extract(face_patch *made, int f, const double *matrix)
     const size_t stride = N * (f == 0 ? 1 : (size_t)made->order[0]);
     const size_t next_line = N * (f == 0 ? (size_t)made->order[0] : 1);
     const int order = made->order[f], components = made->rational ? N : 3;
-    for (int number = 0; number < made->order[1 - f]; number++) {
+    for (int line_index = 0; line_index < made->order[1 - f]; line_index++) {
         double line[MAX_ORDER][N];
-        double *first = made->points + next_line * (size_t)number;
+        double *first = made->points + next_line * (size_t)line_index;
         for (int i = 0; i < order; i++)
             memcpy(line[i], first + stride * (size_t)i, sizeof line[i]);
         for (int r = 0; r < order; r++)

@@ -23,8 +23,8 @@
 
 /* An entry of the queue: a node of the tree, or a part of a patch. */
 typedef struct waiting {
-    double key;      /* a lower bound of the excess */
-    uint32_t number; /* order of insertion, to break ties */
+    double key;     /* a lower bound of the excess */
+    uint32_t order; /* order of insertion, to break ties */
     uint32_t node;
     const face_patch *part; /* may be NULL */
 } waiting;
@@ -97,7 +97,7 @@ static double patch_bound(const border_search *search, const face_patch *patch, 
 
 static bool comes_first(const waiting *a, const waiting *b)
 {
-    return a->key < b->key || (a->key == b->key && a->number < b->number);
+    return a->key < b->key || (a->key == b->key && a->order < b->order);
 }
 
 static ffd_status push(border_search *search, double key, uint32_t node, const face_patch *part)

@@ -219,7 +219,7 @@ static void keep_light(cell_search *cells, uint32_t index, cell_brick *mine, own
     const size_t slot = index % OWN_BRICKS;
     brick_free(own->brick[slot]);
     own->brick[slot] = mine;
-    own->number[slot] = index;
+    own->index[slot] = index;
     *kept = mine;
 }
 
@@ -229,7 +229,7 @@ ffd_status ffd_cells_brick(const ffd_locator *locator, uint32_t index, own_brick
     cell_search *cells = locator->cells;
     const size_t slot = index % OWN_BRICKS;
     *brick = atomic_load_explicit(&cells->made[index], memory_order_acquire);
-    if (!*brick && own->brick[slot] && own->number[slot] == index)
+    if (!*brick && own->brick[slot] && own->index[slot] == index)
         *brick = own->brick[slot];
     if (*brick)
         return FFD_OK;

@@ -5,11 +5,11 @@
 
 #include "embed/cells/cells.h"
 
-/* A cache of bricks that belong to one search, indexed by their number modulo OWN_BRICKS. */
+/* A cache of bricks that belong to one search, at their index modulo OWN_BRICKS. */
 #define OWN_BRICKS 64
 typedef struct own_bricks {
     cell_brick *brick[OWN_BRICKS];
-    uint32_t number[OWN_BRICKS];
+    uint32_t index[OWN_BRICKS];
 } own_bricks;
 /* Frees the cached bricks. */
 void ffd_own_bricks_free(own_bricks *own);

@@ -44,7 +44,7 @@ bool ffd_packet_add(point_packet *packet, const double p[3], uint32_t index)
         return true;
     if (packet->count > 0 && !is_near(packet, point->search.x))
         return false;
-    point->number = index;
+    point->index = index;
     point->bricks = point->count = 0;
     point->alone = false;
     widen(packet, &point->search);

@@ -11,7 +11,7 @@
 
 typedef struct packet_point {
     point_search search; /* with its point set, without results */
-    uint32_t number;     /* index of the caller */
+    uint32_t index;      /* of the caller */
     uint32_t bricks;     /* number of visited bricks */
     uint32_t count;
     const cell_leaf *leaves[MOST_LEAVES]; /* leaves that may contain the point, in the order of

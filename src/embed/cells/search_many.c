@@ -20,13 +20,13 @@ typedef struct leaf_result {
 
 typedef struct waiting_point {
     const cell_leaf *leaf;
-    uint32_t number;
+    uint32_t index;
     leaf_result *result; /* for a point with several leaves; NULL: this is its only leaf */
 } waiting_point;
 
 /* A point with several leaves. */
 typedef struct shared_point {
-    uint32_t number, count;
+    uint32_t index, count;
     leaf_result *results; /* in the order of its leaves */
 } shared_point;
 
@@ -173,7 +173,7 @@ static ffd_status find_in_cell(const ffd_locator *locator, const double *p, cons
         const size_t filled = count - first < width ? count - first : width;
         for (size_t l = 0; l < width; l++) {
             const waiting_point *const point = &waiting[first + (l < filled ? l : filled - 1)];
-            load_point(&placed[point->number], point->leaf, (int)l, lanes);
+            load_point(&placed[point->index], point->leaf, (int)l, lanes);
         }
         locator->cells->region_kernel(&(*scratch)->many->cell, lanes);
         for (size_t l = 0; l < filled && !status; l++) {
@@ -183,9 +183,9 @@ static ffd_status find_in_cell(const ffd_locator *locator, const double *p, cons
             if (point->result)
                 continue;
             if (result->outcome == REGION_UNCERTAIN)
-                status = find_alone(locator, p, point->number, scratch, locations, error);
+                status = find_alone(locator, p, point->index, scratch, locations, error);
             else
-                judge(locator, &placed[point->number], result, 1, &locations[point->number]);
+                judge(locator, &placed[point->index], result, 1, &locations[point->index]);
         }
     }
     return status;
@@ -231,15 +231,15 @@ static bool wait_in_leaves(many_search *many, const packet_point *point)
             return false;
         results = scratch->results + many->results;
         many->results += point->count;
-        scratch->shared[many->shared++] = (shared_point){point->number, point->count, results};
+        scratch->shared[many->shared++] = (shared_point){point->index, point->count, results};
     }
-    placed_point *const placed = &scratch->placed[point->number];
+    placed_point *const placed = &scratch->placed[point->index];
     memcpy(placed->x, point->search.x, sizeof placed->x);
     memcpy(placed->tolerance, point->search.tolerance, sizeof placed->tolerance);
     memcpy(placed->aim, point->search.aim, sizeof placed->aim);
     for (uint32_t i = 0; i < point->count; i++)
         scratch->waiting[many->waiting++] =
-            (waiting_point){point->leaves[i], point->number, results ? results + i : NULL};
+            (waiting_point){point->leaves[i], point->index, results ? results + i : NULL};
     return true;
 }
 
@@ -254,11 +254,11 @@ static ffd_status judge_shared(const many_search *many)
         for (uint32_t l = 0; l < point->count; l++)
             certain = certain && point->results[l].outcome != REGION_UNCERTAIN;
         if (certain)
-            judge(many->locator, &scratch->placed[point->number], point->results, point->count,
-                  &many->locations[point->number]);
+            judge(many->locator, &scratch->placed[point->index], point->results, point->count,
+                  &many->locations[point->index]);
         else
-            status = find_alone(many->locator, many->p, point->number, many->scratch, many->locations,
-                                many->error);
+            status =
+                find_alone(many->locator, many->p, point->index, many->scratch, many->locations, many->error);
     }
     return status;
 }
@@ -272,10 +272,10 @@ static ffd_status settle_packet(many_search *many)
     for (int i = 0; i < p->count && !status; i++) {
         packet_point *const point = &p->points[i];
         if (point->alone || !wait_in_leaves(many, point))
-            status = find_alone(many->locator, many->p, point->number, many->scratch, many->locations,
-                                many->error);
+            status =
+                find_alone(many->locator, many->p, point->index, many->scratch, many->locations, many->error);
         else if (point->count == 0)
-            ffd_search_judge(&point->search, &many->locations[point->number]);
+            ffd_search_judge(&point->search, &many->locations[point->index]);
     }
     p->count = 0;
     return status;

@@ -260,14 +260,14 @@ static void halve(part *high, int a, part *low)
 }
 
 /* Integrates a part of which a rule is exact enough for each direction, or that must not be halved. */
-static void add_part(const integration *all, const part *p, const part_view *view, const int number[2],
+static void add_part(const integration *all, const part *p, const part_view *view, const int index[2],
                      integral *sum)
 {
-    const bool exact = number[0] >= 0 && number[1] >= 0;
+    const bool exact = index[0] >= 0 && index[1] >= 0;
     const int direction[2] = {all->net.b, all->net.c};
     const rule *rules[2];
     for (int a = 0; a < 2; a++) {
-        const int r = exact ? number[a] : 1;
+        const int r = exact ? index[a] : 1;
         rules[a] = make_rule(rule_nodes[r], p->order[a] - 1, &all->rules[direction[a]][r]);
     }
     const double most = permanent(view->row[0], view->row[1], view->row[2]);
@@ -300,11 +300,11 @@ static void add_cell(integration *all, part whole, integral *sum)
         sum->error = INFINITY;
     while (count > 0) {
         part *const p = &waiting[count - 1];
-        int number[2];
+        int index[2];
         view_weights(p, &view);
         for (int a = 0; a < 2; a++)
-            number[a] = find_nodes(p->order[a] - 1, view.ratio[a]);
-        const bool exact = number[0] >= 0 && number[1] >= 0;
+            index[a] = find_nodes(p->order[a] - 1, view.ratio[a]);
+        const bool exact = index[0] >= 0 && index[1] >= 0;
         if (!exact && all->parts > 1 && count <= MOST_HALVINGS) {
             halve(p, view.ratio[0] < view.ratio[1], p + 1);
             all->parts--;
@@ -316,7 +316,7 @@ static void add_cell(integration *all, part whole, integral *sum)
             view_weights(p, &view);
         }
         view_rows(p, &view);
-        add_part(all, p, &view, number, sum);
+        add_part(all, p, &view, index, sum);
         count--;
     }
     all->parts--;

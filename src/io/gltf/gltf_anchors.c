@@ -12,7 +12,7 @@ typedef struct anchor_work {
     mesh_state state;
     bool after;
     mesh_anchors *anchors;
-    size_t *first; /* per part: the number of its first vertex */
+    size_t *first; /* per part: the index of its first vertex */
     bool *driven;  /* per node: whether a loaded animation drives its weights */
     bool *is_done; /* per part: whether its targets are done */
     ffd_error *error;
@@ -160,7 +160,7 @@ static ffd_status make_anchors(anchor_work *w)
     if (!w->driven || !w->is_done)
         return ffd_fail_memory(w->error);
     TRY(ffd_gltf_skeleton_take((gltf_skeleton *)w->rig, count, 3 * sizeof(double), w->error));
-    TRY(ffd_parts_number(&d->base, &w->first, w->error));
+    TRY(ffd_first_vertices(&d->base, &w->first, w->error));
     w->anchors->points = ffd_alloc(count, 3 * sizeof(double));
     if (!w->anchors->points)
         return ffd_fail_memory(w->error);

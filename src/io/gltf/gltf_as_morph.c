@@ -195,22 +195,19 @@ static ffd_status save_as_morph(mesh_document *document, const mesh_save_options
                                 file_output *output, const mesh_log *log, ffd_error *error)
 {
     gltf_document *const d = (gltf_document *)document;
-    gltf_edit edit = {.document = d, .log = log};
     ffd_status status = finish_target(d, error);
+    d->edit->log = log;
     if (!status)
-        status = fill_edit(&edit, log, error);
+        status = fill_edit(d->edit, log, error);
     if (options->bytes_left)
-        *options->bytes_left = edit.bytes_left;
+        *options->bytes_left = d->edit->bytes_left;
     if (!status) {
-        d->edit = edit.any ? &edit : NULL;
         for (size_t k = 0; k < d->morph_count; k++)
             lend_results(d, &d->morphs[k]);
         status = ffd_gltf_save_results(document, options, output, log, error);
         take_results(d);
     }
-    d->edit = NULL;
-    d->replaced = NULL;
-    ffd_gltf_edit_free(&edit);
+    ffd_gltf_clear_edit(d);
     return status;
 }
 

@@ -80,10 +80,9 @@ static ffd_status describe_storage(const gltf_document *d, json_text *json, ffd_
         return ffd_fail_memory(error);
     storage_facts facts = {0};
     size_t triangles = 0, lines = 0, points = 0;
-    for (size_t m = 0; m < d->model.mesh_count; m++) {
-        ffd_gltf_count_drawing(d, m, &triangles, &lines, &points);
-        for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, m, p));)
-            survey_primitive(d, p, seen, &facts);
+    for (size_t i = 0; i < d->model.primitive_count; i++) {
+        ffd_gltf_count_drawing(d, &d->model.primitives[i], &triangles, &lines, &points);
+        survey_primitive(d, &d->model.primitives[i], seen, &facts);
     }
     ffd_free(seen);
     ffd_json_object(json, "stored", false);

@@ -357,7 +357,7 @@ static ffd_status begin_run(extractor *e, const gltf_primitive *primitive, size_
                             ? ffd_model_begin_run(e->model, object, NULL, material, e->error)
                             : ffd_fail_memory(e->error);
     if (!status && e->model->wants_details && has_material && number >= 0 && number < MODEL_NONE)
-        status = ffd_model_number_material(e->model, (uint32_t)number, e->error);
+        status = ffd_model_set_material(e->model, (uint32_t)number, e->error);
     ffd_free(object);
     ffd_free(material);
     return status;
@@ -462,25 +462,25 @@ static uint32_t features_of(const extractor *e)
     return found;
 }
 
-/* Sets the file's numbers of the positions; vertices that are not drawn count too. */
-static ffd_status number_positions(extractor *e)
+/* Sets the file's indices of the positions; vertices that are not drawn count too. */
+static ffd_status index_positions(extractor *e)
 {
     const gltf_document *d = e->document;
-    uint64_t number = 0;
+    uint64_t index = 0;
     const ffd_status status =
-        ffd_model_take(e->model, e->model->position_count, sizeof *e->model->numbers, e->error);
+        ffd_model_take(e->model, e->model->position_count, sizeof *e->model->indices, e->error);
     if (status)
         return status;
-    e->model->numbers = ffd_alloc(e->model->position_count, sizeof *e->model->numbers);
-    if (!e->model->numbers)
+    e->model->indices = ffd_alloc(e->model->position_count, sizeof *e->model->indices);
+    if (!e->model->indices)
         return ffd_fail_memory(e->error);
     for (size_t i = 0; i < d->base.part_count; i++) {
         const mesh_part *const part = &d->mesh_parts[i];
         if (part->repeats_positions)
             continue;
         for (size_t v = 0; v < part->vertex_count && is_drawn(d, d->parts[i].node); v++)
-            e->model->numbers[e->first_position[i] + v] = number + v;
-        number += part->vertex_count;
+            e->model->indices[e->first_position[i] + v] = index + v;
+        index += part->vertex_count;
     }
     return FFD_OK;
 }
@@ -501,7 +501,7 @@ static ffd_status extract(extractor *e)
         return status;
     fill_values(e);
     if (e->model->wants_details)
-        status = number_positions(e);
+        status = index_positions(e);
     e->model->nodes_left = d->instanced_node_count;
     if (!status)
         status = visit_drawn(e, add_instance);

@@ -1,7 +1,7 @@
 /* gltf_followed.c - the nodes, inverse bind matrices and keys of a skeleton whose rig follows the
    deformation. */
 #include "base/memory/memory.h"
-#include "io/gltf/edit/gltf_rig.h"
+#include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/gltf_skeleton.h"
 #include "io/gltf/model/gltf_scene.h"
 #include "io/gltf/model/gltf_skin.h"
@@ -9,7 +9,7 @@
 
 static const gltf_rig *rig_of(const gltf_skeleton *skeleton)
 {
-    return skeleton->follows ? skeleton->document->rig : NULL;
+    return skeleton->follows ? &skeleton->document->edit->rig : NULL;
 }
 
 const double *ffd_gltf_skeleton_world(const gltf_skeleton *skeleton, size_t node)
@@ -50,7 +50,7 @@ ffd_status ffd_gltf_skeleton_binds(const gltf_skeleton *skeleton, size_t skin, c
     const gltf_skin *const of = &skeleton->document->skins[skin];
     if (!rig || rig->skin_contents[skin] == GLTF_NONE)
         return ffd_gltf_joint_matrices(skeleton->document, of, unmoved, binds, error);
-    const float *const values = rig->contents[rig->skin_contents[skin]].values;
+    const float *const values = skeleton->document->edit->contents[rig->skin_contents[skin]].values;
     for (size_t j = 0; j < of->joint_count; j++)
         for (size_t r = 0; r < 3; r++) {
             for (size_t c = 0; c < 3; c++)
@@ -60,7 +60,7 @@ ffd_status ffd_gltf_skeleton_binds(const gltf_skeleton *skeleton, size_t skin, c
     return FFD_OK;
 }
 
-static void put_content(const gltf_rig_content *content, double *values)
+static void put_content(const gltf_content *content, double *values)
 {
     for (size_t i = 0; i < content->count * content->width; i++)
         values[i] = content->values[i];
@@ -125,7 +125,7 @@ ffd_status ffd_gltf_follow_keys(gltf_skeleton *skeleton, size_t index, ffd_error
     for (size_t s = 0; s < animation->sampler_count; s++) {
         const size_t content = s < own ? change->contents[s] : change->copies[s - own].content;
         if (content != GLTF_NONE && animation->samplers[s].values)
-            put_content(&rig->contents[content], animation->samplers[s].values);
+            put_content(&skeleton->document->edit->contents[content], animation->samplers[s].values);
     }
     for (size_t c = 0; c < animation->channel_count; c++)
         if (animation->channels[c].sampler != GLTF_NONE)

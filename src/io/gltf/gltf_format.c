@@ -1,6 +1,6 @@
 /* gltf_format.c - the table of functions for .gltf and .glb files. */
 #include "io/gltf/gltf_format.h"
-#include "io/gltf/edit/gltf_rig.h"
+#include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/gltf_skeleton.h"
 #include "io/gltf/model/gltf_faces.h"
 #include "io/gltf/model/gltf_functions.h"
@@ -43,7 +43,7 @@ static void read_offsets(const mesh_document *document, size_t part, size_t shap
 
 static ffd_status begin_results(mesh_document *document, const mesh_results *results, ffd_error *error)
 {
-    ffd_gltf_free_rig((gltf_document *)document);
+    ffd_gltf_clear_edit((gltf_document *)document);
     TRY(ffd_gltf_begin_results(document, results, error));
     return ffd_gltf_begin_splats((gltf_document *)document, error);
 }

@@ -16,8 +16,8 @@
 typedef struct inner_image {
     const gltf_document *document;
     material_images *images;
-    char *name; /* for messages */
-    uint32_t *number;
+    char *name;      /* for messages */
+    uint32_t *index; /* of the image among those of the materials */
     ffd_error *error;
 } inner_image;
 
@@ -45,7 +45,7 @@ static ffd_status add_view(const inner_image *i, uint32_t value)
     }
     const gltf_view *const v = &d->model.views[view];
     const ffd_status status =
-        ffd_images_add(i->images, i->name, bytes, (size_t)v->length, i->number, i->error);
+        ffd_images_add(i->images, i->name, bytes, (size_t)v->length, i->index, i->error);
     if (!d->decoded_views[view])
         ffd_gltf_forget_bytes(d, &d->buffers[v->buffer], (size_t)v->offset, (size_t)v->length);
     return status;
@@ -60,7 +60,7 @@ static ffd_status add_data_uri(const inner_image *i, uint32_t uri)
         return FFD_OK;
     }
     if (!status)
-        status = ffd_images_add(i->images, i->name, buffer.data, buffer.size, i->number, i->error);
+        status = ffd_images_add(i->images, i->name, buffer.data, buffer.size, i->index, i->error);
     ffd_gltf_free_buffer(&buffer);
     return status;
 }
@@ -75,7 +75,7 @@ static bool is_data(const gltf_document *d, uint32_t uri)
 }
 
 /* key: identifies the image; two images may share a bufferView. */
-static ffd_status load_inner(const gltf_document *d, material_images *images, size_t image, uint32_t *number,
+static ffd_status load_inner(const gltf_document *d, material_images *images, size_t image, uint32_t *index,
                              ffd_error *error)
 {
     const uint32_t value = d->image_values.values[image];
@@ -85,10 +85,10 @@ static ffd_status load_inner(const gltf_document *d, material_images *images, si
     char key[40]; /* cannot be the path of a file: these are relative */
     bool is_known;
     snprintf(key, sizeof key, v == GLTF_NONE ? "/image %zu" : "/bufferView %zu", v == GLTF_NONE ? image : v);
-    ffd_status status = ffd_images_find(images, key, &is_known, number, error);
+    ffd_status status = ffd_images_find(images, key, &is_known, index, error);
     if (status || is_known)
         return status;
-    const inner_image inner = {d, images, image_name(d, image), number, error};
+    const inner_image inner = {d, images, image_name(d, image), index, error};
     if (!inner.name)
         return ffd_fail_memory(error);
     if (view != JSON_NONE)
@@ -105,7 +105,7 @@ static ffd_status load_inner(const gltf_document *d, material_images *images, si
 /* Loads an image from a bufferView, a data URI or a file beside the model, unless it is loaded already. Sets
    *number to its index among the images of the materials, or to MATERIAL_LOST if it cannot be loaded. Errors:
    FFD_E_LIMIT, FFD_E_MEMORY. */
-static ffd_status load_image(const gltf_document *d, material_images *images, size_t image, uint32_t *number,
+static ffd_status load_image(const gltf_document *d, material_images *images, size_t image, uint32_t *index,
                              ffd_error *error)
 {
     const uint32_t value = d->image_values.values[image];
@@ -115,7 +115,7 @@ static ffd_status load_image(const gltf_document *d, material_images *images, si
         status = ffd_gltf_file_path(&d->tree, value, &d->base.folder, &path, error);
     if (!status)
         status =
-            path ? ffd_images_load(images, path, number, error) : load_inner(d, images, image, number, error);
+            path ? ffd_images_load(images, path, index, error) : load_inner(d, images, image, index, error);
     ffd_free(path);
     return status;
 }
@@ -200,7 +200,7 @@ static const char *why_no_image(const gltf_document *d, uint32_t texture)
                : "names an image that is not there";
 }
 
-/* Notes, once per texture, why it has no image. number: GLTF_NONE if the texture does not exist. */
+/* Notes, once per texture, why it has no image. index: GLTF_NONE if the texture does not exist. */
 static ffd_status leave_texture(reader *r, size_t index, const char *why, uint32_t *image)
 {
     char name[40] = "a texture", key[sizeof name + 1];

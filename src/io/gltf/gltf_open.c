@@ -2,7 +2,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/processors.h"
-#include "io/gltf/edit/gltf_rig.h"
+#include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/model/gltf_instancing.h"
 #include "io/gltf/model/gltf_parts.h"
@@ -260,6 +260,7 @@ static void free_document(gltf_document *d)
     gltf_values *const lists[] = {
         &d->buffer_values, &d->view_values,     &d->accessor_values, &d->mesh_values,    &d->node_values,
         &d->skin_values,   &d->material_values, &d->image_values,    &d->texture_values, &d->sampler_values};
+    ffd_gltf_free_edit(d);
     for (size_t i = 0; d->parts && i < ffd_gltf_part_count(d); i++) {
         for (int s = 0; s < GLTF_DEFORMED; s++)
             ffd_gltf_free_result(&d->parts[i].streams[s]);
@@ -317,6 +318,7 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
     d->path = ffd_text_copy(source->path);
     if (!d->path)
         return ffd_fail_memory(error);
+    TRY(ffd_gltf_make_edit(d, error));
     d->name = ffd_file_display_name(d->path);
     d->base.folder = (file_folder){d->path, source->resolve, source->resolve_user};
     TRY(find_json(d, source->format, error));
@@ -393,7 +395,6 @@ void ffd_gltf_close(mesh_document *document)
     if (!document)
         return;
     gltf_document *d = (gltf_document *)document;
-    ffd_gltf_free_rig(d);
     ffd_file_unload(&d->input);
     free_document(d);
 }

@@ -1,6 +1,7 @@
 #include "io/gltf/gltf_skeleton.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
+#include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/model/gltf_scene.h"
 #include "io/gltf/model/gltf_skin.h"
@@ -420,7 +421,7 @@ ffd_status ffd_gltf_read_skeleton(mesh_document *document, bool after, mesh_skel
     if (!rig)
         return ffd_fail_memory(error);
     rig->document = d;
-    rig->follows = after && d->rig;
+    rig->follows = after && ffd_gltf_follows(d);
     rig->base.load = load;
     rig->base.pose = pose;
     rig->base.free = free_rig;

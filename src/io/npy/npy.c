@@ -53,7 +53,7 @@ bool ffd_npy_starts(const unsigned char *data, size_t size, const char *descr, s
 typedef struct npy_header {
     char descr[8];
     char shape[200];
-    uint64_t numbers;
+    uint64_t count;
     size_t values; /* offset of the first value */
 } npy_header;
 
@@ -69,13 +69,13 @@ static const char *find_value(const char *text, const char *key)
 /* Reads a shape like "(3, 4)": the product of its numbers. */
 static bool read_shape(const char *text, npy_header *header)
 {
-    header->numbers = 1;
+    header->count = 1;
     for (const char *c = text + 1; *c && *c != ')';) {
         char *end;
         const uint64_t size = strtoull(c, &end, 10);
-        if (end == c || *c == '-' || (size > 0 && header->numbers > UINT64_MAX / size))
+        if (end == c || *c == '-' || (size > 0 && header->count > UINT64_MAX / size))
             return false;
-        header->numbers *= size;
+        header->count *= size;
         c = end + strspn(end, ", L");
     }
     const size_t length = strcspn(text, ")");
@@ -129,7 +129,7 @@ static bool is_little_endian(void)
     return first == 1;
 }
 
-static ffd_status read_values(const char *path, const file_input *file, size_t numbers, double **values,
+static ffd_status read_values(const char *path, const file_input *file, size_t count, double **values,
                               ffd_error *error)
 {
     npy_header header = {.descr = ""};
@@ -139,26 +139,26 @@ static ffd_status read_values(const char *path, const file_input *file, size_t n
     if (!header.descr[0] || size == 0 || !strchr("<>=|", header.descr[0]))
         return ffd_fail_file(error, FFD_E_INVALID, path, "has numbers of type %s, not float32 or float64",
                              header.descr);
-    if (header.numbers != numbers)
+    if (header.count != count)
         return ffd_fail_file(error, FFD_E_INVALID, path, "has the shape %s, and %zu numbers are needed",
-                             header.shape, numbers);
-    if ((file->size - header.values) / size < numbers)
-        return ffd_fail_file(error, FFD_E_INVALID, path, "ends early: %zu numbers are needed", numbers);
-    *values = ffd_alloc(numbers, sizeof **values);
+                             header.shape, count);
+    if ((file->size - header.values) / size < count)
+        return ffd_fail_file(error, FFD_E_INVALID, path, "ends early: %zu numbers are needed", count);
+    *values = ffd_alloc(count, sizeof **values);
     if (!*values)
         return ffd_fail_memory(error);
     const bool little = header.descr[0] == '<' || (header.descr[0] != '>' && is_little_endian());
-    for (size_t i = 0; i < numbers; i++)
+    for (size_t i = 0; i < count; i++)
         (*values)[i] = number_at(file->data + header.values + i * size, size, little != is_little_endian());
     return FFD_OK;
 }
 
-ffd_status ffd_npy_read(const char *path, ffd_bytes bytes, size_t numbers, double **values, ffd_error *error)
+ffd_status ffd_npy_read(const char *path, ffd_bytes bytes, size_t count, double **values, ffd_error *error)
 {
     file_input file;
     *values = NULL;
     TRY(ffd_file_take(path, bytes, &file, error));
-    ffd_status status = read_values(path, &file, numbers, values, error);
+    ffd_status status = read_values(path, &file, count, values, error);
     ffd_file_unload(&file);
     return status;
 }

@@ -28,8 +28,8 @@ bool ffd_npy_starts(const unsigned char *data, size_t size, const char *descr, s
                     size_t *values);
 
 /* Reads from a file, or from bytes of that name (ffd_file_take), an array of float32 or float64 in C order as
-   doubles. The product of its shape must be `numbers`, whatever its dimensions. The caller frees *values with
+   doubles. The product of its shape must be `count`, whatever its dimensions. The caller frees *values with
    ffd_free. Errors: FFD_E_INVALID for another file, type, order or size, FFD_E_IO, FFD_E_MEMORY. */
-ffd_status ffd_npy_read(const char *path, ffd_bytes bytes, size_t numbers, double **values, ffd_error *error);
+ffd_status ffd_npy_read(const char *path, ffd_bytes bytes, size_t count, double **values, ffd_error *error);
 
 #endif

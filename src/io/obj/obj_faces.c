@@ -25,25 +25,25 @@ static void join_blocks(obj_document *d, const obj_users *users)
     }
 }
 
-static int compare_numbers(const void *a, const void *b)
+static int compare_indices(const void *a, const void *b)
 {
     const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
     return (x > y) - (x < y);
 }
 
 /* Nearly all lists are a handful; a fan's hub may have millions. */
-static void sort_numbers(uint32_t *numbers, size_t count)
+static void sort_indices(uint32_t *indices, size_t count)
 {
     if (count > 16) {
-        qsort(numbers, count, sizeof *numbers, compare_numbers);
+        qsort(indices, count, sizeof *indices, compare_indices);
         return;
     }
     for (size_t i = 1; i < count; i++) {
-        const uint32_t index = numbers[i];
+        const uint32_t index = indices[i];
         size_t j = i;
-        for (; j > 0 && numbers[j - 1] > index; j--)
-            numbers[j] = numbers[j - 1];
-        numbers[j] = index;
+        for (; j > 0 && indices[j - 1] > index; j--)
+            indices[j] = indices[j - 1];
+        indices[j] = index;
     }
 }
 
@@ -109,7 +109,7 @@ static void join_equal_normals(obj_document *d, size_t total)
     size_t kept = 0;
     for (size_t i = 0; i < d->vertices; i++) {
         const size_t first = d->pair_start[i + 1], last = i + 1 < d->vertices ? d->pair_start[i + 2] : total;
-        sort_numbers(d->pair_normal + first, last - first);
+        sort_indices(d->pair_normal + first, last - first);
         d->pair_start[i] = (uint32_t)kept;
         for (size_t p = first; p < last; p++)
             if (p == first || d->pair_normal[p] != d->pair_normal[p - 1])
@@ -321,7 +321,7 @@ static ffd_status find_mixed(mixed_search *search, mesh_faces *faces, ffd_error 
     const ffd_status status =
         ffd_face_lists_narrow(&d->file.base, search->lists, d->blocks.count, faces, error);
     if (!status)
-        ffd_obj_read_again(d, faces->numbers, faces->vertex_count, faces->positions);
+        ffd_obj_read_again(d, faces->vertices, faces->vertex_count, faces->positions);
     return status;
 }
 

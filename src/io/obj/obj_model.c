@@ -98,18 +98,18 @@ static ffd_status take_name(extractor *e, char **name)
     return ffd_model_begin_run(e->model, e->object, e->group, e->material, e->error);
 }
 
-static ffd_status find_texcoord(const extractor *e, obj_index index, uint32_t *number)
+static ffd_status find_texcoord(const extractor *e, obj_index index, uint32_t *found)
 {
     const obj_document *d = e->document;
     size_t element;
-    *number = MODEL_NONE;
+    *found = MODEL_NONE;
     if (d->texcoords == 0 || index.text.first == index.text.last)
         return FFD_OK;
     if (!ffd_obj_find(index.value, e->walk.texcoords, &element))
         return ffd_fail_line(e->error, FFD_E_INVALID, d->file.name, e->walk.scan.line,
                              "texture coordinate index %.*s is out of range: the file has %zu",
                              ffd_text_display_size(index.text), index.text.first, d->texcoords);
-    *number = (uint32_t)element;
+    *found = (uint32_t)element;
     return FFD_OK;
 }
 

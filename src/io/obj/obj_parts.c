@@ -37,7 +37,7 @@ typedef struct surveying {
     bool failed; /* memory ran out */
 } surveying;
 
-static uint32_t number_of(surveying *s, selector_kind kind, text_word word)
+static uint32_t index_of(surveying *s, selector_kind kind, text_word word)
 {
     const size_t size = (size_t)(word.last - word.first);
     char short_key[SHORT_KEY], *const key = size < SHORT_KEY ? short_key : ffd_alloc(size + 1, 1);
@@ -64,7 +64,7 @@ static void enter(surveying *s, selector_kind kind, obj_scan *scan, uint32_t *no
 {
     const char *const begin = scan->name.first;
     const text_word word = ffd_obj_names_line(scan);
-    const uint32_t name = word.first == word.last ? NO_NAME : number_of(s, kind, word);
+    const uint32_t name = word.first == word.last ? NO_NAME : index_of(s, kind, word);
     if (name != *now)
         end_run(s, begin);
     *now = name;
@@ -76,7 +76,7 @@ static void enter_groups(surveying *s, obj_scan *scan)
     size_t count = 0;
     text_word word;
     while (ffd_obj_scan_word(scan, &word)) {
-        const uint32_t name = number_of(s, SELECT_GROUP, word);
+        const uint32_t name = index_of(s, SELECT_GROUP, word);
         if (!ffd_grow((void **)&s->groups, &s->group_capacity, count + 1, sizeof *s->groups)) {
             s->failed = true;
             return;
@@ -111,12 +111,12 @@ static void begin_run(surveying *s, const obj_walk *walk)
     }
     s->runs[s->run_count++] = (run){walk->scan.name.first, walk->scan.last, walk->vertices.seen};
     s->in_run = true;
-    add_use(s, s->object == NO_NAME ? number_of(s, SELECT_OBJECT, none) : s->object);
-    add_use(s, s->material == NO_NAME ? number_of(s, SELECT_MATERIAL, none) : s->material);
+    add_use(s, s->object == NO_NAME ? index_of(s, SELECT_OBJECT, none) : s->object);
+    add_use(s, s->material == NO_NAME ? index_of(s, SELECT_MATERIAL, none) : s->material);
     for (size_t i = 0; i < s->group_count; i++)
         add_use(s, s->groups[i]);
     if (s->group_count == 0)
-        add_use(s, number_of(s, SELECT_GROUP, standard));
+        add_use(s, index_of(s, SELECT_GROUP, standard));
 }
 
 static void find_runs(surveying *s)

@@ -14,7 +14,7 @@ typedef struct comparer {
     off_walk in_a, in_b;
     ffd_comparison *result;
     const char *what; /* "vertex", "face" */
-    size_t number, lines[2];
+    size_t index, lines[2];
 } comparer;
 
 /* Writes "vertex 3 counted from 0 (lines 5 and 6)". A difference_label. */
@@ -23,7 +23,7 @@ static void format_place(const void *context, char *text, size_t capacity)
     const comparer *c = context;
     char lines[TEXT_LINES_CAPACITY];
     ffd_text_lines(c->lines[0], c->lines[1], lines);
-    snprintf(text, capacity, "%s %zu counted from 0%s", c->what, c->number, lines);
+    snprintf(text, capacity, "%s %zu counted from 0%s", c->what, c->index, lines);
 }
 
 static void differ(comparer *c, ffd_difference_kind kind, const char *what, text_word a, text_word b)
@@ -59,7 +59,7 @@ static bool same_header(comparer *c)
 static void compare_vectors(comparer *c)
 {
     const off_document *a = c->a, *b = c->b;
-    const size_t at = 3 * c->number;
+    const size_t at = 3 * c->index;
     ffd_difference_vector(c->result, FFD_DIFFERENCE_POSITION, 3, a->file.positions + at,
                           b->file.positions + at, format_place, c);
     if (a->file.directions)
@@ -149,10 +149,10 @@ static void compare_all(comparer *c)
     ffd_off_walk_begin(&c->a->header, &c->in_a);
     ffd_off_walk_begin(&c->b->header, &c->in_b);
     c->what = "vertex";
-    for (c->number = 0; c->number < c->a->header.vertices; c->number++)
+    for (c->index = 0; c->index < c->a->header.vertices; c->index++)
         compare_vertex(c);
     c->what = "face";
-    for (c->number = 0; c->number < c->a->header.faces; c->number++)
+    for (c->index = 0; c->index < c->a->header.faces; c->index++)
         compare_face(c);
 }
 

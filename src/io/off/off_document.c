@@ -13,7 +13,7 @@ static ffd_status read_numbers(off_document *d, const off_vertex *v, size_t inde
     static const char *const names[OFF_NUMBERS_MAX] = {
         "coordinate x of a vertex", "coordinate y of a vertex", "coordinate z of a vertex",
         "coordinate x of a normal", "coordinate y of a normal", "coordinate z of a normal"};
-    const size_t needed = off_header_numbers(&d->header);
+    const size_t needed = off_vertex_width(&d->header);
     for (size_t i = 0; i < v->found; i++) {
         double *vectors = i < 3 ? d->file.positions : d->file.directions;
         if (!ffd_text_number(v->numbers[i], &vectors[3 * index + i % 3]))
@@ -38,10 +38,10 @@ static ffd_status check_rest(const off_document *d, off_walk *walk, ffd_error *e
     }
     if (found >= least && found <= most)
         return FFD_OK;
-    const size_t numbers = off_header_numbers(&d->header);
-    return ffd_fail_line(
-        error, FFD_E_INVALID, d->file.name, walk->scan.line, "a vertex has %zu numbers at %s, found %zu",
-        numbers + (found < least ? least : most), found < least ? "least" : "most", numbers + found);
+    const size_t width = off_vertex_width(&d->header);
+    return ffd_fail_line(error, FFD_E_INVALID, d->file.name, walk->scan.line,
+                         "a vertex has %zu numbers at %s, found %zu", width + (found < least ? least : most),
+                         found < least ? "least" : "most", width + found);
 }
 
 static ffd_status read_vertices(off_document *d, off_walk *walk, ffd_error *error)

@@ -150,7 +150,7 @@ static ffd_status check_size(header_reader *r, uint64_t vertices, uint64_t faces
     const size_t needed =
         vertices > SIZE_MAX || faces > SIZE_MAX
             ? SIZE_MAX
-            : least_bytes((size_t)vertices, 2 * off_header_numbers(header), (size_t)faces, FACE_BYTES);
+            : least_bytes((size_t)vertices, 2 * off_vertex_width(header), (size_t)faces, FACE_BYTES);
     if (needed > left + 1)
         return ffd_fail_line(r->error, FFD_E_INVALID, r->name, r->scan.line,
                              "%" PRIu64 " %s and %" PRIu64 " %s are stated, more than the %zu %s can hold",
@@ -179,14 +179,14 @@ static bool has_lines(text_scan scan, size_t count)
 /* Whether the number of words in the next nonempty line is one that a vertex may have. */
 static bool has_vertex_line(const off_header *header, text_scan scan)
 {
-    const size_t numbers = off_header_numbers(header);
+    const size_t width = off_vertex_width(header);
     size_t count = 0;
     text_word word;
     ffd_text_find(&scan);
     while (ffd_text_word(&scan, &word))
         count++;
-    return count >= numbers + ffd_off_header_rest_min(header) &&
-           count <= numbers + ffd_off_header_rest_max(header);
+    return count >= width + ffd_off_header_rest_min(header) &&
+           count <= width + ffd_off_header_rest_max(header);
 }
 
 static ffd_status find_layout(header_reader *r)

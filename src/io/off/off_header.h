@@ -30,7 +30,7 @@ ffd_status ffd_off_header_read(const file_input *input, const char *name, off_he
                                ffd_error *error);
 
 /* Returns how many numbers of a vertex can change: x y z and the normal. */
-static inline size_t off_header_numbers(const off_header *header)
+static inline size_t off_vertex_width(const off_header *header)
 {
     return header->has_normals ? 6 : 3;
 }

@@ -19,7 +19,7 @@ static void write_vertices(const off_document *d, file_splice *splice)
     if (d->file.new_directions)
         ffd_decimal_run_begin(&directions, d->file.new_directions + 3 * d->header.vertices);
     for (size_t i = 0; splice->status == FFD_OK && i < d->header.vertices; i++) {
-        if (!ffd_off_walk_vertex(&walk, &vertex) || vertex.found < off_header_numbers(&d->header)) {
+        if (!ffd_off_walk_vertex(&walk, &vertex) || vertex.found < off_vertex_width(&d->header)) {
             splice->status = ffd_file_document_changed(&d->file, splice->error);
             return;
         }

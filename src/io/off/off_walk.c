@@ -23,7 +23,7 @@ static bool take_word(off_walk *walk, text_word *word)
 
 bool ffd_off_walk_vertex(off_walk *walk, off_vertex *vertex)
 {
-    const size_t needed = off_header_numbers(walk->header);
+    const size_t needed = off_vertex_width(walk->header);
     text_word word;
     while (walk->header->free_layout && ffd_off_walk_rest(walk, &word))
         ;

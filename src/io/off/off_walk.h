@@ -16,7 +16,7 @@ typedef struct off_walk {
 
 typedef struct off_vertex {
     text_word numbers[OFF_NUMBERS_MAX]; /* x y z, nx ny nz */
-    /* How many numbers were found: all off_header_numbers, in a file that was checked. */
+    /* How many numbers were found: all that off_vertex_width says, in a file that was checked. */
     size_t found;
     size_t line;
 } off_vertex;

@@ -34,8 +34,8 @@ class face_terms
     bool read(half_edge_mesh::FaceHandle face);
 
     /* Values of the face read last. */
-    size_t count() const { return numbers_.size(); }
-    uint32_t number(size_t i) const { return numbers_[i]; }
+    size_t count() const { return indices_.size(); }
+    uint32_t index(size_t i) const { return indices_[i]; }
     uint32_t vertex(size_t i) const { return vertices_[i]; }
     const double *unit_normal() const { return normal_; }
     /* Computes the term of a corner; returns its length. */
@@ -45,7 +45,7 @@ class face_terms
     const mesh_faces &faces_;
     const surface &surface_;
     const double unit_;
-    array<uint32_t> numbers_, vertices_;
+    array<uint32_t> indices_, vertices_;
     array<double> angles_;
     array<size_t> scratch_;
     double normal_[3];
@@ -63,11 +63,11 @@ bool face_terms::read(half_edge_mesh::FaceHandle face)
     const half_edge_mesh &mesh = surface_.mesh;
     const halfedge_handle first = mesh.halfedge_handle(face);
     double extent = 0;
-    numbers_.clear();
+    indices_.clear();
     vertices_.clear();
     halfedge_handle half = first;
     do {
-        numbers_.push_back(surface_.corner(half));
+        indices_.push_back(surface_.corner(half));
         vertices_.push_back(surface_.source(mesh.from_vertex_handle(half)));
         half = mesh.next_halfedge_handle(half);
     } while (half != first);
@@ -134,7 +134,7 @@ void find_directions(const mesh_faces &faces, const uint32_t *groups, size_t gro
         if (!terms.read(half_edge_mesh::FaceHandle(static_cast<int>(f))))
             continue;
         for (size_t i = 0; i < terms.count(); i++) {
-            const uint32_t group = groups[terms.number(i)];
+            const uint32_t group = groups[terms.index(i)];
             if (group == NORMALS_NONE)
                 continue;
             double term[3];

@@ -78,7 +78,7 @@ void surface::add_face(bool simple)
     while (mesh.from_vertex_handle(half) != handles_[0])
         half = mesh.next_halfedge_handle(half);
     for (size_t i = 0; i < count; i++, half = mesh.next_halfedge_handle(half))
-        mesh.property(corner_, half) = numbers_[i];
+        mesh.property(corner_, half) = indices_[i];
     for (size_t i = 0; i < count; i++)
         if (++mesh.property(faces_of_, handles_[i]) >= most_faces_of_vertex)
             current_[sources_[i]] = vertex_handle();
@@ -91,7 +91,7 @@ size_t surface::add_faces(const mesh_faces &faces)
     for (size_t f = 0; f < faces.face_count; f++) {
         size_t distinct = 0;
         sources_.clear();
-        numbers_.clear();
+        indices_.clear();
         for (size_t c = faces.start[f]; c < faces.start[f + 1]; c++) {
             const uint32_t vertex = faces.corners[c];
             if (seen_in[vertex] != f + 1)
@@ -100,11 +100,11 @@ size_t surface::add_faces(const mesh_faces &faces)
             if (!sources_.empty() && sources_.back() == vertex)
                 continue;
             sources_.push_back(vertex);
-            numbers_.push_back(static_cast<uint32_t>(c));
+            indices_.push_back(static_cast<uint32_t>(c));
         }
         while (sources_.size() > 1 && sources_.back() == sources_.front())
             sources_.pop_back();
-        numbers_.resize(sources_.size());
+        indices_.resize(sources_.size());
         if (distinct < 3)
             degenerate++;
         else

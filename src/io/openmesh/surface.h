@@ -81,7 +81,7 @@ class surface
     array<unsigned char> vertices_of_; /* per source: the number of its vertices: 0, 1, or 2 for more */
     /* Per corner of the face being added: the vertex, and its index in the file's corners. Neighbours
        differ. */
-    array<uint32_t> sources_, numbers_;
+    array<uint32_t> sources_, indices_;
     array<vertex_handle> handles_; /* per corner too */
 };
 

@@ -11,17 +11,17 @@ using namespace ffd_openmesh;
 /* The edges of the file. They are those of the half-edge mesh, except that edges between copies of the same
    two sources count as one. */
 struct source_edges {
-    array<uint32_t> number; /* per edge of the half-edge mesh */
+    array<uint32_t> index; /* per edge of the half-edge mesh */
     size_t count = 0;
 
     explicit source_edges(const surface &s);
 };
 
-source_edges::source_edges(const surface &s) : number(s.mesh.n_edges())
+source_edges::source_edges(const surface &s) : index(s.mesh.n_edges())
 {
     typedef std::tuple<uint32_t, uint32_t, uint32_t> seam; /* lower source, higher source, edge */
     array<seam> seams;
-    for (size_t e = 0; e < number.size(); e++) {
+    for (size_t e = 0; e < index.size(); e++) {
         const halfedge_handle half =
             s.mesh.halfedge_handle(half_edge_mesh::EdgeHandle(static_cast<int>(e)), 0);
         const uint32_t a = s.source(s.mesh.from_vertex_handle(half)),
@@ -29,13 +29,13 @@ source_edges::source_edges(const surface &s) : number(s.mesh.n_edges())
         if (s.has_copies(a) || s.has_copies(b))
             seams.emplace_back(std::min(a, b), std::max(a, b), static_cast<uint32_t>(e));
         else
-            number[e] = static_cast<uint32_t>(count++);
+            index[e] = static_cast<uint32_t>(count++);
     }
     std::sort(seams.begin(), seams.end());
     for (size_t i = 0; i < seams.size(); i++) {
         const bool same = i > 0 && std::get<0>(seams[i]) == std::get<0>(seams[i - 1]) &&
                           std::get<1>(seams[i]) == std::get<1>(seams[i - 1]);
-        number[std::get<2>(seams[i])] = static_cast<uint32_t>(same ? count - 1 : count++);
+        index[std::get<2>(seams[i])] = static_cast<uint32_t>(same ? count - 1 : count++);
     }
 }
 
@@ -94,8 +94,8 @@ void use_edges(const surface &s, const source_edges &edges, edge_uses &uses)
         const uint32_t from = s.source(mesh.from_vertex_handle(half));
         const uint32_t to = s.source(mesh.to_vertex_handle(half));
         const uint32_t beyond = s.source(mesh.to_vertex_handle(after));
-        const uint32_t edge = edges.number[static_cast<size_t>(mesh.edge_handle(half).idx())];
-        const uint32_t next_edge = edges.number[static_cast<size_t>(mesh.edge_handle(after).idx())];
+        const uint32_t edge = edges.index[static_cast<size_t>(mesh.edge_handle(half).idx())];
+        const uint32_t next_edge = edges.index[static_cast<size_t>(mesh.edge_handle(after).idx())];
         uses.faces[edge]++;
         uses.upward[edge] += from < to;
         uses.vertex[2 * edge] = std::min(from, to);

@@ -14,12 +14,12 @@ typedef struct extractor {
     ffd_error *error;
 } extractor;
 
-static ffd_status find_vertex(extractor *e, const double position[3], uint32_t *number)
+static ffd_status find_vertex(extractor *e, const double position[3], uint32_t *index)
 {
     double key[3];
     for (int a = 0; a < 3; a++)
         key[a] = position[a] + 0.0; /* -0 becomes 0 */
-    return ffd_intern(&e->positions, key, sizeof key, number) ? FFD_OK : ffd_fail_memory(e->error);
+    return ffd_intern(&e->positions, key, sizeof key, index) ? FFD_OK : ffd_fail_memory(e->error);
 }
 
 static ffd_status add_facet(extractor *e, size_t facet)
@@ -112,19 +112,19 @@ static void copy_results(extractor *e)
             e->model->positions[3 * (size_t)faces->corners[i].position + a] = results[3 * i + a] + 0.0;
 }
 
-/* Sets the number of each position to that of its first corner. */
-static ffd_status number_positions(extractor *e)
+/* Sets the index of each position to that of its first corner. */
+static ffd_status index_positions(extractor *e)
 {
     const model_list *const faces = &e->model->lists[MODEL_FACES];
     const ffd_status status =
-        ffd_model_take(e->model, e->positions.count, sizeof *e->model->numbers, e->error);
+        ffd_model_take(e->model, e->positions.count, sizeof *e->model->indices, e->error);
     if (status)
         return status;
-    e->model->numbers = ffd_alloc(e->positions.count, sizeof *e->model->numbers);
-    if (!e->model->numbers)
+    e->model->indices = ffd_alloc(e->positions.count, sizeof *e->model->indices);
+    if (!e->model->indices)
         return ffd_fail_memory(e->error);
     for (size_t i = faces->corner_count; i-- > 0;)
-        e->model->numbers[faces->corners[i].position] = i;
+        e->model->indices[faces->corners[i].position] = i;
     return FFD_OK;
 }
 
@@ -147,7 +147,7 @@ ffd_status ffd_stl_model(const mesh_document *document, mesh_state state, mesh_m
     if (!status)
         status = fill_positions(&e);
     if (!status && model->wants_details)
-        status = number_positions(&e);
+        status = index_positions(&e);
     ffd_intern_free(&e.positions);
     ffd_free(e.name);
     return status ? status : ffd_model_finish(model, error);

@@ -143,12 +143,12 @@ ffd_status ffd_file_document_changed(const file_document *document, ffd_error *e
 
 void ffd_file_document_fill_positions(const file_document *d, mesh_faces *faces)
 {
-    for (size_t c = 0; !faces->numbers && c < faces->start[faces->face_count]; c++) {
+    for (size_t c = 0; !faces->vertices && c < faces->start[faces->face_count]; c++) {
         const size_t vertex = faces->corners[c];
         d->base.format->read(&d->base, 0, MESH_POSITIONS, MESH_STORED, vertex, 1,
                              faces->positions + 3 * vertex);
     }
-    for (size_t v = 0; faces->numbers && v < faces->vertex_count; v++)
-        d->base.format->read(&d->base, 0, MESH_POSITIONS, MESH_STORED, faces->numbers[v], 1,
+    for (size_t v = 0; faces->vertices && v < faces->vertex_count; v++)
+        d->base.format->read(&d->base, 0, MESH_POSITIONS, MESH_STORED, faces->vertices[v], 1,
                              faces->positions + 3 * v);
 }

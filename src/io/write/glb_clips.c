@@ -41,10 +41,10 @@ static void put_clip(const glb_plan *plan, const morph_clip *clip, double *weigh
 
 static ffd_status check_memory(const glb_plan *plan, const morph_clip *clip, ffd_error *error)
 {
-    uint64_t numbers = clip->key_count;
+    uint64_t count = clip->key_count;
     for (uint32_t m = 0; m < plan->meshes.count; m++)
-        numbers += (uint64_t)clip->key_count * target_count(plan, m);
-    return plan->model->budget ? ffd_budget_take(plan->model->budget, numbers, sizeof(float), error) : FFD_OK;
+        count += (uint64_t)clip->key_count * target_count(plan, m);
+    return plan->model->budget ? ffd_budget_take(plan->model->budget, count, sizeof(float), error) : FFD_OK;
 }
 
 static bool animates(const glb_plan *plan)

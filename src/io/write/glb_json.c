@@ -33,7 +33,7 @@ static void begin_accessor(gltf_writer *w, int view, size_t element, int compone
                            const char *type)
 {
     ffd_json_object(&w->json, NULL, true);
-    ffd_json_count(&w->json, "bufferView", w->numbers[view]);
+    ffd_json_count(&w->json, "bufferView", w->indices[view]);
     ffd_json_count(&w->json, "byteOffset", w->filled[view]);
     ffd_json_count(&w->json, "componentType", (uint64_t)component);
     ffd_json_count(&w->json, "count", count);
@@ -110,7 +110,7 @@ static void add_accessors(gltf_writer *w)
     ffd_json_array(&w->json, "accessors", false);
     for (size_t i = 0; i < w->plan.primitive_count; i++)
         add_accessors_of(w, &w->plan.primitives[w->plan.by_mesh[i]]);
-    ffd_glb_add_clip_accessors(&w->clips, w->numbers[VIEW_CLIPS], &w->json);
+    ffd_glb_add_clip_accessors(&w->clips, w->indices[VIEW_CLIPS], &w->json);
     ffd_json_end(&w->json, ']');
 }
 

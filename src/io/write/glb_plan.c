@@ -47,21 +47,21 @@ static bool read_normal(const mesh_model *model, uint32_t index, float *values)
 
 typedef bool value_reader(const mesh_model *model, uint32_t index, float *values);
 
-/* Finds equal values, so that corners that refer to them by different numbers share a vertex. Values that
+/* Finds equal values, so that corners that refer to them by different indices share a vertex. Values that
    cannot be used get MODEL_NONE. */
-static ffd_status join_values(planner *p, size_t count, value_reader *read, size_t size, uint32_t **numbers)
+static ffd_status join_values(planner *p, size_t count, value_reader *read, size_t size, uint32_t **indices)
 {
     intern_table values = {0};
     ffd_status status = FFD_OK;
     uint32_t *first = ffd_alloc(count, sizeof *first);
     float *const value = ffd_alloc(size, sizeof *value);
-    *numbers = ffd_alloc(count, sizeof **numbers);
-    if (!*numbers || !first || !value)
+    *indices = ffd_alloc(count, sizeof **indices);
+    if (!*indices || !first || !value)
         status = ffd_fail_memory(p->error);
     for (size_t i = 0; i < count && !status; i++) {
         uint32_t index;
         const size_t known = values.count;
-        (*numbers)[i] = MODEL_NONE;
+        (*indices)[i] = MODEL_NONE;
         if (!read(p->model, (uint32_t)i, value))
             continue;
         if (!ffd_intern(&values, value, size * sizeof *value, &index))
@@ -69,7 +69,7 @@ static ffd_status join_values(planner *p, size_t count, value_reader *read, size
         else {
             if (values.count > known)
                 first[index] = (uint32_t)i;
-            (*numbers)[i] = first[index];
+            (*indices)[i] = first[index];
         }
     }
     ffd_intern_free(&values);
@@ -85,12 +85,12 @@ static model_corner joined(const planner *p, const model_corner *corner)
                           corner->normal == MODEL_NONE ? MODEL_NONE : p->normals[corner->normal]};
 }
 
-static ffd_status find_primitive(planner *p, const primitive_key *key, uint32_t *number)
+static ffd_status find_primitive(planner *p, const primitive_key *key, uint32_t *index)
 {
     glb_plan *plan = p->plan;
-    if (!ffd_intern(&p->primitives, key, sizeof *key, number))
+    if (!ffd_intern(&p->primitives, key, sizeof *key, index))
         return ffd_fail_memory(p->error);
-    if (*number < plan->primitive_count)
+    if (*index < plan->primitive_count)
         return FFD_OK;
     if (!ffd_grow((void **)&plan->primitives, &p->primitive_capacity, plan->primitive_count + 1,
                   sizeof *plan->primitives))

@@ -117,7 +117,7 @@ static void measure(gltf_writer *w)
     size_t index = 0;
     for (int v = 0; v < VIEW_COUNT; v++) {
         w->begins[v] = w->total;
-        w->numbers[v] = index;
+        w->indices[v] = index;
         index += w->sizes[v] > 0;
         w->total += ffd_gltf_align(w->sizes[v]);
     }

@@ -34,7 +34,7 @@ typedef struct gltf_writer {
     double *origins;               /* 3 for each mesh: the translation of its node */
     bool byte_colours;             /* colours are sRGB bytes, which are stored as 16-bit linear numbers */
     uint16_t linear_of_bytes[256]; /* the linear number of each byte */
-    size_t numbers[VIEW_COUNT];
+    size_t indices[VIEW_COUNT];    /* of bufferViews */
     uint64_t sizes[VIEW_COUNT], begins[VIEW_COUNT], filled[VIEW_COUNT], total; /* bytes */
     glb_clips clips;
     byte_buffer text;

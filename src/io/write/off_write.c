@@ -39,17 +39,17 @@ static void write_header(model_sink *sink, const off_plan *plan)
     ffd_sink_text(sink, " 0\n"); /* nobody uses the number of edges */
 }
 
-static void write_named(model_sink *sink, const double *values, size_t numbers, uint32_t index)
+static void write_named(model_sink *sink, const double *values, size_t width, uint32_t index)
 {
     static const double zeros[3] = {0, 0, 0};
-    ffd_sink_numbers(sink, index == MODEL_NONE ? zeros : values + numbers * index, numbers);
+    ffd_sink_numbers(sink, index == MODEL_NONE ? zeros : values + width * index, width);
 }
 
 /* Writes a colour: whole numbers up to 255, as in most files, or numbers with a decimal point, which tells
    readers that the range is 0 to 1. */
-static void write_colour(model_sink *sink, const double *colour, size_t numbers, bool bytes)
+static void write_colour(model_sink *sink, const double *colour, size_t width, bool bytes)
 {
-    for (size_t c = 0; c < numbers; c++) {
+    for (size_t c = 0; c < width; c++) {
         const double value = colour[c];
         if (bytes) {
             ffd_sink_text(sink, " ");

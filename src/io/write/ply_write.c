@@ -89,10 +89,10 @@ static void write_header(model_sink *sink, const ply_plan *plan)
 }
 
 /* Writes the values with this number, or zeros for MODEL_NONE. */
-static void write_values(model_sink *sink, const double *values, size_t numbers, uint32_t index)
+static void write_values(model_sink *sink, const double *values, size_t width, uint32_t index)
 {
-    for (size_t i = 0; i < numbers; i++)
-        ffd_sink_double(sink, index == MODEL_NONE ? 0 : values[numbers * index + i]);
+    for (size_t i = 0; i < width; i++)
+        ffd_sink_double(sink, index == MODEL_NONE ? 0 : values[width * index + i]);
 }
 
 /* Written as floats: many programs ignore texture coordinates that are doubles. */

@@ -53,14 +53,14 @@ static void find_point(const net_face *face, const border_face *of, size_t i, si
 }
 
 /* Returns false if the block is closed in the direction, so that it has no face there. */
-static bool make_face(const ffd_lattice *lattice, int number, net_face *face)
+static bool make_face(const ffd_lattice *lattice, int index, net_face *face)
 {
-    const int direction = number / 2;
+    const int direction = index / 2;
     if (ffd_knots_closed(&lattice->knots[direction]))
         return false;
     face->along[0] = direction == 0 ? 1 : 0;
     face->along[1] = direction == 2 ? 1 : 2;
-    ffd_border_face(lattice, FFD_VOLUME_REST, direction, number % 2, &face->rest);
+    ffd_border_face(lattice, FFD_VOLUME_REST, direction, index % 2, &face->rest);
     face->moves = face->rest;
     face->moves.points = lattice->difference;
     for (int a = 0; a < 2; a++)

@@ -151,17 +151,17 @@ static void drop_unmoved(const chain_link *of, size_t link, const double *deltas
 #define PLACES 64
 
 /* Counts those of the numbered places that are on a common face with a link, and marks them as counted. */
-static ffd_status count_places(const lattice_chain *chain, size_t link, const size_t *numbers, size_t count,
+static ffd_status count_places(const lattice_chain *chain, size_t link, const size_t *indices, size_t count,
                                chain_run *run, ffd_error *error)
 {
     const chain_link *const to = &chain->links[link];
     double x[3 * PLACES] = {0};
     ffd_location at[PLACES];
     for (size_t k = 0; k < count; k++)
-        memcpy(x + 3 * k, run->scratch->places[numbers[k]].x, 3 * sizeof *x);
+        memcpy(x + 3 * k, run->scratch->places[indices[k]].x, 3 * sizeof *x);
     ffd_status status = ffd_locator_find(to->locator, x, count, at, error);
     for (size_t k = 0; k < count && !status; k++) {
-        face_place *const place = &run->scratch->places[numbers[k]];
+        face_place *const place = &run->scratch->places[indices[k]];
         if (at[k].status == FFD_VERTEX_OUTSIDE)
             status = ffd_retry_near_border(to, to->snap, place->link == 0, run, place->point, place->x,
                                            &at[k], error);
@@ -179,7 +179,7 @@ ffd_status ffd_common_count(const lattice_chain *chain, size_t link, const doubl
     chain_scratch *const scratch = run->scratch;
     const chain_link *const of = &chain->links[link];
     const double near = ON_FACE * of->lattice->diagonal + of->snap;
-    size_t numbers[PLACES], count = 0;
+    size_t indices[PLACES], count = 0;
     ffd_status status = FFD_OK;
     drop_unmoved(of, link, deltas, scratch);
     for (size_t k = 0; k < scratch->place_count && !status; k++) {
@@ -188,11 +188,11 @@ ffd_status ffd_common_count(const lattice_chain *chain, size_t link, const doubl
                                  near + 2 * place->half[2]};
         if (place->link < link && !place->is_counted && is_moved(of, deltas, place->point) &&
             bounds_hold(&chain->boxes[link], place->x, slack))
-            numbers[count++] = k;
+            indices[count++] = k;
         if (count == PLACES) {
-            status = count_places(chain, link, numbers, count, run, error);
+            status = count_places(chain, link, indices, count, run, error);
             count = 0;
         }
     }
-    return status || !count ? status : count_places(chain, link, numbers, count, run, error);
+    return status || !count ? status : count_places(chain, link, indices, count, run, error);
 }

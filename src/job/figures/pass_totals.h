@@ -45,11 +45,11 @@ typedef struct pass_totals {
     double disagreement;   /* the largest such difference */
     uint64_t unresolved;   /* vertices whose search ended at its limits */
     uint64_t degenerate;   /* the other singular vertices: J has no inverse there */
-    uint64_t first_outside, first_invalid, first_overflow; /* vertex numbers; UINT64_MAX: none */
+    uint64_t first_outside, first_invalid, first_overflow; /* indices of vertices; UINT64_MAX: none */
     uint64_t first_missed;        /* vertex for which an embedding's u,v,w are wrong; UINT64_MAX: none */
     double missed_by;             /* distance from the vertex to the point at u,v,w, world units */
     uint64_t shapes_outside;      /* vertices that a morph target moves to a position outside of a lattice */
-    uint64_t first_shape_outside; /* vertex number; UINT64_MAX: none */
+    uint64_t first_shape_outside; /* index of a vertex; UINT64_MAX: none */
     /* Those of outside_all in parts whose default weights show another shape than the base. */
     uint64_t weighted_outside, first_weighted_outside;
     /* The same of the base, if the other figures are of the shape shown (ffd_totals_add_stored). */
@@ -104,10 +104,10 @@ void ffd_totals_judge_rounding(const pass_totals *tiles, size_t count, double to
 /* Adds the figures of a tile. Tiles must be added in order. */
 void ffd_totals_join(const pass_totals *tile, pass_totals *all);
 
-/* Lowers the number of the first vertex of a kind. */
-static inline void ffd_note_first(uint64_t *first, uint64_t number)
+/* Lowers the index of the first vertex of a kind. */
+static inline void ffd_note_first(uint64_t *first, uint64_t index)
 {
-    *first = number < *first ? number : *first;
+    *first = index < *first ? index : *first;
 }
 
 #endif

@@ -56,11 +56,11 @@ void ffd_settings_write(const ffd_deform_desc *desc, settings_use use, byte_buff
     const bool is_all = use == SETTINGS_ALL;
     const ffd_member *member;
     for (size_t m = 0; (member = ffd_deform_member(m)) != NULL; m++) {
-        const unsigned char number = (unsigned char)m;
+        const unsigned char index = (unsigned char)m;
         if (!ffd_member_is_set(desc, member) || member->kind == FFD_MEMBER_OBJECT ||
             (!is_all && member->traits & FFD_MEMBER_IS_IDLE))
             continue;
-        ffd_buffer_append(bytes, &number, 1);
+        ffd_buffer_append(bytes, &index, 1);
         if (ffd_member_is_list(member)) {
             append_list(desc, member, is_all, bytes);
         } else if (member->kind == FFD_MEMBER_TEXT) {
@@ -111,9 +111,9 @@ static bool take_list(const char **at, const ffd_member *member, ffd_deform_desc
 
 ffd_status ffd_settings_take(const char **at, ffd_deform_desc *desc, ffd_error *error)
 {
-    unsigned char number;
-    for (take(at, &number, 1); number != END; take(at, &number, 1)) {
-        const ffd_member *const member = ffd_deform_member(number);
+    unsigned char index;
+    for (take(at, &index, 1); index != END; take(at, &index, 1)) {
+        const ffd_member *const member = ffd_deform_member(index);
         if (ffd_member_is_list(member)) {
             if (!take_list(at, member, desc))
                 return ffd_fail_memory(error);

@@ -101,8 +101,8 @@ bool ffd_member_is_list(const ffd_member *member)
     return member->kind >= FFD_MEMBER_TEXTS && member->kind <= FFD_MEMBER_MORPHS;
 }
 
-/* The number of a choice, or of the elements of a list. */
-static size_t number_of(const ffd_deform_desc *desc, const ffd_member *member)
+/* The choice, or the count of the elements of a list. */
+static size_t choice_or_count(const ffd_deform_desc *desc, const ffd_member *member)
 {
     const char *const base = (const char *)desc;
     size_t count;
@@ -167,7 +167,7 @@ bool ffd_member_is_set(const ffd_deform_desc *desc, const ffd_member *member)
     if (is_number(member))
         return value_of(desc, member) > 0;
     if (ffd_member_is_list(member))
-        return number_of(desc, member) > 0 &&
+        return choice_or_count(desc, member) > 0 &&
                memcmp((const char *)desc + member->offset, zeros, sizeof(const void *)) != 0;
     return memcmp((const char *)desc + member->offset, zeros, sizes[member->kind]) != 0;
 }
@@ -184,7 +184,7 @@ bool ffd_setting_is_set(const ffd_deform_desc *desc, const char *setting)
         return false;
     if (!word)
         return true;
-    const size_t index = number_of(desc, &members[m]);
+    const size_t index = choice_or_count(desc, &members[m]);
     return ffd_member_is_list(&members[m]) ? index > 1 : strcmp(members[m].words[index], word) == 0;
 }
 
@@ -193,8 +193,8 @@ static ffd_status check_range(const ffd_deform_desc *desc, const ffd_member *mem
     size_t words = 0;
     while (member->kind != FFD_MEMBER_GATES && member->words && member->words[words])
         words++;
-    if (words > 0 && number_of(desc, member) >= words)
-        return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a value of %s", (int)number_of(desc, member),
+    if (words > 0 && choice_or_count(desc, member) >= words)
+        return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a value of %s", (int)choice_or_count(desc, member),
                         member->name);
     if (!is_number(member))
         return FFD_OK;

@@ -12,7 +12,7 @@
 
 /* A lattice to derive by. */
 typedef struct jacobian_link {
-    size_t number;            /* index in the chain */
+    size_t index;             /* in the chain */
     ffd_embedding *embedding; /* of the vertices as the earlier links leave them */
     double *later;            /* 9 a vertex: gradient F of all later links; NULL: there are none */
     lattice_tangents tangents;
@@ -67,7 +67,7 @@ void ffd_jacobian_rows_fill(const jacobian *j, size_t vertex, jacobian_rows *row
 /* Returns the weights in the basis R: those of the deformed volume, NULL if all are 1. */
 static inline const double *ffd_jacobian_weights(const jacobian *j, const jacobian_link *link)
 {
-    return j->job.chain.links[link->number].lattice->deformed_weights;
+    return j->job.chain.links[link->index].lattice->deformed_weights;
 }
 
 /* Counts the stored values of the matrix. starts: filled with rows + 1 offsets, where each row begins and the

@@ -105,7 +105,7 @@ static ffd_status differ_point(check_work *work, ffd_lattice *lattice, const dou
         displace(link->embedding, lattice, vertex, at[side]);
         for (int c = 0; c < 3; c++)
             at[side][c] += base[c];
-        status = send(work, &work->j->job.chain, link->number + 1, at[side], error);
+        status = send(work, &work->j->job.chain, link->index + 1, at[side], error);
     }
     for (int c = 0; c < 3 && !status; c++)
         difference[c] = (at[1][c] - at[0][c]) / (2 * h);
@@ -118,7 +118,7 @@ static ffd_status check_points(check_work *work, size_t vertex, const double bas
 {
     const jacobian *const j = work->j;
     const jacobian_link *const link = &j->links[0];
-    const ffd_lattice *const of = j->job.chain.links[link->number].lattice;
+    const ffd_lattice *const of = j->job.chain.links[link->index].lattice;
     const double h = cbrt(2.2e-16) * of->diagonal, scale = largest_of(work);
     ffd_lattice *lattice;
     size_t next = ffd_embedding_first_extended(link->embedding, vertex);
@@ -158,7 +158,7 @@ static const spec_variable *variable_of(const jacobian *j, size_t column, size_t
 {
     for (size_t l = 0; l < j->link_count; l++) {
         const jacobian_link *const link = &j->links[l];
-        const lattice_spec *const spec = j->job.chain.links[link->number].lattice->spec;
+        const lattice_spec *const spec = j->job.chain.links[link->index].lattice->spec;
         size_t own = 0;
         for (size_t v = 0; v < spec->variable_count; v++)
             for (*component = 0; *component < spec->variables[v].size; ++*component)
@@ -266,7 +266,7 @@ static ffd_status find_base(const jacobian *j, const size_t *vertices, size_t co
     double *const all = ffd_alloc(j->count, 3 * sizeof *all);
     if (!all)
         return ffd_fail_memory(error);
-    const size_t links = j->desc->by == FFD_BY_POINTS ? j->links[0].number : 0;
+    const size_t links = j->desc->by == FFD_BY_POINTS ? j->links[0].index : 0;
     const ffd_status status = ffd_jacobian_positions(j, links, all, error);
     for (size_t i = 0; i < count && !status; i++)
         memcpy(base + 3 * i, all + 3 * vertices[i], 3 * sizeof *base);

@@ -93,14 +93,14 @@ static ffd_status extend(jacobian *j, size_t index, ffd_embedding *embedding, ff
 
 static ffd_status fill_embedding(jacobian *j, jacobian_link *link, pass_totals *totals, ffd_error *error)
 {
-    const chain_link *const of = &j->job.chain.links[link->number];
+    const chain_link *const of = &j->job.chain.links[link->index];
     TRY(ffd_embedding_make(of->lattice, j->count, &link->embedding, error));
-    mesh_pass pass = pass_of(j, link->number + 1);
+    mesh_pass pass = pass_of(j, link->index + 1);
     pass.pace = &j->pace;
     pass.uvw = link->embedding->uvw;
     pass.statuses = link->embedding->status;
     ffd_status status = ffd_pass_over_mesh(&pass, totals, error);
-    return status || !of->border ? status : extend(j, link->number, link->embedding, error);
+    return status || !of->border ? status : extend(j, link->index, link->embedding, error);
 }
 
 /* Scratch memory for a run of points through the later links. */
@@ -132,8 +132,8 @@ static ffd_status find_later_run(const lattice_chain *later, const double *after
 static ffd_status find_later(const jacobian *j, jacobian_link *link, ffd_error *error)
 {
     lattice_chain later = j->job.chain;
-    later.links += link->number + 1;
-    later.count -= link->number + 1;
+    later.links += link->index + 1;
+    later.count -= link->index + 1;
     later.seam_count = 0;
     later.cache = NULL;
     if (later.count == 0)
@@ -142,7 +142,7 @@ static ffd_status find_later(const jacobian *j, jacobian_link *link, ffd_error *
     later_scratch *const scratch = ffd_alloc_zero(1, sizeof *scratch);
     link->later = ffd_alloc(j->count, 9 * sizeof *link->later);
     ffd_status status = after && scratch && link->later
-                            ? ffd_jacobian_positions(j, link->number + 1, after, error)
+                            ? ffd_jacobian_positions(j, link->index + 1, after, error)
                             : ffd_fail_memory(error);
     for (size_t first = 0; first < j->count && !status; first += CHAIN_RUN) {
         const size_t left = j->count - first, count = left < CHAIN_RUN ? left : CHAIN_RUN;
@@ -229,7 +229,7 @@ static ffd_status take_tangents(jacobian *j, const ffd_lattice *lattice, ffd_err
 
 static ffd_status find_tangents(jacobian *j, jacobian_link *link, ffd_error *error)
 {
-    const ffd_lattice *const lattice = j->job.chain.links[link->number].lattice;
+    const ffd_lattice *const lattice = j->job.chain.links[link->index].lattice;
     const lattice_spec *const spec = lattice->spec;
     size_t own = 0;
     ffd_status status = take_tangents(j, lattice, error);
@@ -260,7 +260,7 @@ static ffd_status choose_links(jacobian *j, ffd_error *error)
         return ffd_fail_memory(error);
     for (size_t l = 0; l < all; l++)
         if (by_points ? l == of : j->job.chain.links[l].lattice->spec->variable_count > 0)
-            j->links[j->link_count++].number = l;
+            j->links[j->link_count++].index = l;
     return j->link_count > 0
                ? FFD_OK
                : ffd_fail(error, FFD_E_INVALID, "no lattice has a placeholder to differentiate by");
@@ -272,7 +272,7 @@ static ffd_status take_vertices(jacobian *j, ffd_error *error)
 {
     size_t bytes = 3 * sizeof(double) + 3 * sizeof(uint64_t);
     for (size_t l = 0; l < j->link_count; l++) {
-        const bool has_later = j->links[l].number + 1 < j->job.chain.count;
+        const bool has_later = j->links[l].index + 1 < j->job.chain.count;
         bytes += (has_later ? 12 : 3) * sizeof(double) + 1;
     }
     if (j->desc->components)

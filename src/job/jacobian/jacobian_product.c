@@ -20,7 +20,7 @@ typedef struct product {
 } product;
 
 /* Returns the length of a vector on the side of the columns: 3 a control point, or 1 a parameter. */
-static size_t column_numbers(const jacobian *j)
+static size_t column_width(const jacobian *j)
 {
     return j->desc->by == FFD_BY_PARAMETERS ? j->columns : 3 * j->links[0].embedding->rest->count;
 }
@@ -55,12 +55,12 @@ static void transposed_vertex(product *p, size_t vertex)
 
 static void multiply(product *p, bool transposed)
 {
-    const size_t count = p->j->count, numbers = column_numbers(p->j);
+    const size_t count = p->j->count, width = column_width(p->j);
     ffd_jacobian_rows_begin(p->j, 0, &p->rows);
     for (size_t first = 0; first < count && !ffd_deadline_passed(); first += BLOCK) {
         const size_t last = count - first < BLOCK ? count : first + BLOCK;
         if (transposed)
-            memset(p->block, 0, numbers * sizeof *p->block);
+            memset(p->block, 0, width * sizeof *p->block);
         for (size_t i = first; i < last; i++) {
             ffd_jacobian_rows_fill(p->j, i, &p->rows);
             if (transposed)
@@ -68,7 +68,7 @@ static void multiply(product *p, bool transposed)
             else
                 times_vertex(p, i);
         }
-        for (size_t n = 0; n < numbers && transposed; n++)
+        for (size_t n = 0; n < width && transposed; n++)
             p->out[n] += p->block[n];
     }
 }
@@ -98,7 +98,7 @@ static ffd_status write(const jacobian *j, const double *numbers, size_t rows, s
 ffd_status ffd_jacobian_multiply(const jacobian *j, ffd_error *error)
 {
     const bool transposed = j->desc->transposed != NULL, by_points = j->desc->by == FFD_BY_POINTS;
-    const size_t columns = column_numbers(j), vertices = 3 * j->count;
+    const size_t columns = column_width(j), vertices = 3 * j->count;
     double *in = NULL;
     product p = {.j = j};
     TRY(ffd_npy_read(transposed ? j->desc->transposed : j->desc->times,

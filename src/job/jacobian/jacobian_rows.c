@@ -105,7 +105,7 @@ static void find_place(const ffd_lattice *lattice, const basis_row *basis, doubl
 static void add_link(const jacobian *j, size_t index, size_t vertex, jacobian_rows *rows)
 {
     const jacobian_link *const link = &j->links[index];
-    const ffd_lattice *const lattice = j->job.chain.links[link->number].lattice;
+    const ffd_lattice *const lattice = j->job.chain.links[link->index].lattice;
     double product[9], x[3];
     ffd_basis_row(link->embedding, ffd_jacobian_weights(j, link), vertex, &rows->next[index], &rows->basis);
     const double *const block = block_of(j, link, vertex, product);

@@ -31,7 +31,7 @@ static ffd_status count_place(const mesh_document *document, const mesh_place *p
         if (!(place->kinds & PLACE_BIT(kind)))
             continue;
         result->behind[kind].count++;
-        TRY(add_name(document, place->number, &result->behind[kind], error));
+        TRY(add_name(document, place->index, &result->behind[kind], error));
     }
     return FFD_OK;
 }

@@ -23,7 +23,7 @@ typedef struct deform_job {
     mesh_log file_log; /* for messages about the file, not its deformation */
     lattice_chain chain;
     mesh_document *document;
-    bool document_is_shared;  /* it comes from the cache */
+    bool document_is_cached;  /* it comes from the cache */
     embedding_file embedding; /* if the job reuses one */
     rig_places rig;           /* the document's joints, pivots, sockets and so on */
     mesh_following following; /* what --rig follow has done */

@@ -152,7 +152,7 @@ ffd_status ffd_rig_figures_find(const mesh_document *document, const rig_places 
     figures->is_there =
         figures->is_there || figures->moved || figures->sheared || figures->singular || figures->partial;
     if (worst != SIZE_MAX) {
-        status = name_worst(document, rig->places.list[worst].number, figures, error);
+        status = name_worst(document, rig->places.list[worst].index, figures, error);
         if (!status)
             status = document->format->places->count_skins(
                 document, &rig->places, lagging, &figures->lagging_skins, &figures->lagging_joints, error);

@@ -221,7 +221,7 @@ static ffd_status count_torn(const deform_job *job, const mesh_faces *faces, con
 {
     const size_t planes = job->chain.marks.planes, vertices = count_vertices(job),
                  count = faces->vertex_count;
-    if (!faces->numbers)
+    if (!faces->vertices)
         return count_marked(job, faces, job->kept, arrays, budget, result, error);
     TRY(ffd_budget_check(budget, count, planes, error));
     uint8_t *const marks = ffd_alloc(count, planes);
@@ -229,7 +229,7 @@ static ffd_status count_torn(const deform_job *job, const mesh_faces *faces, con
         return ffd_fail_memory(error);
     for (size_t p = 0; p < planes; p++)
         for (size_t v = 0; v < count; v++)
-            marks[p * count + v] = job->kept[p * vertices + faces->numbers[v]];
+            marks[p * count + v] = job->kept[p * vertices + faces->vertices[v]];
     ffd_status status = count_marked(job, faces, marks, arrays, budget, result, error);
     ffd_free(marks);
     return status;

@@ -233,7 +233,7 @@ static ffd_status make(grouping *g, ffd_error *error)
     if (!status)
         status = allocate(g, error);
     if (!status)
-        status = ffd_parts_number(g->document, &first_vertices, error);
+        status = ffd_first_vertices(g->document, &first_vertices, error);
     if (!status)
         status = read_corners(g, error);
     if (!status) {

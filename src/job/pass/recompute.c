@@ -142,7 +142,7 @@ static void recompute_part(recomputing *r)
 static ffd_status recompute_parts(recomputing *r, ffd_error *error)
 {
     size_t *first_vertices;
-    const ffd_status status = ffd_parts_number(r->document, &first_vertices, error);
+    const ffd_status status = ffd_first_vertices(r->document, &first_vertices, error);
     for (r->part = 0; r->part < r->document->part_count && !status; r->part++) {
         const mesh_part *part = &r->document->parts[r->part];
         r->first_vertex = first_vertices[r->part];

@@ -41,17 +41,17 @@ static bool note_other(const point_outcome *outcome, const double delta[3], size
     return true;
 }
 
-static void count_other(const mesh_part *part, unsigned other, uint64_t number, pass_totals *totals)
+static void count_other(const mesh_part *part, unsigned other, uint64_t index, pass_totals *totals)
 {
     const unsigned status = other & OTHER_STATUS;
     totals->counts[status]++;
     if (other & OTHER_OUTSIDE) {
         totals->outside_all++;
-        ffd_note_first(&totals->first_outside, number);
+        ffd_note_first(&totals->first_outside, index);
     }
     if (other & OTHER_OUTSIDE && part->shows_shapes) {
         totals->weighted_outside++;
-        ffd_note_first(&totals->first_weighted_outside, number);
+        ffd_note_first(&totals->first_weighted_outside, index);
     }
     if (status == FFD_VERTEX_OUTSIDE && other & OTHER_EXTENDED) {
         totals->extended++;
@@ -62,13 +62,13 @@ static void count_other(const mesh_part *part, unsigned other, uint64_t number, 
     totals->degenerate += status == FFD_VERTEX_SINGULAR && !(other & OTHER_UNRESOLVED);
 }
 
-static void count_unshown(unsigned other, bool hidden, uint64_t number, pass_totals *totals)
+static void count_unshown(unsigned other, bool hidden, uint64_t index, pass_totals *totals)
 {
     *(hidden ? &totals->hidden : &totals->unused) += 1;
     if (!(other & OTHER_OUTSIDE))
         return;
     totals->unshown_outside++;
-    ffd_note_first(&totals->first_unshown_outside, number);
+    ffd_note_first(&totals->first_unshown_outside, index);
 }
 
 /* A vertex that is not finite counts even if nothing shows it: it is a fault of the mesh. */
@@ -81,11 +81,11 @@ void ffd_totals_count_others(const pass_tile *tile)
 {
     pass_totals *const totals = tile->totals;
     for (size_t i = 0; i < tile->count && totals->others; i++) {
-        const uint64_t number = tile->first_index + i;
+        const uint64_t index = tile->first_index + i;
         if (totals->others[i] && counts(tile->part, tile->first + i, totals->others[i]))
-            count_other(tile->part, totals->others[i], number, totals);
+            count_other(tile->part, totals->others[i], index, totals);
         else if (totals->others[i])
-            count_unshown(totals->others[i], tile->part->hidden, number, totals);
+            count_unshown(totals->others[i], tile->part->hidden, index, totals);
     }
     ffd_free(totals->others);
     totals->others = NULL;

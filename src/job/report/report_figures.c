@@ -210,14 +210,14 @@ static uint64_t count_of(const json_tree *tree, uint32_t object, const char *key
     return number > 0 && number < 0x1p64 ? (uint64_t)number : 0;
 }
 
-/* Returns the number that a name stands for; 0 if there is none. */
-static int number_of(const json_tree *tree, uint32_t value, figure_type type)
+/* Returns the value of the enum that a name stands for; 0 if there is none. */
+static int enum_of(const json_tree *tree, uint32_t value, figure_type type)
 {
-    for (int number = 0; value != JSON_NONE; number++) {
-        const char *const name = type == FIGURE_VERDICT ? ffd_fold_verdict_name((ffd_fold_verdict)number)
-                                                        : ffd_fold_reference_name((ffd_fold_reference)number);
+    for (int i = 0; value != JSON_NONE; i++) {
+        const char *const name = type == FIGURE_VERDICT ? ffd_fold_verdict_name((ffd_fold_verdict)i)
+                                                        : ffd_fold_reference_name((ffd_fold_reference)i);
         if (!name || ffd_json_tree_string_is(tree, value, name))
-            return name ? number : 0;
+            return name ? i : 0;
     }
     return 0;
 }
@@ -239,9 +239,9 @@ static void read_figures(const json_tree *tree, uint32_t object, const figure *f
                  (found == JSON_NONE || !ffd_json_tree_number(tree, found, value)))
             *(double *)value = NAN;
         else if (f->result.type == FIGURE_VERDICT)
-            *(ffd_fold_verdict *)value = (ffd_fold_verdict)number_of(tree, found, f->result.type);
+            *(ffd_fold_verdict *)value = (ffd_fold_verdict)enum_of(tree, found, f->result.type);
         else if (f->result.type == FIGURE_REFERENCE)
-            *(ffd_fold_reference *)value = (ffd_fold_reference)number_of(tree, found, f->result.type);
+            *(ffd_fold_reference *)value = (ffd_fold_reference)enum_of(tree, found, f->result.type);
         for (int s = 0; s < FFD_VERTEX_STATUS_COUNT && f->result.type == FIGURE_STATUSES; s++)
             ((uint64_t *)value)[s] = count_of(tree, object, ffd_vertex_status_name((ffd_vertex_status)s));
     }

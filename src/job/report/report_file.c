@@ -182,19 +182,19 @@ bool ffd_report_is_ordered(const ffd_report *report)
 }
 
 /* Records the position of the next entry. */
-static ffd_status note_place(ffd_report *report, uint64_t number, uint64_t begin, uint64_t size,
+static ffd_status note_place(ffd_report *report, uint64_t index, uint64_t begin, uint64_t size,
                              ffd_error *error)
 {
-    report->is_mixed = report->is_mixed || number < report->place_count;
-    if (number >= report->place_count) {
-        if (!ffd_grow((void **)&report->places, &report->place_capacity, (size_t)number + 1,
+    report->is_mixed = report->is_mixed || index < report->place_count;
+    if (index >= report->place_count) {
+        if (!ffd_grow((void **)&report->places, &report->place_capacity, (size_t)index + 1,
                       sizeof *report->places))
             return ffd_fail_memory(error);
         memset(report->places + report->place_count, 0,
-               ((size_t)number - report->place_count) * sizeof *report->places);
-        report->place_count = (size_t)number + 1;
+               ((size_t)index - report->place_count) * sizeof *report->places);
+        report->place_count = (size_t)index + 1;
     }
-    report->places[number] = (entry_place){begin, size};
+    report->places[index] = (entry_place){begin, size};
     return FFD_OK;
 }
 
@@ -219,7 +219,7 @@ static ffd_status grow_file(ffd_report *report, ffd_error *error)
     return status;
 }
 
-ffd_status ffd_report_add_text(ffd_report *report, uint64_t number, const char *text, size_t size,
+ffd_status ffd_report_add_text(ffd_report *report, uint64_t index, const char *text, size_t size,
                                ffd_error *error)
 {
     byte_buffer *const buffer = &report->buffer;
@@ -232,11 +232,11 @@ ffd_status ffd_report_add_text(ffd_report *report, uint64_t number, const char *
         status = ffd_output_write(report->stream, buffer->data, buffer->size, error);
     } else {
         const size_t lead = report->lines ? 0 : buffer->size - size;
-        status = note_place(report, number, report->end + lead, buffer->size - lead, error);
+        status = note_place(report, index, report->end + lead, buffer->size - lead, error);
         if (!status)
             status = grow_file(report, error);
-        if (status && number < report->place_count)
-            report->places[number].size = 0;
+        if (status && index < report->place_count)
+            report->places[index].size = 0;
     }
     report->count += !status;
     return status;

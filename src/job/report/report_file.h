@@ -14,7 +14,7 @@ ffd_status ffd_report_check(const char *path, ffd_error *error);
 bool ffd_report_is_ordered(const ffd_report *report);
 /* Adds the entry of a job as text. Jobs are numbered from 0 in their order; the finished report is in that
    order, except JSON Lines with times, which keep the order of the calls. Errors: as of ffd_report_add. */
-ffd_status ffd_report_add_text(ffd_report *report, uint64_t number, const char *text, size_t size,
+ffd_status ffd_report_add_text(ffd_report *report, uint64_t index, const char *text, size_t size,
                                ffd_error *error);
 
 /* Appends the text before the first entry. */

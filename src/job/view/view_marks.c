@@ -10,9 +10,9 @@
 #include <math.h>
 #include <string.h>
 
-static uint64_t number_of(const view_scene *scene, size_t vertex)
+static uint64_t index_of(const view_scene *scene, size_t vertex)
 {
-    return scene->numbers ? scene->numbers[vertex] : vertex;
+    return scene->indices ? scene->indices[vertex] : vertex;
 }
 
 static ffd_status add_statuses(const job_details *details, const mesh_model *model, view_scene *scene,
@@ -28,7 +28,7 @@ static ffd_status add_statuses(const job_details *details, const mesh_model *mod
     if (!scene->statuses || !scene->dets)
         return ffd_fail_memory(error);
     for (size_t v = 0; v < scene->vertex_count; v++) {
-        const size_t index = (size_t)number_of(scene, v);
+        const size_t index = (size_t)index_of(scene, v);
         double f[9];
         scene->statuses[v] = details->statuses[index];
         scene->dets[v] = NAN;
@@ -44,20 +44,20 @@ static ffd_status add_statuses(const job_details *details, const mesh_model *mod
 
 /* Whether a polygon of the model is flipped. Its corners are looked up by vertex numbers. */
 static bool is_flipped(const job_details *details, const view_scene *scene, const mesh_model *model,
-                       size_t face, uint32_t *numbers)
+                       size_t face, uint32_t *indices)
 {
     size_t count;
     const model_corner *const corners = model_element(&model->lists[MODEL_FACES], face, &count);
     for (size_t c = 0; c < count; c++)
-        numbers[c] = (uint32_t)number_of(scene, corners[c].position);
-    return ffd_quality_is_flipped(numbers, count, details->faces.positions, details->deformed,
+        indices[c] = (uint32_t)index_of(scene, corners[c].position);
+    return ffd_quality_is_flipped(indices, count, details->faces.positions, details->deformed,
                                   details->gradients);
 }
 
 static ffd_status add_flipped(const job_details *details, const mesh_model *model, const uint32_t *faces,
                               view_scene *scene, ffd_error *error)
 {
-    uint32_t *numbers = NULL;
+    uint32_t *indices = NULL;
     size_t capacity = 0;
     bool flipped = false;
     if (!details->has_faces || scene->flipped_faces == 0)
@@ -68,13 +68,13 @@ static ffd_status add_flipped(const job_details *details, const mesh_model *mode
         const size_t face = faces[t];
         if (t == 0 || faces[t - 1] != face) {
             const model_list *const list = &model->lists[MODEL_FACES];
-            made = ffd_grow((void **)&numbers, &capacity, list->starts[face + 1] - list->starts[face],
-                            sizeof *numbers);
-            flipped = made && is_flipped(details, scene, model, face, numbers);
+            made = ffd_grow((void **)&indices, &capacity, list->starts[face + 1] - list->starts[face],
+                            sizeof *indices);
+            flipped = made && is_flipped(details, scene, model, face, indices);
         }
         scene->flipped[t] = flipped;
     }
-    ffd_free(numbers);
+    ffd_free(indices);
     return made ? FFD_OK : ffd_fail_memory(error);
 }
 
@@ -85,7 +85,7 @@ static uint32_t *make_vertices(const view_scene *scene, size_t count)
     for (size_t i = 0; vertices && i < count; i++)
         vertices[i] = VIEW_NONE;
     for (size_t v = 0; vertices && v < scene->vertex_count; v++)
-        vertices[number_of(scene, v)] = (uint32_t)v;
+        vertices[index_of(scene, v)] = (uint32_t)v;
     return vertices;
 }
 

@@ -125,10 +125,10 @@ static void take_vertices(mesh_model *model, view_scene *scene)
 {
     scene->vertex_count = scene->vertices_all = model->position_count;
     scene->before = model->positions;
-    scene->numbers = model->numbers;
+    scene->indices = model->indices;
     scene->colors = model->colours;
     model->positions = model->colours = NULL;
-    model->numbers = NULL;
+    model->indices = NULL;
     model->position_count = 0;
 }
 

@@ -95,7 +95,7 @@ static ffd_status choose(const view_rigs_desc *desc, view_scene *scene, ffd_erro
 }
 
 /* Interns the names of a skeleton's animations. first: of each name the first animation. */
-static ffd_status number_names(const mesh_skeleton *skeleton, intern_table *names, size_t *first,
+static ffd_status intern_names(const mesh_skeleton *skeleton, intern_table *names, size_t *first,
                                ffd_error *error)
 {
     for (size_t a = 0; a < skeleton->animation_count; a++) {
@@ -124,7 +124,7 @@ static ffd_status match(const view_scene *scene, ffd_error *error)
     intern_table names = {0};
     size_t *const first = ffd_alloc(count, sizeof *first);
     ffd_status status = !first  ? ffd_fail_memory(error)
-                        : other ? number_names(other, &names, first, error)
+                        : other ? intern_names(other, &names, first, error)
                                 : FFD_OK;
     for (size_t a = 0; a < scene->animation_count && !status; a++) {
         const char *const name = own->animations[a].name ? own->animations[a].name : "";

@@ -197,8 +197,8 @@ static ffd_status read_angle(json_cursor cylinder, double angle[2])
     if (!ffd_cursor_exists(cursor))
         return FFD_OK;
     TRY(ffd_json_read_doubles(cursor, 2, angle));
-    const double span = angle[1] - angle[0];
-    if (span > 0 && span <= 360 + SPEC_TURN_TOLERANCE)
+    const double sweep = angle[1] - angle[0];
+    if (sweep > 0 && sweep <= 360 + SPEC_TURN_TOLERANCE)
         return FFD_OK;
     return ffd_cursor_fail(cursor, "%s to %s degrees is not an angle of more than 0, at most 360",
                            ffd_number_text(angle[0]).text, ffd_number_text(angle[1]).text);

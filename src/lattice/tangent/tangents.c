@@ -111,7 +111,7 @@ static ffd_status see(void *context, const move_step *step, ffd_error *error)
     tangent_work *const work = context;
     (void)error;
     if (!step->plane)
-        seed_move(work, step->number);
+        seed_move(work, step->index);
     for (size_t column = 0; column < work->tangents->columns; column++) {
         dual_move *const move = &work->moves[column];
         double *const points = points_of(work, column);
@@ -132,14 +132,14 @@ static ffd_status see(void *context, const move_step *step, ffd_error *error)
 static ffd_status make(const ffd_lattice *lattice, tangent_work *work, ffd_error *error)
 {
     lattice_tangents *const tangents = work->tangents;
-    size_t numbers, layers = 0;
+    size_t count, layers = 0;
     for (int a = 0; a < 3; a++)
         layers = lattice->size[a] > layers ? lattice->size[a] : layers;
-    if (!ffd_multiply_size(tangents->columns, 3 * work->count, &numbers))
+    if (!ffd_multiply_size(tangents->columns, 3 * work->count, &count))
         return ffd_fail_memory(error);
-    tangents->points = ffd_alloc_zero(numbers, sizeof *tangents->points);
+    tangents->points = ffd_alloc_zero(count, sizeof *tangents->points);
     tangents->weights =
-        ffd_spec_has_exact(work->spec) ? ffd_alloc_zero(numbers / 3, sizeof *tangents->weights) : NULL;
+        ffd_spec_has_exact(work->spec) ? ffd_alloc_zero(count / 3, sizeof *tangents->weights) : NULL;
     work->seeded = ffd_alloc(tangents->columns, sizeof *work->seeded);
     work->moves = ffd_alloc(tangents->columns, sizeof *work->moves);
     work->parts = ffd_alloc(layers, sizeof *work->parts);

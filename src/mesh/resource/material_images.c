@@ -24,13 +24,13 @@ ffd_status ffd_images_find(material_images *images, const char *name, bool *is_k
     uint32_t index;
     *image = MATERIAL_LOST;
     if (!ffd_intern(&images->known, name, strlen(name), &index) ||
-        !ffd_grow((void **)&images->numbers, &images->capacity, images->known.count, sizeof *images->numbers))
+        !ffd_grow((void **)&images->indices, &images->capacity, images->known.count, sizeof *images->indices))
         return ffd_fail_memory(error);
     *is_known = index < known;
     if (*is_known)
-        *image = images->numbers[index];
+        *image = images->indices[index];
     else
-        images->numbers[index] = MATERIAL_LOST;
+        images->indices[index] = MATERIAL_LOST;
     return FFD_OK;
 }
 
@@ -68,7 +68,7 @@ ffd_status ffd_images_add(material_images *images, const char *name, const unsig
         return ffd_fail_memory(error);
     }
     memcpy(made.bytes, bytes, size);
-    *image = images->numbers[images->known.count - 1] = (uint32_t)m->image_count;
+    *image = images->indices[images->known.count - 1] = (uint32_t)m->image_count;
     m->images[m->image_count++] = made;
     return FFD_OK;
 }
@@ -106,5 +106,5 @@ void ffd_images_end(material_images *images, const mesh_log *log)
     ffd_left_out_log(&images->left, "image of a material cannot be shown",
                      "images of materials cannot be shown", log);
     ffd_intern_free(&images->known);
-    ffd_free(images->numbers);
+    ffd_free(images->indices);
 }

@@ -16,7 +16,7 @@ typedef struct material_images {
     bool has_folder;  /* false: the mesh comes from standard input */
     left_out left;
     intern_table known; /* names of images that were requested */
-    uint32_t *numbers;  /* index of the image of each name, or MATERIAL_LOST */
+    uint32_t *indices;  /* index of the image of each name, or MATERIAL_LOST */
     size_t capacity;
 } material_images;
 

@@ -23,7 +23,7 @@ extern const resource_kind ffd_resource_image;
 typedef struct mesh_resource {
     char *path; /* relative to the folder of the mesh, normalized */
     const resource_kind *kind;
-    size_t number; /* index of the thing that refers to it, in the order of the mesh file */
+    size_t index; /* of the thing that refers to it, in the order of the mesh file */
 } mesh_resource;
 
 /* All zeros: empty. */

@@ -83,7 +83,7 @@ ffd_status ffd_sidecar_next(sidecar_names *names, sidecar_own_function *own, con
     bool is_own = false, old_is_noted = !names->old;
     *target = NULL;
     while (!*target && !status) {
-        char *path = ffd_sidecar_name(names->options->path, names->number++);
+        char *path = ffd_sidecar_name(names->options->path, names->index++);
         sidecar_file file = {0};
         status = path ? inspect(names, path, &file, error) : ffd_fail_memory(error);
         if (!status && file.others > 0) {

@@ -7,13 +7,13 @@
 /* Returns the path of number `index` of these files, from 0; free it with ffd_free. NULL: memory ran out. */
 char *ffd_sidecar_name(const char *output, size_t index);
 
-/* State of naming; number and passes are 0 at the start. */
+/* State of naming; index and passes are 0 at the start. */
 typedef struct sidecar_names {
     const mesh_save_options *options;
     const mesh_log *log;
     bool in_place;   /* the output replaces the input */
     const char *old; /* the file in place that the next name replaces for the output; NULL: none */
-    size_t number;   /* of the next name */
+    size_t index;    /* of the next name */
     size_t passes;   /* names that were passed over because other models name these files */
 } sidecar_names;
 

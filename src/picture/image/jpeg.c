@@ -45,7 +45,7 @@ _Noreturn static void fail(j_common_ptr jpeg)
 }
 
 /* Turns warnings that pixels are missing, as in a truncated file, into failures. */
-static void heed(j_common_ptr jpeg, int level)
+static void fail_on_loss(j_common_ptr jpeg, int level)
 {
     static const int failures[] = {JWRN_JPEG_EOF,       JWRN_HIT_MARKER,  JWRN_HUFF_BAD_CODE,
                                    JWRN_ARITH_BAD_CODE, JWRN_MUST_RESYNC, JWRN_BOGUS_PROGRESSION};
@@ -133,7 +133,7 @@ ffd_status ffd_jpeg_decode(const unsigned char *bytes, size_t size, const memory
     *result = (image){0, 0, NULL};
     jpeg.err = jpeg_std_error(&task.manager);
     task.manager.error_exit = fail;
-    task.manager.emit_message = heed;
+    task.manager.emit_message = fail_on_loss;
     task.progress.progress_monitor = watch;
     const ffd_status status = read_pixels(&jpeg, &task, bytes, size, budget, result, error);
     jpeg_destroy_decompress(&jpeg);

@@ -164,7 +164,7 @@ def _set_gates(desc: Any, value: Any) -> None:
     """Sets the gates from words of --fail-on, such as ["folds", "tear=0.1"]."""
     for gate in [value] if isinstance(value, str) else value:
         word, equals, most = str(gate).partition("=")
-        desc.fail_on |= library.number_of("ffd_gate", word, "fail_on")
+        desc.fail_on |= library.value_of("ffd_gate", word, "fail_on")
         if equals and word not in ("tear", "flipped", "edges") or word == "edges" and not equals:
             raise ValueError(f"fail_on has {gate!r}: tear=LENGTH, flipped=N and edges=LENGTH have a value, others none")
         if word == "tear":

@@ -96,8 +96,8 @@ class Embedding:
         return cls._of(owned, lattice, arrays.readable(arrays.vectors(points, "points", count)))
 
     def __repr__(self) -> str:
-        said = ", ".join(f"{count} {status.name.lower()}" for status, count in self.counts.items() if count)
-        return f"<Embedding of {len(self)} points: {said or 'none'}>"
+        counted = ", ".join(f"{count} {status.name.lower()}" for status, count in self.counts.items() if count)
+        return f"<Embedding of {len(self)} points: {counted or 'none'}>"
 
     def __copy__(self) -> Embedding:
         return self

@@ -27,7 +27,7 @@ def _place(source: Any, structure: Any, input_format: str | None, memory: int | 
     place(source, structure)
     structure.strict = bool(strict)
     if input_format is not None:
-        structure.format = library.number_of("ffd_format", input_format, "input_format")
+        structure.format = library.value_of("ffd_format", input_format, "input_format")
     if memory is not None:
         structure.memory = library.integer(memory, "memory", most=2**63)
 

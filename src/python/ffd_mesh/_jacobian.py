@@ -40,7 +40,7 @@ def _figures(result: Any, check: bool) -> dict[str, Any]:
 def _jacobian(source: Any, output: Any, lattices: Any, taken: list[Any] | None, by: str, components: bool, of: int | None,
               times: Any, transposed: Any, check: bool, options: Mapping[str, Any]) -> dict[str, Any]:
     desc, result = library.filled("ffd_jacobian_desc"), library.empty("ffd_jacobian_result")
-    desc.output, desc.by = library.path(output), library.number_of("ffd_jacobian_by", by, "by")
+    desc.output, desc.by = library.path(output), library.value_of("ffd_jacobian_by", by, "by")
     desc.components, desc.check = bool(components), bool(check)
     if of is not None:
         desc.of = library.integer(of, "of")

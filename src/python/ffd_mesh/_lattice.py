@@ -64,10 +64,10 @@ class Lattice:
         shape: "box" (principal=True: along the principal axes of the points), or "cylinder" round axis
         """
         desc = library.filled("ffd_lattice_desc")
-        desc.shape = library.number_of("ffd_lattice_shape", shape, "shape")
-        desc.spacing = library.number_of("ffd_spacing", spacing, "spacing")
+        desc.shape = library.value_of("ffd_lattice_shape", shape, "shape")
+        desc.spacing = library.value_of("ffd_spacing", spacing, "spacing")
         desc.size[:], desc.degree[:] = shape_of(size, degree)
-        desc.knots[:] = [library.number_of("ffd_knots", word, "knots") for word in three(knots, "knots")]
+        desc.knots[:] = [library.value_of("ffd_knots", word, "knots") for word in three(knots, "knots")]
         desc.margin[:] = [library.real(value, "margin") for value in three(margin, "margin")]
         desc.axis[:] = [library.real(value, "axis") for value in three(axis, "axis")]
         desc.principal = bool(principal)
@@ -267,7 +267,7 @@ class Lattice:
         self._fitted
         desc = library.filled("ffd_embedding_desc")
         desc.lattice, desc.points = self._pointer, arrays.span(points)
-        desc.outside = library.number_of("ffd_outside", outside, "outside")
+        desc.outside = library.value_of("ffd_outside", outside, "outside")
         desc.falloff, desc.snap = library.real(falloff, "falloff"), library.real(snap, "snap")
         owned = Owned(lib.ffd_embedding_destroy)
         Run(threads, isa, progress)(lib.ffd_embedding_create, ctypes.byref(desc), last=(ctypes.byref(owned.pointer),))
@@ -365,7 +365,7 @@ class Lattice:
         uvw = np.ascontiguousarray(arrays.vectors(uvw, "uvw"), dtype=np.float64)
         out = np.empty_like(uvw)
         found = np.empty((len(uvw), 3, 3)) if jacobians else None
-        number = library.number_of("ffd_volume", volume, "volume")
+        number = library.value_of("ffd_volume", volume, "volume")
         Run(threads, isa, progress)(lib.ffd_lattice_evaluate_many, self._pointer, number, arrays.address(uvw), len(uvw),
                                     arrays.address(out), None if found is None else arrays.address(found))
         return out if found is None else (out, found)

@@ -49,7 +49,7 @@ def one_of(words: dict[str, int], word: Any, what: str) -> int:
     return words[word]
 
 
-def number_of(enumeration: str, word: Any, what: str) -> int:
+def value_of(enumeration: str, word: Any, what: str) -> int:
     return one_of(WORDS[enumeration], word, what)
 
 
@@ -149,23 +149,23 @@ class Run:
     def __init__(self, threads: int, isa: str, progress: Progress | None) -> None:
         if progress is not None and not callable(progress):
             raise TypeError(f"progress must be a function, not {type(progress).__name__}")
-        self._said: list[Any] = [progress]
-        self.run = filled("ffd_run_options")
-        self.run.threads = integer(threads, "threads")
-        self.run.isa = number_of("ffd_isa", isa, "isa")
-        self.run.progress = _native.progress
-        self.run.user = id(self._said)
+        self._lent: list[Any] = [progress]
+        self.options = filled("ffd_run_options")
+        self.options.threads = integer(threads, "threads")
+        self.options.isa = value_of("ffd_isa", isa, "isa")
+        self.options.progress = _native.progress
+        self.options.user = id(self._lent)
 
     def __call__(self, function: Any, *arguments: Any, last: tuple[Any, ...] = ()) -> None:
         """Calls a function with arguments, an ffd_run_options, the arguments in last, and an ffd_error."""
         try:
-            call(function, *arguments, ctypes.byref(self.run), *last)
+            call(function, *arguments, ctypes.byref(self.options), *last)
         except Cancelled:
-            if len(self._said) > 1:
-                raise self._said[1] from None
+            if len(self._lent) > 1:
+                raise self._lent[1] from None
             raise
-        if len(self._said) > 1:
-            raise self._said[1]
+        if len(self._lent) > 1:
+            raise self._lent[1]
 
 
 _LEVELS = {0: logging.WARNING, 1: logging.INFO, 2: logging.DEBUG}
@@ -203,12 +203,12 @@ class Resolver:
     """Sets a source's resolve callback to a Python function of a file's name, and keeps the exception that it may raise."""
 
     def __init__(self, source: Any, function: Callable[[str], Any]) -> None:
-        self._said: list[Any] = [function, []]
-        source.resolve, source.resolve_user = _native.resolve, id(self._said)
+        self._lent: list[Any] = [function, []]
+        source.resolve, source.resolve_user = _native.resolve, id(self._lent)
 
     def reraise(self) -> None:
-        if len(self._said) > 2:
-            raise self._said[2] from None
+        if len(self._lent) > 2:
+            raise self._lent[2] from None
 
 
 def sink_into(structure: Any, files: list[Any]) -> None:

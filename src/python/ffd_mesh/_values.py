@@ -123,7 +123,7 @@ def described(size: Any, degree: Any, knots: Any) -> tuple[Any, list[np.ndarray]
     one = isinstance(knots, str) or _has_breakpoints(knots)
     for direction, knot in enumerate((knots,) * 3 if one else three(knots, "knots")):
         word, values = (knot, None) if isinstance(knot, str) else knot if _has_breakpoints(knot) else ("default", knot)
-        made.knots[direction] = library.number_of("ffd_knots", word, "knots")
+        made.knots[direction] = library.value_of("ffd_knots", word, "knots")
         if values is not None:
             kept.append(arrays.doubles(values, "knots", (len(values),)))
             made.knot_values[direction] = arrays.address(kept[-1])

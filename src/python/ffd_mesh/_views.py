@@ -36,7 +36,7 @@ def _set_look(desc: Any, output: Any, color: str, camera: Any, size: tuple[int, 
         raise ValueError("full is for pages, but the output is a picture")
     if not is_picture and (size is not None or frames is not None):
         raise ValueError("size and frames are for pictures, but the output is a page")
-    desc.color, desc.full = library.number_of("ffd_view_color", color, "color"), bool(full)
+    desc.color, desc.full = library.value_of("ffd_view_color", color, "color"), bool(full)
     _set_camera(desc, camera)
     if size is not None:
         desc.width, desc.height = (library.integer(side, "size", 1, 2**32 - 1) for side in size)

@@ -177,11 +177,11 @@ static bool put_weights(clip_writer *w, const uint32_t *names, size_t count, uin
 /* Adds a sampler for the nodes of a mesh. */
 static ffd_status add_sampler(clip_writer *w, const uint32_t *names, size_t count, uint32_t default_value)
 {
-    const uint64_t numbers = (uint64_t)w->clip->key_count * count;
-    TRY(ffd_budget_take(&w->budget, numbers, sizeof(float), w->error));
+    const uint64_t value_count = (uint64_t)w->clip->key_count * count;
+    TRY(ffd_budget_take(&w->budget, value_count, sizeof(float), w->error));
     if (w->input == GLTF_NONE)
         add_times(w);
-    const size_t output = add_accessor(w, (size_t)numbers, "");
+    const size_t output = add_accessor(w, (size_t)value_count, "");
     ffd_buffer_format(&w->sampler_text, "%s{\"input\":%zu,\"interpolation\":\"LINEAR\",\"output\":%zu}",
                       w->sampler_count++ > 0 ? "," : "", w->input, output);
     return put_weights(w, names, count, default_value) ? FFD_OK : ffd_fail_memory(w->error);
@@ -310,7 +310,7 @@ static ffd_status add_clip(clip_writer *w, const morph_clip *clip, uint32_t *nam
    for one per target of a mesh. */
 static void find_replaced(clip_writer *w, uint32_t *names, uint32_t animations)
 {
-    const gltf_document *const d = w->file->document;
+    gltf_document *const d = w->file->document;
     for (size_t c = 0; c < d->clip_count; c++) {
         bool any = false;
         w->clip = &d->clips[c];
@@ -320,7 +320,7 @@ static void find_replaced(clip_writer *w, uint32_t *names, uint32_t animations)
             any = mesh >= 0 && find_driven(w, (size_t)mesh, names, d->mesh_uses[mesh].target_count);
         }
         if (any)
-            w->file->replaced.values[w->file->replaced.count++] = old;
+            d->replaced.values[d->replaced.count++] = old;
     }
 }
 
@@ -329,8 +329,7 @@ static ffd_status add_all(clip_writer *w, uint32_t *names)
     gltf_document *const d = w->file->document;
     const uint32_t animations = ffd_json_tree_member(&d->tree, 0, "animations");
     find_replaced(w, names, animations);
-    d->replaced = &w->file->replaced;
-    w->replaced.values = w->file->replaced.values;
+    w->replaced.values = d->replaced.values;
     ffd_gltf_extend_weights(w->file);
     for (size_t c = 0; c < d->clip_count; c++)
         TRY(add_clip(w, &d->clips[c], names, animations));
@@ -350,9 +349,9 @@ ffd_status ffd_gltf_animate_weights(gltf_edit *edit, ffd_error *error)
         most = d->mesh_uses[m].target_count > most ? d->mesh_uses[m].target_count : most;
     uint32_t *const names = ffd_alloc(most, sizeof *names);
     w.samplers = ffd_alloc(d->model.mesh_count, sizeof *w.samplers);
-    edit->replaced.values = ffd_alloc(d->clip_count, sizeof *edit->replaced.values);
+    d->replaced.values = ffd_alloc(d->clip_count, sizeof *d->replaced.values);
     const ffd_status status =
-        names && w.samplers && edit->replaced.values ? add_all(&w, names) : ffd_fail_memory(error);
+        names && w.samplers && d->replaced.values ? add_all(&w, names) : ffd_fail_memory(error);
     ffd_free(names);
     ffd_free(w.samplers);
     ffd_buffer_free(&w.sampler_text);

@@ -44,13 +44,12 @@ static bool can_reuse(const gltf_document *d, const unsigned char *users, const 
                       const gltf_morph *morph)
 {
     const gltf_primitive *const primitive = place->primitive;
-    const int number = primitive->target_accessors[GLTF_DEFORMED * place->target + place->semantic];
-    if (number < 0)
+    const int index = primitive->target_accessors[GLTF_DEFORMED * place->target + place->semantic];
+    if (index < 0)
         return false;
-    const gltf_accessor *const accessor = &d->model.accessors[number];
-    const gltf_layout *const layout = &d->layouts[number];
-    const bool is_own =
-        users[number] == 1 && !accessor->sparse.present && accessor->view >= 0 && layout->data;
+    const gltf_accessor *const accessor = &d->model.accessors[index];
+    const gltf_layout *const layout = &d->layouts[index];
+    const bool is_own = users[index] == 1 && !accessor->sparse.present && accessor->view >= 0 && layout->data;
     return accessor->component == GLTF_FLOAT && accessor->columns == 1 && accessor->rows == 3 &&
            (is_own || is_partly_selected(d, primitive)) &&
            accessor->count == d->model.accessors[primitive->accessor[place->semantic]].count &&
@@ -73,11 +72,11 @@ typedef struct morph_writer {
 /* Returns the new accessor of zeros for the offsets of an accessor's elements. */
 static size_t zeros_for(morph_writer *w, size_t accessor, int kind)
 {
-    size_t *const number = &w->zeros[kind][accessor];
-    if (*number == GLTF_NONE)
-        *number = ffd_gltf_add_zeros(w->edit, w->edit->document->model.accessors[accessor].count,
-                                     kind != ZEROS_DIRECTIONS);
-    return *number;
+    size_t *const zeros = &w->zeros[kind][accessor];
+    if (*zeros == GLTF_NONE)
+        *zeros = ffd_gltf_add_zeros(w->edit, w->edit->document->model.accessors[accessor].count,
+                                    kind != ZEROS_DIRECTIONS);
+    return *zeros;
 }
 
 /* Returns the accessor for an attribute of a target: that of the replaced target if it can be reused. */
@@ -100,10 +99,10 @@ static void set_target(morph_writer *w, gltf_primitive *primitive, size_t target
         const morph_place place = {primitive, target, (gltf_semantic)s};
         const bool is_there = wanted[s] && primitive->accessor[s] >= 0;
         const size_t accessor = is_there ? accessor_for(w, &place) : GLTF_NONE;
-        int *const number = &primitive->target_accessors[GLTF_DEFORMED * target + s];
-        w->loses = w->loses || (*number >= 0 && (size_t)*number != accessor &&
+        int *const held = &primitive->target_accessors[GLTF_DEFORMED * target + s];
+        w->loses = w->loses || (*held >= 0 && (size_t)*held != accessor &&
                                 is_partly_selected(w->edit->document, primitive));
-        *number = accessor == GLTF_NONE ? -1 : (int)accessor;
+        *held = accessor == GLTF_NONE ? -1 : (int)accessor;
     }
 }
 

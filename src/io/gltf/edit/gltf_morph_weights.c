@@ -16,7 +16,7 @@ typedef struct wanted_output {
     size_t added;   /* how many more the mesh gets, and the output has */
     bool is_single; /* they drive only the weight of a further target, which is to be 0 */
     size_t made;    /* the new accessor; GLTF_NONE: the old one stays */
-    size_t place;   /* the number of the sampler that gets it */
+    size_t place;   /* the index of the sampler that gets it */
     size_t next;    /* of the same sampler; GLTF_NONE: the last one */
 } wanted_output;
 

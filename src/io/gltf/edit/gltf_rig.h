@@ -1,10 +1,10 @@
 /* gltf_rig.h - how the nodes, skins and animations of a file change to follow the deformation (src/maths.md
-   9.5). ffd_gltf_follow (gltf_rig_follow.c) makes it for one deformation, by the steps of gltf_rig_nodes.c,
-   gltf_rig_skins.c and gltf_rig_channels.c; saving reads it, by gltf_rig_edit.c. */
+   9.5): a part of the file's edit. ffd_gltf_follow (gltf_rig_follow.c) makes it for one deformation, by the
+   steps of gltf_rig_nodes.c, gltf_rig_skins.c and gltf_rig_channels.c; saving reads it, by gltf_rig_edit.c.
+ */
 #ifndef FFD_IO_GLTF_EDIT_GLTF_RIG_H
 #define FFD_IO_GLTF_EDIT_GLTF_RIG_H
 
-#include "base/memory/intern.h"
 #include "io/gltf/model/gltf_animation.h"
 #include "io/gltf/read/gltf_document.h"
 #include "mesh/places.h"
@@ -32,40 +32,30 @@ typedef struct gltf_node_motion {
     double carry[9]; /* a matrix, row by row */
 } gltf_node_motion;
 
-/* New elements of an accessor. */
-typedef struct gltf_rig_content {
-    size_t accessor;     /* GLTF_NONE: a new accessor of MAT4 */
-    size_t count, width; /* number of elements; numbers per element */
-    float *values;
-} gltf_rig_content;
-
 /* A further sampler of an animation, for channels that need another output than those with the original
    sampler. */
 typedef struct gltf_sampler_copy {
-    /* The original sampler; index of its output in contents, GLTF_NONE: the original output. */
+    /* The original sampler; index of its output in the edit's contents, GLTF_NONE: the original output. */
     size_t sampler, content;
 } gltf_sampler_copy;
 
 /* How an animation changes. */
 typedef struct gltf_rig_animation {
-    /* Per sampler: index of its output in gltf_rig's contents, GLTF_NONE: unchanged; NULL: the whole
+    /* Per sampler: index of its output in the edit's contents, GLTF_NONE: unchanged; NULL: the whole
        animation is unchanged. */
     size_t *contents;
-    /* Per channel: the number of its sampler; the copies come after the original samplers. */
+    /* Per channel: the index of its sampler; the copies come after the original samplers. */
     size_t *channels;
     gltf_sampler_copy *copies;
     size_t copy_count, copy_capacity;
 } gltf_rig_animation;
 
 typedef struct gltf_rig {
-    double *world;             /* new world matrices, per node, as in gltf_document */
+    /* New world matrices, per node, as in gltf_document; NULL: nothing follows. */
+    double *world;
     gltf_node_motion *motions; /* per node */
     gltf_moved_node *nodes;    /* the nodes whose local transforms change, parents before children */
     size_t node_count;
-    gltf_rig_content *contents; /* all different */
-    size_t content_count, content_capacity;
-    intern_table known;          /* to find equal contents */
-    memory_budget *budget;       /* the document's; the contents have taken their memory from it */
     gltf_animations animations;  /* of the file, without keys */
     gltf_rig_animation *changes; /* per animation */
     /* Of the nodes that stay, with what they place, because this is not selected: the one that is farthest
@@ -74,44 +64,35 @@ typedef struct gltf_rig {
     size_t left, left_below;
     /* Channels whose pointers lead to changed transforms in a way that is not supported. */
     size_t pointers_left;
-    /* Per skin: index in contents of its inverse bind matrices; GLTF_NONE: unchanged. */
+    /* Per skin: index in the edit's contents of its inverse bind matrices; GLTF_NONE: unchanged. */
     size_t *skin_contents;
 } gltf_rig;
 
-/* Frees document->rig. Nothing follows the deformation then, and no part is carried. */
-void ffd_gltf_free_rig(gltf_document *document);
-
-/* Allocates content->values, from the memory budget. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
-ffd_status ffd_gltf_make_elements(gltf_rig *rig, gltf_rig_content *content, ffd_error *error);
-/* Frees content->values, for content that is not added. */
-void ffd_gltf_free_elements(gltf_rig *rig, gltf_rig_content *content);
-/* Adds content, unless the rig has equal content. Takes ownership of the values, even if it fails. Returns
-   the index in rig->contents; GLTF_NONE if memory runs out. */
-size_t ffd_gltf_add_content(gltf_rig *rig, gltf_rig_content *content);
+/* Frees a rig. Nothing follows the deformation then, and no part is carried. */
+void ffd_gltf_free_rig(gltf_document *document, gltf_rig *rig);
 
 /* Sets used[a] for each accessor a whose original content a skin or an animation has in the output. */
-void ffd_gltf_mark_rig_originals(const gltf_document *document, bool *used);
+void ffd_gltf_mark_rig_originals(const gltf_document *document, const gltf_rig *rig, bool *used);
 
 /* Fills the rig's world, motions and nodes, and `became` of the moves (one per place). Errors:
    FFD_E_MEMORY. */
 ffd_status ffd_gltf_follow_nodes(const gltf_document *document, const mesh_places *places,
-                                 mesh_place_move *moves, gltf_rig *rig, mesh_following *following,
-                                 ffd_error *error);
+                                 mesh_place_move *moves, mesh_following *following, ffd_error *error);
 
 /* Fills the rig's skin_contents and sets the parts' carry; call it after ffd_gltf_follow_nodes. Errors:
    FFD_E_INVALID (a matrix that floats cannot hold), FFD_E_MEMORY. */
 ffd_status ffd_gltf_follow_skins(gltf_document *document, const mesh_places *places,
-                                 const mesh_place_move *moves, gltf_rig *rig, ffd_error *error);
+                                 const mesh_place_move *moves, ffd_error *error);
 
 /* Fills the rig's animations and changes; call it after ffd_gltf_follow_nodes. Errors: those of loading the
    keys of an animation that changes, FFD_E_LIMIT, FFD_E_MEMORY. */
-ffd_status ffd_gltf_follow_animations(gltf_document *document, gltf_rig *rig, ffd_error *error);
+ffd_status ffd_gltf_follow_animations(gltf_document *document, ffd_error *error);
 
 /* Edits the transforms of nodes: only numbers that differ are replaced. */
 void ffd_gltf_edit_nodes(const gltf_document *document, json_edits *edits);
 
 /* Edits the skins to name the accessors of their new inverse bind matrices. outputs: the accessor of each of
-   the rig's contents. */
+   the edit's contents. */
 void ffd_gltf_edit_skins(const gltf_document *document, const size_t *outputs, json_edits *edits);
 
 /* Adds the further samplers of animations, and edits samplers to name the accessors of their new outputs.

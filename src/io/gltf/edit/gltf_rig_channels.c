@@ -3,7 +3,7 @@
 #include "base/memory/memory.h"
 #include "base/vector/polar.h"
 #include "base/vector/vec.h"
-#include "io/gltf/edit/gltf_rig.h"
+#include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/model/gltf_scene.h"
 #include "io/gltf/read/gltf_index_table.h"
 #include <float.h>
@@ -94,7 +94,7 @@ static float as_stored(const change_key *key, bool is_tangent, double value)
 
 /* Fills the new elements of an output. *changes: whether any value differs. */
 static ffd_status fill_values(const channel_work *w, const change_key *key,
-                              const gltf_animation_sampler *sampler, const gltf_rig_content *content,
+                              const gltf_animation_sampler *sampler, const gltf_content *content,
                               bool *changes)
 {
     const size_t width = content->width;
@@ -118,21 +118,21 @@ static ffd_status fill_values(const channel_work *w, const change_key *key,
 }
 
 static ffd_status make_content(const channel_work *w, const change_key *key,
-                               const gltf_animation_sampler *sampler, size_t *number)
+                               const gltf_animation_sampler *sampler, size_t *index)
 {
-    gltf_rig_content content = {.accessor = sampler->output,
-                                .count = sampler->key_count * (key->cubic ? 3 : 1),
-                                .width = key->path == GLTF_ROTATION ? 4 : 3};
+    gltf_content content = {.accessor = sampler->output,
+                            .count = sampler->key_count * (key->cubic ? 3 : 1),
+                            .width = key->path == GLTF_ROTATION ? 4 : 3};
     bool changes;
-    *number = GLTF_NONE;
-    TRY(ffd_gltf_make_elements(w->rig, &content, w->error));
+    *index = GLTF_NONE;
+    TRY(ffd_gltf_make_elements(w->document->edit, &content, w->error));
     ffd_status status = fill_values(w, key, sampler, &content, &changes);
     if (status || !changes) {
-        ffd_gltf_free_elements(w->rig, &content);
+        ffd_gltf_free_elements(w->document->edit, &content);
         return status;
     }
-    *number = ffd_gltf_add_content(w->rig, &content);
-    return *number == GLTF_NONE ? ffd_fail_memory(w->error) : FFD_OK;
+    *index = ffd_gltf_add_content(w->document->edit, &content);
+    return *index == GLTF_NONE ? ffd_fail_memory(w->error) : FFD_OK;
 }
 
 /* Finds the content that a channel needs as its sampler's output; GLTF_NONE: the original output. */
@@ -235,8 +235,9 @@ static bool is_left(const gltf_document *d, const gltf_rig *rig, const gltf_chan
     return found && node < d->model.node_count && rig->motions[node].moved != GLTF_NONE;
 }
 
-ffd_status ffd_gltf_follow_animations(gltf_document *d, gltf_rig *rig, ffd_error *error)
+ffd_status ffd_gltf_follow_animations(gltf_document *d, ffd_error *error)
 {
+    gltf_rig *const rig = &d->edit->rig;
     channel_work w = {.document = d, .rig = rig, .error = error};
     ffd_status status = ffd_gltf_list_animations(d, &rig->animations, error);
     if (status)

@@ -1,6 +1,6 @@
 /* gltf_rig_edit.c - edits the JSON of nodes, skins and animations that follow the deformation. */
 #include "base/text/number.h"
-#include "io/gltf/edit/gltf_rig.h"
+#include "io/gltf/edit/gltf_edit.h"
 
 /* Inserts a text after the last member of an object. */
 static void insert_members(const json_tree *tree, uint32_t object, const byte_buffer *text, json_edits *edits)
@@ -59,8 +59,8 @@ static void set_array(const json_tree *tree, uint32_t node, const char *key, con
 
 void ffd_gltf_edit_nodes(const gltf_document *d, json_edits *edits)
 {
-    for (size_t i = 0; d->rig && i < d->rig->node_count; i++) {
-        const gltf_moved_node *const made = &d->rig->nodes[i];
+    for (size_t i = 0; i < d->edit->rig.node_count; i++) {
+        const gltf_moved_node *const made = &d->edit->rig.nodes[i];
         const uint32_t node = d->node_values.values[made->node];
         byte_buffer added = {0};
         if (d->model.nodes[made->node].has_matrix) {
@@ -78,12 +78,12 @@ void ffd_gltf_edit_nodes(const gltf_document *d, json_edits *edits)
 
 void ffd_gltf_edit_skins(const gltf_document *d, const size_t *outputs, json_edits *edits)
 {
-    for (size_t s = 0; d->rig && s < d->skin_values.count; s++) {
-        const size_t content = d->rig->skin_contents[s];
+    for (size_t s = 0; s < d->skin_values.count; s++) {
+        const size_t content = d->edit->rig.skin_contents[s];
         const uint32_t skin = d->skin_values.values[s];
         const uint32_t member = ffd_json_tree_member(&d->tree, skin, "inverseBindMatrices");
         byte_buffer added = {0};
-        if (content == GLTF_NONE || outputs[content] == d->rig->contents[content].accessor)
+        if (content == GLTF_NONE || outputs[content] == d->edit->contents[content].accessor)
             continue;
         if (member != JSON_NONE) {
             replace_number(&d->tree, member, outputs[content], edits);
@@ -137,7 +137,8 @@ static void edit_animation(const json_tree *tree, const gltf_animation *animatio
 
 void ffd_gltf_edit_animations(const gltf_document *d, const size_t *outputs, json_edits *edits)
 {
-    for (size_t a = 0; d->rig && a < d->rig->animations.count; a++)
-        if (d->rig->changes[a].contents)
-            edit_animation(&d->tree, &d->rig->animations.list[a], &d->rig->changes[a], outputs, edits);
+    const gltf_rig *const rig = &d->edit->rig;
+    for (size_t a = 0; a < rig->animations.count; a++)
+        if (rig->changes[a].contents)
+            edit_animation(&d->tree, &rig->animations.list[a], &rig->changes[a], outputs, edits);
 }

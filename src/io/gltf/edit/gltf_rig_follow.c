@@ -4,7 +4,7 @@
 #include "base/spelling.h"
 #include "base/text/words.h"
 #include "base/vector/vec.h"
-#include "io/gltf/edit/gltf_rig.h"
+#include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/read/gltf_elements.h"
 #include <inttypes.h>
@@ -138,14 +138,14 @@ static ffd_status list_staying(const gltf_document *d, const mesh_places *places
     for (size_t i = 0; i < places->count && !status; i++) {
         const mesh_place *const place = &places->list[i];
         const bool has_shape = place->kinds & PLACE_BIT(FFD_BEHIND_PHYSICS_SHAPE);
-        const size_t moved = rig->motions[place->number].moved;
-        const size_t at = 12 * place->number;
+        const size_t moved = rig->motions[place->index].moved;
+        const size_t at = 12 * place->index;
         const bool moves =
             !place->stays && memcmp(rig->world + at, d->world + at, 12 * sizeof *d->world) != 0;
         const struct {
             bool is_one;
             place_group *group;
-        } groups[] = {{has_splats[place->number], &found->splats},
+        } groups[] = {{has_splats[place->index], &found->splats},
                       {moves && has_shape, &found->shapes},
                       {moves && place->holds & PLACE_HOLDS_SPRING, &found->springs},
                       {moves && place->holds & PLACE_HOLDS_EYES, &found->eyes},
@@ -154,7 +154,7 @@ static ffd_status list_staying(const gltf_document *d, const mesh_places *places
                       {is_old && moved != GLTF_NONE && is_turned(d, &rig->nodes[moved]), &found->turned}};
         for (size_t g = 0; g < sizeof groups / sizeof *groups && !status; g++)
             if (groups[g].is_one)
-                status = add_place(d, place->number, groups[g].group, error);
+                status = add_place(d, place->index, groups[g].group, error);
         following->unscaled += groups[0].is_one || groups[1].is_one || groups[2].is_one || groups[3].is_one;
     }
     end_group(&found->splats);
@@ -324,21 +324,19 @@ ffd_status ffd_gltf_follow(mesh_document *document, const mesh_places *places, m
                            const mesh_log *log, mesh_following *following, ffd_error *error)
 {
     gltf_document *const d = (gltf_document *)document;
-    ffd_gltf_free_rig(d);
+    gltf_rig *const rig = &d->edit->rig;
+    ffd_gltf_clear_edit(d);
     *following = (mesh_following){0};
     TRY(check_memory(d, error));
-    d->rig = ffd_alloc_zero(1, sizeof *d->rig);
-    if (!d->rig)
-        return ffd_fail_memory(error);
-    d->rig->budget = &d->base.budget;
-    ffd_status status = ffd_gltf_follow_nodes(d, places, moves, d->rig, following, error);
+    ffd_status status = ffd_gltf_follow_nodes(d, places, moves, following, error);
     if (!status)
-        status = ffd_gltf_follow_skins(d, places, moves, d->rig, error);
+        status = ffd_gltf_follow_skins(d, places, moves, error);
     if (!status)
-        status = ffd_gltf_follow_animations(d, d->rig, error);
+        status = ffd_gltf_follow_animations(d, error);
     if (!status)
-        status = warn_of_rig(d, places, d->rig, log, following, error);
+        status = warn_of_rig(d, places, rig, log, following, error);
+    d->edit->any = rig->node_count > 0;
     if (status)
-        ffd_gltf_free_rig(d);
+        ffd_gltf_clear_edit(d);
     return status;
 }

@@ -2,7 +2,7 @@
 #include "base/memory/memory.h"
 #include "base/vector/polar.h"
 #include "base/vector/vec.h"
-#include "io/gltf/edit/gltf_rig.h"
+#include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/model/gltf_scene.h"
 #include <string.h>
 
@@ -309,15 +309,16 @@ static bool allocate(node_walk *w, size_t count)
 }
 
 ffd_status ffd_gltf_follow_nodes(const gltf_document *d, const mesh_places *places, mesh_place_move *moves,
-                                 gltf_rig *rig, mesh_following *following, ffd_error *error)
+                                 mesh_following *following, ffd_error *error)
 {
     const size_t count = d->model.node_count;
+    gltf_rig *const rig = &d->edit->rig;
     node_walk w = {.document = d, .rig = rig, .following = following};
     const bool allocated = allocate(&w, count);
     rig->left = rig->left_below = GLTF_NONE;
     for (size_t i = 0; i < places->count && allocated; i++) {
-        w.places[places->list[i].number] = &places->list[i];
-        w.moves[places->list[i].number] = &moves[i];
+        w.places[places->list[i].index] = &places->list[i];
+        w.moves[places->list[i].index] = &moves[i];
     }
     for (size_t n = 0; n < count && allocated; n++)
         rig->motions[n].moved = GLTF_NONE;

@@ -4,7 +4,7 @@
 #include "base/memory/memory.h"
 #include "base/vector/polar.h"
 #include "base/vector/vec.h"
-#include "io/gltf/edit/gltf_rig.h"
+#include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/model/gltf_results.h"
 #include "io/gltf/model/gltf_scene.h"
 #include "io/gltf/model/gltf_skin.h"
@@ -57,15 +57,15 @@ static void pin(const double from[3], const double to[3], affine *map)
 
 static bool is_of_node_before(const void *place, const void *node)
 {
-    return ((const mesh_place *)place)->number < *(const size_t *)node;
+    return ((const mesh_place *)place)->index < *(const size_t *)node;
 }
 
-/* Finds a node among the places, which are sorted by node number. */
+/* Finds a node among the places, which are sorted by node. */
 static size_t find_place(const mesh_places *places, size_t node)
 {
     const size_t at =
         lower_bound(&node, places->list, places->count, sizeof *places->list, is_of_node_before);
-    return at < places->count && places->list[at].number == node ? at : SIZE_MAX;
+    return at < places->count && places->list[at].index == node ? at : SIZE_MAX;
 }
 
 /* Finds the similarity nearest to the motion of a skin's first joint, and its inverse. If one similarity
@@ -102,11 +102,12 @@ static void mark_skins(const gltf_document *d, bool *shown, bool *staying)
             staying[d->model.nodes[n].skin] = true;
     for (size_t i = 0; i < d->instance_count; i++) {
         const gltf_instance *const instance = &d->instances[i];
-        const int skin = instance->node == GLTF_NONE ? -1 : d->model.nodes[instance->node].skin;
-        if (skin < 0)
+        const gltf_skin *const skin = ffd_gltf_skin_of(d, instance);
+        if (!skin)
             continue;
-        shown[skin] = true;
-        staying[skin] = staying[skin] || (ffd_gltf_is_skinned(instance->primitive) && !instance->selected);
+        shown[skin - d->skins] = true;
+        if (ffd_gltf_is_skinned(instance->primitive) && !instance->selected)
+            staying[skin - d->skins] = true;
     }
 }
 
@@ -166,7 +167,7 @@ static bool put_matrix(const affine *change, float *values)
 }
 
 /* Reads the inverse bind matrices of the file: identities if the skin has none. */
-static void read_matrices(const gltf_document *d, const gltf_skin *skin, const gltf_rig_content *content)
+static void read_matrices(const gltf_document *d, const gltf_skin *skin, const gltf_content *content)
 {
     for (size_t j = 0; j < content->count; j++) {
         double read[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -178,16 +179,16 @@ static void read_matrices(const gltf_document *d, const gltf_skin *skin, const g
 }
 
 /* Makes new inverse bind matrices for a skin if any of them changes. */
-static ffd_status make_matrices(const gltf_document *d, size_t s, const affine *similarity, gltf_rig *rig,
-                                gltf_rig_content *content, ffd_error *error)
+static ffd_status make_matrices(const gltf_document *d, size_t s, const affine *similarity,
+                                gltf_content *content, ffd_error *error)
 {
     const gltf_skin *const skin = &d->skins[s];
     affine change;
     for (size_t j = 0; j < skin->joint_count; j++) {
-        if (!find_change(d, rig, skin->joints[j], similarity, &change))
+        if (!find_change(d, &d->edit->rig, skin->joints[j], similarity, &change))
             continue;
         if (!content->values) {
-            TRY(ffd_gltf_make_elements(rig, content, error));
+            TRY(ffd_gltf_make_elements(d->edit, content, error));
             read_matrices(d, skin, content);
         }
         if (!put_matrix(&change, content->values + 16 * j))
@@ -196,22 +197,22 @@ static ffd_status make_matrices(const gltf_document *d, size_t s, const affine *
     return FFD_OK;
 }
 
-static ffd_status follow_skin(const gltf_document *d, size_t s, const affine *similarity, gltf_rig *rig,
-                              ffd_error *error)
+static ffd_status follow_skin(const gltf_document *d, size_t s, const affine *similarity, ffd_error *error)
 {
     const gltf_skin *const skin = &d->skins[s];
-    gltf_rig_content content = {.accessor = GLTF_NONE, .count = skin->joint_count, .width = 16};
+    size_t *const index = &d->edit->rig.skin_contents[s];
+    gltf_content content = {.accessor = GLTF_NONE, .count = skin->joint_count, .width = 16};
     if (skin->inverse_bind >= 0) {
         content.accessor = (size_t)skin->inverse_bind;
         content.count = (size_t)d->model.accessors[skin->inverse_bind].count;
     }
-    const ffd_status status = make_matrices(d, s, similarity, rig, &content, error);
+    const ffd_status status = make_matrices(d, s, similarity, &content, error);
     if (status || !content.values) {
-        ffd_gltf_free_elements(rig, &content);
+        ffd_gltf_free_elements(d->edit, &content);
         return status;
     }
-    rig->skin_contents[s] = ffd_gltf_add_content(rig, &content);
-    return rig->skin_contents[s] == GLTF_NONE ? ffd_fail_memory(error) : FFD_OK;
+    *index = ffd_gltf_add_content(d->edit, &content);
+    return *index == GLTF_NONE ? ffd_fail_memory(error) : FFD_OK;
 }
 
 /* Sets the map that a part's vertices are carried by. */
@@ -255,8 +256,9 @@ static void carry_parts(gltf_document *d, const gltf_rig *rig, const affine *inv
 }
 
 ffd_status ffd_gltf_follow_skins(gltf_document *d, const mesh_places *places, const mesh_place_move *moves,
-                                 gltf_rig *rig, ffd_error *error)
+                                 ffd_error *error)
 {
+    gltf_rig *const rig = &d->edit->rig;
     const size_t count = d->skin_values.count;
     affine *const inverses = ffd_alloc(count, sizeof *inverses);
     bool *const shown = ffd_alloc_zero(count, sizeof *shown);
@@ -275,7 +277,7 @@ ffd_status ffd_gltf_follow_skins(gltf_document *d, const mesh_places *places, co
         if (shown[s] && !staying[s] && first != SIZE_MAX)
             find_similarity(&places->list[first], &moves[first], &similarity, &inverses[s]);
         if (shown[s] || (staying[s] && ffd_gltf_has_joint_matrices(d, skin)))
-            status = follow_skin(d, s, &similarity, rig, error);
+            status = follow_skin(d, s, &similarity, error);
     }
     if (!status)
         carry_parts(d, rig, inverses);

@@ -384,7 +384,7 @@ static ffd_status load_channel(gltf_document *d, gltf_animation *animation, cons
 }
 
 /* Finds the times of the first and the last key. */
-static void find_span(gltf_animation *animation)
+static void find_range(gltf_animation *animation)
 {
     bool any = false;
     animation->begin = animation->end = 0;
@@ -406,7 +406,7 @@ ffd_status ffd_gltf_load_animation(gltf_document *d, gltf_animation *animation, 
         if (ffd_gltf_channel_drives(&animation->channels[c]))
             status = load_channel(d, animation, &animation->channels[c], error);
     if (!status)
-        find_span(animation);
+        find_range(animation);
     else
         ffd_gltf_unload_animation(d, animation);
     ffd_gltf_forget(d);

@@ -51,15 +51,13 @@ static drawing count_drawing(const gltf_document *d, const gltf_primitive *primi
     return counted;
 }
 
-void ffd_gltf_count_drawing(const gltf_document *d, size_t mesh, size_t *triangles, size_t *lines,
-                            size_t *points)
+void ffd_gltf_count_drawing(const gltf_document *d, const gltf_primitive *primitive, size_t *triangles,
+                            size_t *lines, size_t *points)
 {
-    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh, p));) {
-        const drawing counted = count_drawing(d, p);
-        *triangles += counted.triangles;
-        *lines += counted.lines;
-        *points += counted.points;
-    }
+    const drawing counted = count_drawing(d, primitive);
+    *triangles += counted.triangles;
+    *lines += counted.lines;
+    *points += counted.points;
 }
 
 size_t ffd_gltf_count_triangles(const gltf_document *d, const gltf_primitive *primitive)
@@ -232,9 +230,8 @@ ffd_status ffd_gltf_faces(const mesh_document *document, mesh_state state, mesh_
 }
 
 /* Sets the normals of one instance's corners: vertex i of its positions has normal i of its normals. */
-static void number_corners(const gltf_instance *instance, const size_t *first_vertices,
-                           const size_t *first_normals, const uint32_t *corners, size_t count,
-                           uint32_t *normals)
+static void set_normals(const gltf_instance *instance, const size_t *first_vertices,
+                        const size_t *first_normals, const uint32_t *corners, size_t count, uint32_t *normals)
 {
     const size_t part = instance->part[GLTF_NORMAL];
     if (part == GLTF_NONE) {
@@ -253,7 +250,7 @@ ffd_status ffd_gltf_corner_normals(const mesh_document *document, const mesh_fac
     const gltf_document *d = ffd_gltf_of(document);
     size_t *first_normals = ffd_alloc(d->base.part_count, sizeof *first_normals), *first_vertices = NULL;
     ffd_status status =
-        first_normals ? ffd_parts_number(document, &first_vertices, error) : ffd_fail_memory(error);
+        first_normals ? ffd_first_vertices(document, &first_vertices, error) : ffd_fail_memory(error);
     size_t index = 0, corner = 0;
     for (size_t i = 0; i < d->base.part_count && !status; i++) {
         first_normals[i] = index;
@@ -262,8 +259,8 @@ ffd_status ffd_gltf_corner_normals(const mesh_document *document, const mesh_fac
     for (size_t i = 0; i < d->instance_count && !status; i++) {
         const size_t count = 3 * count_drawing(d, d->instances[i].primitive).triangles;
         if (count > 0)
-            number_corners(&d->instances[i], first_vertices, first_normals, faces->corners + corner, count,
-                           normals + corner);
+            set_normals(&d->instances[i], first_vertices, first_normals, faces->corners + corner, count,
+                        normals + corner);
         corner += count;
     }
     ffd_free(first_normals);
@@ -496,7 +493,7 @@ static void read_positions(const gltf_document *d, mesh_state state, const size_
 {
     size_t part = 0;
     for (size_t v = 0; v < faces->vertex_count; v++) {
-        const size_t vertex = faces->numbers[v];
+        const size_t vertex = faces->vertices[v];
         double *const xyz = faces->positions + 3 * v;
         if (d->mesh_parts[part].repeats_positions || vertex < first[part] ||
             vertex >= first[part] + d->mesh_parts[part].vertex_count)
@@ -524,7 +521,7 @@ ffd_status ffd_gltf_mixed_faces(const mesh_document *document, mesh_state state,
     mixed_work work = {.document = d, .marks = marks};
     mixed_lists all = {0};
     size_t *first;
-    ffd_status status = ffd_parts_number(document, &first, error);
+    ffd_status status = ffd_first_vertices(document, &first, error);
     if (status)
         return status;
     *faces = (mesh_faces){.vertex_count = marks->vertices};

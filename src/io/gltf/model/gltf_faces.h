@@ -4,9 +4,9 @@
 
 #include "io/gltf/read/gltf_document.h"
 
-/* Adds what a mesh's primitives draw for one use to the counts. */
-void ffd_gltf_count_drawing(const gltf_document *document, size_t mesh, size_t *triangles, size_t *lines,
-                            size_t *points);
+/* Adds what a primitive draws for one use to the counts. */
+void ffd_gltf_count_drawing(const gltf_document *document, const gltf_primitive *primitive, size_t *triangles,
+                            size_t *lines, size_t *points);
 
 /* Returns the number of triangles that a primitive draws for one use. */
 size_t ffd_gltf_count_triangles(const gltf_document *document, const gltf_primitive *primitive);

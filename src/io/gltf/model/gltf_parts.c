@@ -35,7 +35,7 @@ static ffd_status count_instances(gltf_document *d, size_t *total, ffd_error *er
         *total += (size_t)instances;
         for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, m, p));)
             targets += (uint64_t)p->target_count * d->mesh_uses[m].node_count;
-        /* Each is looked at, and has a number in the end. */
+        /* Each is looked at, and has an index in the end. */
         if (!status)
             status = ffd_budget_check(&d->base.budget, targets, sizeof *d->targets, error);
     }

@@ -75,10 +75,10 @@ static void choose_instance(const survey *s, const gltf_instance *instance)
     s->nodes[instance->node] |= instance->selected ? HAS_SELECTED : HAS_OTHERS;
     if (!instance->selected)
         return;
-    const int skin = d->model.nodes[instance->node].skin;
+    const gltf_skin *const skin = ffd_gltf_skin_of(d, instance);
     choose_below(s, instance->node);
-    for (size_t j = 0; skin >= 0 && j < d->skins[skin].joint_count; j++)
-        choose_below(s, d->skins[skin].joints[j]);
+    for (size_t j = 0; skin && j < skin->joint_count; j++)
+        choose_below(s, skin->joints[j]);
 }
 
 static void mark_chosen(const survey *s)
@@ -278,7 +278,7 @@ static ffd_status list_nodes(const survey *s, bool all, mesh_places *places, ffd
         return ffd_fail_memory(error);
     for (size_t n = 0; n < d->model.node_count; n++) {
         mesh_place *place = &places->list[places->count];
-        *place = (mesh_place){.number = n, .holds = s->holds[n]};
+        *place = (mesh_place){.index = n, .holds = s->holds[n]};
         memcpy(place->at, d->world + 12 * n + 9, sizeof place->at);
         places->count += is_anchor(s, n, place) && (all || place->kinds);
     }
@@ -334,7 +334,7 @@ ffd_status ffd_gltf_count_skins(const mesh_document *document, const mesh_places
     const bool allocated = marked && shown && joined;
     *count = *loose = 0;
     for (size_t i = 0; i < places->count && allocated; i++)
-        marked[places->list[i].number] = marks[i];
+        marked[places->list[i].index] = marks[i];
     for (size_t n = 0; n < d->model.node_count && allocated; n++)
         if (d->in_scene[n] && d->model.nodes[n].mesh >= 0 && d->model.nodes[n].skin >= 0)
             shown[d->model.nodes[n].skin] = true;

@@ -54,16 +54,18 @@ void ffd_gltf_slerp(const double a[4], const double b[4], double t, double turne
         normalize(turned);
 }
 
-/* The Hermite spline between two keys. Tangents are per second, so they are scaled by the span in seconds. */
-static void spline(const gltf_animation_sampler *sampler, size_t key, double u, double span, double *value)
+/* The Hermite spline between two keys. Tangents are per second, so they are scaled by the interval in
+ * seconds. */
+static void spline(const gltf_animation_sampler *sampler, size_t key, double u, double interval,
+                   double *value)
 {
     const size_t width = sampler->width;
     const double *const v0 = sampler->values + (3 * key + 1) * width, *const out = v0 + width;
     const double *const in = out + width, *const v1 = in + width;
     const double uu = u * u, uuu = uu * u;
     for (size_t i = 0; i < width; i++)
-        value[i] = (2 * uuu - 3 * uu + 1) * v0[i] + span * (uuu - 2 * uu + u) * out[i] +
-                   (3 * uu - 2 * uuu) * v1[i] + span * (uuu - uu) * in[i];
+        value[i] = (2 * uuu - 3 * uu + 1) * v0[i] + interval * (uuu - 2 * uu + u) * out[i] +
+                   (3 * uu - 2 * uuu) * v1[i] + interval * (uuu - uu) * in[i];
 }
 
 static const double *key_value(const gltf_animation_sampler *sampler, size_t key)
@@ -82,9 +84,9 @@ void ffd_gltf_sample(const gltf_animation_sampler *sampler, bool is_rotation, do
         memcpy(value, at, sampler->width * sizeof *value);
         return;
     }
-    const double span = sampler->times[key + 1] - begin, u = (time - begin) / span;
+    const double interval = sampler->times[key + 1] - begin, u = (time - begin) / interval;
     if (sampler->interpolation == GLTF_CUBICSPLINE) {
-        spline(sampler, key, u, span, value);
+        spline(sampler, key, u, interval, value);
         if (is_rotation)
             normalize(value);
     } else if (is_rotation) {

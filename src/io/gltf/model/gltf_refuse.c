@@ -321,25 +321,20 @@ static ffd_status refuse_primitive(const gltf_document *d, const gltf_primitive 
     return FFD_OK;
 }
 
-/* Refuses a skin whose joints or weights cannot be read: they move the vertices of the node. */
-static ffd_status refuse_skin(const gltf_document *d, size_t node, ffd_error *error)
+/* Refuses a skin whose joints or weights cannot be read: they move the vertices of an instance. */
+static ffd_status refuse_skin(const gltf_document *d, const gltf_instance *instance, ffd_error *error)
 {
-    const size_t m = (size_t)d->model.nodes[node].mesh;
-    const gltf_skin *skin = d->model.nodes[node].skin < 0 ? NULL : &d->skins[d->model.nodes[node].skin];
-    ffd_status status = FFD_OK;
-    for (const gltf_primitive *primitive = NULL;
-         skin && !status && (primitive = ffd_gltf_next_primitive(d, m, primitive));) {
-        if (primitive->accessor[GLTF_POSITION] < 0)
-            continue; /* nothing to move, and nobody has checked its influences */
-        if (skin->inverse_bind >= 0)
-            status = ffd_gltf_refuse_unreadable(d, primitive, skin->inverse_bind, error);
-        for (size_t i = 0; i < primitive->influence_count && !status; i++) {
-            status = ffd_gltf_refuse_unreadable(d, primitive, primitive->influences[i].joints, error);
-            if (!status)
-                status = ffd_gltf_refuse_unreadable(d, primitive, primitive->influences[i].weights, error);
-        }
+    const gltf_primitive *const primitive = instance->primitive;
+    const gltf_skin *const skin = ffd_gltf_skin_of(d, instance);
+    if (!skin || primitive->accessor[GLTF_POSITION] < 0)
+        return FFD_OK; /* nothing to move, and nobody has checked its influences */
+    if (skin->inverse_bind >= 0)
+        TRY(ffd_gltf_refuse_unreadable(d, primitive, skin->inverse_bind, error));
+    for (size_t i = 0; i < primitive->influence_count; i++) {
+        TRY(ffd_gltf_refuse_unreadable(d, primitive, primitive->influences[i].joints, error));
+        TRY(ffd_gltf_refuse_unreadable(d, primitive, primitive->influences[i].weights, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status refuse_shared_child(const gltf_document *d, ffd_error *error)
@@ -397,13 +392,11 @@ ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
             *error = d->instancing_error;
         return d->instancing_status;
     }
-    for (size_t m = 0; m < d->model.mesh_count; m++) {
-        const gltf_mesh_uses *uses = &d->mesh_uses[m];
-        for (const gltf_primitive *p = NULL;
-             uses->node_count > 0 && !status && (p = ffd_gltf_next_primitive(d, m, p));)
-            status = refuse_primitive(d, p, error);
-        for (size_t n = 0; uses->nodes && n < uses->node_count && !status; n++)
-            status = refuse_skin(d, uses->nodes[n], error);
+    for (size_t i = 0; i < d->instance_count && !status; i++) {
+        const gltf_instance *const instance = &d->instances[i];
+        status = refuse_primitive(d, instance->primitive, error);
+        if (!status)
+            status = refuse_skin(d, instance, error);
     }
     return status;
 }

@@ -13,7 +13,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Counts and clears the marks of a part. first: the number of its first vertex. */
+/* Counts and clears the marks of a part. first: the index of its first vertex. */
 static uint64_t count_part(const gltf_document *d, size_t part, size_t first, uint8_t *marks)
 {
     uint64_t count = 0;
@@ -64,7 +64,7 @@ uint64_t ffd_gltf_name_part(const mesh_document *document, uint64_t vertex, uint
     const gltf_document *d = ffd_gltf_of(document);
     size_t *first, part = 0;
     *name = 0;
-    if (ffd_parts_number(document, &first, NULL))
+    if (ffd_first_vertices(document, &first, NULL))
         return 0; /* without memory the result has no name, which is not worth a failure */
     while (d->mesh_parts[part].repeats_positions || vertex >= first[part] + d->mesh_parts[part].vertex_count)
         part++;
@@ -83,7 +83,7 @@ uint64_t ffd_gltf_name_part(const mesh_document *document, uint64_t vertex, uint
 typedef struct kind_names {
     selector_kind kind;
     intern_table names;
-    uint32_t *name; /* per element: the number of its name; NO_NAME: none */
+    uint32_t *name; /* per element: the index of its name; NO_NAME: none */
     size_t count;
     size_t *next; /* per element: the next one with the same name; GLTF_NONE: none */
 } kind_names;
@@ -199,7 +199,7 @@ static ffd_status draw(const surveying *s, selector_kind kind, size_t index)
     return kind == SELECT_MESH ? draw_uses(s, index) : draw_material(s, index);
 }
 
-/* Finds the number of an element's name. */
+/* Finds the index of an element's name. */
 static bool read_name(const gltf_document *d, uint32_t element, kind_names *k, uint32_t *name)
 {
     const uint32_t member = ffd_json_tree_member(&d->tree, element, "name");

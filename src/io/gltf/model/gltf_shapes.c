@@ -66,7 +66,7 @@ static size_t part_of_targets(const gltf_instance *instance)
     return normals != GLTF_NONE ? normals : instance->part[GLTF_POSITION];
 }
 
-/* Returns the number of a target. Offsets of attributes that the primitive lacks are ignored; GLTF_NONE if no
+/* Returns the index of a target. Offsets of attributes that the primitive lacks are ignored; GLTF_NONE if no
    others remain. */
 static size_t add_target(const gltf_document *d, target_table *table, const gltf_instance *instance,
                          const int *accessors)
@@ -92,8 +92,8 @@ static void find_targets(gltf_document *d, target_table *table)
     }
 }
 
-/* Sorts the targets by part: numbers[i] becomes the new number of target i. */
-static void sort_targets(gltf_document *d, const target_table *table, size_t *numbers)
+/* Sorts the targets by part: shapes[i] becomes the index of the shape of target i. */
+static void sort_targets(gltf_document *d, const target_table *table, size_t *shapes)
 {
     for (size_t i = 0; i < table->count; i++)
         d->mesh_parts[table->targets[i].part].shape_count++;
@@ -106,22 +106,22 @@ static void sort_targets(gltf_document *d, const target_table *table, size_t *nu
     }
     for (size_t i = 0; i < table->count; i++) {
         const size_t part = table->targets[i].part;
-        numbers[i] = d->parts[part].first_shape + d->mesh_parts[part].shape_count++;
+        shapes[i] = d->parts[part].first_shape + d->mesh_parts[part].shape_count++;
     }
 }
 
-static void fill_shape(gltf_document *d, const part_target *from, size_t number)
+static void fill_shape(gltf_document *d, const part_target *from, size_t index)
 {
-    const size_t index = d->base.part_count + number;
-    d->parts[index] = (gltf_part){.node = d->parts[from->part].node, .first_splat = GLTF_NONE};
-    d->mesh_parts[index] = (mesh_part){.vertex_count = d->mesh_parts[from->part].vertex_count};
+    const size_t part = d->base.part_count + index;
+    d->parts[part] = (gltf_part){.node = d->parts[from->part].node, .first_splat = GLTF_NONE};
+    d->mesh_parts[part] = (mesh_part){.vertex_count = d->mesh_parts[from->part].vertex_count};
     for (int s = 0; s < GLTF_DEFORMED; s++) {
-        d->parts[index].streams[s].accessor = from->accessors[s];
-        d->parts[index].streams[s].components = 3;
-        d->shapes[number].has[s] = from->accessors[s] != GLTF_NONE;
+        d->parts[part].streams[s].accessor = from->accessors[s];
+        d->parts[part].streams[s].components = 3;
+        d->shapes[index].has[s] = from->accessors[s] != GLTF_NONE;
     }
-    if (d->shapes[number].has[GLTF_POSITION])
-        d->shapes[number].rounding = ffd_gltf_rounding(d, from->accessors[GLTF_POSITION]);
+    if (d->shapes[index].has[GLTF_POSITION])
+        d->shapes[index].rounding = ffd_gltf_rounding(d, from->accessors[GLTF_POSITION]);
 }
 
 /* Enlarges the parts by count elements, for the results of targets. */
@@ -143,19 +143,19 @@ static bool grow_parts(gltf_document *d, size_t count)
 
 static ffd_status add_shapes(gltf_document *d, const target_table *table, size_t total, ffd_error *error)
 {
-    size_t *numbers = ffd_alloc(table->count, sizeof *numbers);
-    if (!numbers || !grow_parts(d, table->count)) {
-        ffd_free(numbers);
+    size_t *shapes = ffd_alloc(table->count, sizeof *shapes);
+    if (!shapes || !grow_parts(d, table->count)) {
+        ffd_free(shapes);
         return ffd_fail_memory(error);
     }
-    sort_targets(d, table, numbers);
+    sort_targets(d, table, shapes);
     for (size_t i = 0; i < table->count; i++)
-        fill_shape(d, &table->targets[i], numbers[i]);
+        fill_shape(d, &table->targets[i], shapes[i]);
     d->shape_count = table->count;
     for (size_t i = 0; i < total; i++)
         if (d->targets[i] != GLTF_NONE)
-            d->targets[i] = d->base.part_count + numbers[d->targets[i]];
-    ffd_free(numbers);
+            d->targets[i] = d->base.part_count + shapes[d->targets[i]];
+    ffd_free(shapes);
     return FFD_OK;
 }
 

@@ -65,12 +65,21 @@ static void settle_nodes(gltf_document *d, size_t m)
         d->model.nodes[uses->nodes[n]].skin = -1;
 }
 
+/* Whether one of the nodes that show a mesh has a skin. */
+static bool has_skin(const gltf_document *d, const gltf_mesh_uses *uses)
+{
+    for (size_t n = 0; uses->nodes && n < uses->node_count; n++)
+        if (d->model.nodes[uses->nodes[n]].skin >= 0)
+            return true;
+    return false;
+}
+
 ffd_status ffd_gltf_settle_skins(gltf_document *d, ffd_error *error)
 {
     ffd_status status = FFD_OK;
     for (size_t m = 0; m < d->model.mesh_count && !status; m++) {
         gltf_mesh *const mesh = &d->model.meshes[m];
-        if (!ffd_gltf_has_skin(d, &d->mesh_uses[m]))
+        if (!has_skin(d, &d->mesh_uses[m]))
             continue;
         for (size_t p = 0; p < mesh->primitive_count && !status; p++)
             if (mesh->primitives[p].accessor[GLTF_POSITION] >= 0)
@@ -352,26 +361,19 @@ static ffd_status check_primitive(gltf_document *d, const gltf_skin *skin, const
     return status;
 }
 
-static ffd_status prepare_skin(gltf_document *d, size_t node, size_t *largest, ffd_error *error)
-{
-    const size_t mesh = (size_t)d->model.nodes[node].mesh;
-    gltf_skin *skin = &d->skins[d->model.nodes[node].skin];
-    ffd_status status = skin->matrices ? FFD_OK : make_joint_matrices(d, skin, error);
-    for (const gltf_primitive *p = NULL; status == FFD_OK && (p = ffd_gltf_next_primitive(d, mesh, p));)
-        status = check_primitive(d, skin, p, largest, error);
-    return status;
-}
-
 ffd_status ffd_gltf_prepare_skins(gltf_document *d, ffd_error *error)
 {
     ffd_status status = FFD_OK;
     size_t *largest = ffd_alloc_zero(d->model.accessor_count, sizeof *largest);
     if (!largest)
         return ffd_fail_memory(error);
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t n = 0; d->mesh_uses[m].nodes && n < d->mesh_uses[m].node_count && !status; n++)
-            if (d->model.nodes[d->mesh_uses[m].nodes[n]].skin >= 0)
-                status = prepare_skin(d, d->mesh_uses[m].nodes[n], largest, error);
+    for (size_t i = 0; i < d->instance_count && !status; i++) {
+        gltf_skin *const skin = ffd_gltf_skin_of(d, &d->instances[i]);
+        if (skin && !skin->matrices)
+            status = make_joint_matrices(d, skin, error);
+        if (skin && !status)
+            status = check_primitive(d, skin, d->instances[i].primitive, largest, error);
+    }
     ffd_free(largest);
     return status;
 }

@@ -9,7 +9,7 @@ typedef struct vrm_visit {
     void *context;
 } vrm_visit;
 
-/* Visits a value that is the number of a node. */
+/* Visits a value that is the index of a node. */
 static void visit_node(const vrm_visit *v, uint32_t index, gltf_vrm_role role)
 {
     const size_t node = index == JSON_NONE ? GLTF_NONE : ffd_gltf_node(v->document, index);
@@ -19,7 +19,7 @@ static void visit_node(const vrm_visit *v, uint32_t index, gltf_vrm_role role)
         v->fault(v->context, index);
 }
 
-/* Visits a member of VRM 1.0 that must be the number of a node. */
+/* Visits a member of VRM 1.0 that must be the index of a node. */
 static void visit_member(const vrm_visit *v, uint32_t object, const char *key, gltf_vrm_role role)
 {
     const uint32_t index = ffd_json_tree_member(&v->document->tree, object, key);
@@ -29,7 +29,7 @@ static void visit_member(const vrm_visit *v, uint32_t object, const char *key, g
         v->fault(v->context, object);
 }
 
-/* Visits a number of a node in VRM 0.x, where -1 means none. */
+/* Visits an index of a node in VRM 0.x, where -1 means none. */
 static void visit_old_member(const vrm_visit *v, uint32_t object, const char *key, gltf_vrm_role role)
 {
     const uint32_t value = ffd_json_tree_member(&v->document->tree, object, key);
@@ -172,7 +172,7 @@ static void note_fault(void *context, uint32_t value)
     const gltf_document *const d = check->document;
     char number[40] = "";
     double found;
-    /* A valid number of a node is not shown: the fault is that it stands where an object should. */
+    /* A valid index of a node is not shown: the fault is that it stands where an object should. */
     if (ffd_json_tree_number(&d->tree, value, &found) && ffd_gltf_node(d, value) == GLTF_NONE)
         snprintf(number, sizeof number, ", not %g", found);
     if (check->status == FFD_OK)

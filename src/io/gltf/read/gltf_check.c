@@ -268,20 +268,20 @@ static bool states_indices_elsewhere(const gltf_document *d, uint32_t primitive,
 /* Checks the accessor of a primitive's indices. */
 static ffd_status check_indices(gltf_document *d, gltf_primitive *primitive, ffd_error *error)
 {
-    const int number = primitive->indices;
+    const int index = primitive->indices;
     const uint32_t place = place_of(d, primitive->value, "indices");
-    if (number < 0)
+    if (index < 0)
         return FFD_OK;
-    if ((size_t)number >= d->model.accessor_count)
+    if ((size_t)index >= d->model.accessor_count)
         return ffd_gltf_drop_drawing(d, primitive, place, error,
                                      "there is no accessor %d%s: what the primitive draws is not known",
-                                     number, ffd_only(d->model.accessor_count, "").text);
-    const gltf_accessor *indices = &d->model.accessors[number];
+                                     index, ffd_only(d->model.accessor_count, "").text);
+    const gltf_accessor *indices = &d->model.accessors[index];
     double most;
-    if (states_indices_elsewhere(d, primitive->value, number, &most))
+    if (states_indices_elsewhere(d, primitive->value, index, &most))
         return ffd_gltf_drop_drawing(
             d, primitive, place, error,
-            "accessor %d has no bytes, but its max is %g: what the primitive draws is not known", number,
+            "accessor %d has no bytes, but its max is %g: what the primitive draws is not known", index,
             most);
     if (indices->columns * indices->rows == 1 && !indices->normalized &&
         (indices->component == GLTF_U8 || indices->component == GLTF_U16 || indices->component == GLTF_U32))
@@ -289,7 +289,7 @@ static ffd_status check_indices(gltf_document *d, gltf_primitive *primitive, ffd
     return ffd_gltf_drop_drawing(d, primitive, place, error,
                                  "accessor %d does not hold indices (SCALAR of component type 5121, 5123 or "
                                  "5125): what the primitive draws is not known",
-                                 number);
+                                 index);
 }
 
 static ffd_status check_primitive(gltf_document *d, gltf_primitive *primitive, ffd_error *error)

@@ -301,20 +301,13 @@ static bool is_readable(const gltf_document *d, const gltf_primitive *primitive)
     return readable;
 }
 
-/* Primitives may share an accessor: judged tells which ones have had their turn. */
-static ffd_status judge_mesh(gltf_document *d, size_t mesh, bool *judged, ffd_error *error)
+/* Judges the weights of a primitive. */
+static ffd_status judge_primitive(gltf_document *d, const gltf_primitive *primitive, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (const gltf_primitive *primitive = NULL;
-         status == FFD_OK && (primitive = ffd_gltf_next_primitive(d, mesh, primitive));) {
-        if (!is_readable(d, primitive) || judged[primitive->influences[0].weights])
-            continue;
-        judged[primitive->influences[0].weights] = true;
-        const size_t count = (size_t)d->model.accessors[primitive->influences[0].weights].count;
-        for (size_t at = 0; at < count && !status; at += VERTICES)
-            status = judge_block(d, primitive, at, count - at < VERTICES ? count - at : VERTICES, error);
-    }
-    return status;
+    const size_t count = (size_t)d->model.accessors[primitive->influences[0].weights].count;
+    for (size_t at = 0; at < count; at += VERTICES)
+        TRY(judge_block(d, primitive, at, count - at < VERTICES ? count - at : VERTICES, error));
+    return FFD_OK;
 }
 
 ffd_status ffd_gltf_judge_weights(gltf_document *d, ffd_error *error)
@@ -323,9 +316,14 @@ ffd_status ffd_gltf_judge_weights(gltf_document *d, ffd_error *error)
     bool *const judged = ffd_alloc_zero(d->model.accessor_count, sizeof *judged);
     if (!judged)
         return ffd_fail_memory(error);
-    for (size_t m = 0; m < d->model.mesh_count && !status; m++)
-        if (ffd_gltf_has_skin(d, &d->mesh_uses[m]))
-            status = judge_mesh(d, m, judged, error);
+    for (size_t i = 0; i < d->instance_count && !status; i++) {
+        const gltf_primitive *const primitive = d->instances[i].primitive;
+        if (!ffd_gltf_skin_of(d, &d->instances[i]) || !is_readable(d, primitive) ||
+            judged[primitive->influences[0].weights])
+            continue; /* primitives may share an accessor */
+        judged[primitive->influences[0].weights] = true;
+        status = judge_primitive(d, primitive, error);
+    }
     ffd_free(judged);
     return status;
 }

@@ -11,10 +11,10 @@ void ffd_gltf_splat_name(size_t attribute, char name[GLTF_SPLAT_NAME])
                  attribute == GLTF_SPLAT_ROTATION ? "ROTATION" : "SCALE");
         return;
     }
-    size_t degree = 1, number = attribute - GLTF_SPLAT_HARMONICS;
-    for (; number > 2 * degree; degree++)
-        number -= 2 * degree + 1;
-    snprintf(name, GLTF_SPLAT_NAME, "%s:SH_DEGREE_%zu_COEF_%zu", prefix, degree, number);
+    size_t degree = 1, coefficient = attribute - GLTF_SPLAT_HARMONICS;
+    for (; coefficient > 2 * degree; degree++)
+        coefficient -= 2 * degree + 1;
+    snprintf(name, GLTF_SPLAT_NAME, "%s:SH_DEGREE_%zu_COEF_%zu", prefix, degree, coefficient);
 }
 
 const char *const ffd_gltf_semantic_names[GLTF_DEFORMED] = {"POSITION", "NORMAL", "TANGENT"};
@@ -121,12 +121,4 @@ ffd_status ffd_gltf_flaw(gltf_document *d, uint32_t value, ffd_error *error, con
     const ffd_status status = ffd_gltf_note_flaw(d, value, error, format, arguments);
     va_end(arguments);
     return status;
-}
-
-bool ffd_gltf_has_skin(const gltf_document *d, const gltf_mesh_uses *uses)
-{
-    for (size_t n = 0; uses->nodes && n < uses->node_count; n++)
-        if (d->model.nodes[uses->nodes[n]].skin >= 0)
-            return true;
-    return false;
 }

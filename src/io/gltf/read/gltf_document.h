@@ -63,7 +63,7 @@ typedef struct gltf_stream {
 } gltf_stream;
 
 typedef struct gltf_skin {
-    size_t *joints; /* node numbers */
+    size_t *joints; /* indices of nodes */
     size_t joint_count;
     int inverse_bind; /* accessor; -1: none */
     double *matrices; /* 12 per joint: world matrix * inverse bind matrix; NULL: not needed */
@@ -212,10 +212,8 @@ typedef struct gltf_document {
     /* The reason if the transforms of instances are unknown: the document can then only be described. */
     ffd_status instancing_status;
     ffd_error instancing_error;
-    /* Lent: what saving changes and adds beside results (io/gltf/edit); NULL: nothing. */
-    struct gltf_edit *edit;
-    const gltf_values *replaced; /* lent: animations that the edit replaces; NULL: none */
-    struct gltf_rig *rig;        /* how nodes follow the deformation (io/gltf/edit); NULL: they do not */
+    struct gltf_edit *edit; /* what saving changes and adds beside results (io/gltf/edit) */
+    gltf_values replaced;   /* animations that it replaces */
     /* Per morph target of an instance: the part that holds its offsets; GLTF_NONE: not deformed. */
     size_t *targets;
 } gltf_document;
@@ -274,7 +272,7 @@ static inline bool ffd_gltf_is_among(const gltf_values *list, uint32_t value)
 /* Whether an animation is replaced in the output: what it names does not count. */
 static inline bool ffd_gltf_is_replaced(const gltf_document *document, uint32_t animation)
 {
-    return ffd_gltf_is_among(document->replaced, animation);
+    return ffd_gltf_is_among(&document->replaced, animation);
 }
 
 /* Returns the primitive of a mesh after `primitive`, or the first one if that is NULL; NULL: there is none.
@@ -283,7 +281,7 @@ static inline const gltf_primitive *ffd_gltf_next_primitive(const gltf_document 
                                                             const gltf_primitive *primitive)
 {
     const gltf_mesh *const of = &document->model.meshes[mesh];
-    const size_t next = primitive ? primitive->number + 1 : 0;
+    const size_t next = primitive ? primitive->index + 1 : 0;
     return next < of->primitive_count ? &of->primitives[next] : NULL;
 }
 
@@ -292,7 +290,14 @@ static inline gltf_instance *ffd_gltf_instances(const gltf_document *document,
                                                 const gltf_primitive *primitive)
 {
     const gltf_mesh_uses *const uses = &document->mesh_uses[primitive->mesh];
-    return document->instances + uses->first_instance + primitive->number * uses->node_count;
+    return document->instances + uses->first_instance + primitive->index * uses->node_count;
+}
+
+/* Returns the skin of an instance's node; NULL: it has none, or in mesh space. */
+static inline gltf_skin *ffd_gltf_skin_of(const gltf_document *document, const gltf_instance *instance)
+{
+    const int skin = instance->node == GLTF_NONE ? -1 : document->model.nodes[instance->node].skin;
+    return skin < 0 ? NULL : &document->skins[skin];
 }
 
 /* Whether viewers hide a node (GLTF_NONE: none) of the scene. */
@@ -324,7 +329,7 @@ bool ffd_gltf_has_extension(const gltf_document *document, uint32_t value, const
 /* Returns a JSON value as a whole number below count; GLTF_NONE if it is not one. */
 size_t ffd_gltf_index(const gltf_document *document, uint32_t value, size_t count);
 
-/* Returns a JSON value as the number of a node; GLTF_NONE if it is not one. */
+/* Returns a JSON value as the index of a node; GLTF_NONE if it is not one. */
 size_t ffd_gltf_node(const gltf_document *document, uint32_t value);
 
 /* Returns the first element of the array that is a member of an object; JSON_NONE if absent or empty. */
@@ -338,8 +343,5 @@ void ffd_gltf_splat_name(size_t attribute, char name[GLTF_SPLAT_NAME]);
 
 /* The names of the deformed attributes: "POSITION" and so on. */
 extern const char *const ffd_gltf_semantic_names[GLTF_DEFORMED];
-
-/* Whether one of the nodes that show a mesh has a skin. */
-bool ffd_gltf_has_skin(const gltf_document *document, const gltf_mesh_uses *uses);
 
 #endif

@@ -101,7 +101,7 @@ static walk begin(const gltf_document *d, const row *r, gltf_index_visit *visit,
     return (walk){d, visit, context, {r->kind, JSON_NONE, JSON_NONE, GLTF_NONE, NULL}};
 }
 
-/* Follows a row that begins with a top-level list, element by element, to know their numbers. */
+/* Follows a row that begins with a top-level list, element by element, to know their indices. */
 static void visit_list(walk *w, const char *list, const char *rest)
 {
     const json_tree *tree = &w->document->tree;
@@ -161,7 +161,7 @@ size_t ffd_gltf_pointed(const char *pointer, const char *list, const char **rest
     char *end = NULL;
     if (*digits < '0' || *digits > '9' || (digits[0] == '0' && digits[1] >= '0' && digits[1] <= '9'))
         return GLTF_NONE; /* RFC 6901, 4: no leading zeros */
-    const unsigned long long number = strtoull(digits, &end, 10);
+    const unsigned long long index = strtoull(digits, &end, 10);
     *rest = end;
-    return (*end == '/' || *end == 0) && number < GLTF_NONE ? (size_t)number : GLTF_NONE;
+    return (*end == '/' || *end == 0) && index < GLTF_NONE ? (size_t)index : GLTF_NONE;
 }

@@ -71,7 +71,7 @@ typedef struct gltf_influence {
 } gltf_influence;
 
 typedef struct gltf_primitive {
-    size_t mesh, number;         /* it is primitive `number` of its mesh */
+    size_t mesh, index;          /* it is primitive `index` of its mesh */
     uint32_t value;              /* its JSON object. Set after parsing */
     int accessor[GLTF_DEFORMED]; /* of POSITION, NORMAL, TANGENT */
     gltf_attribute *attributes;  /* all attributes */

@@ -83,9 +83,9 @@ void influences_to_c(const tinygltf::Primitive &from, gltf_primitive &to)
 {
     to.influences = make_array<gltf_influence>(from.attributes.size());
     for (;;) {
-        const std::string number = std::to_string(to.influence_count);
-        const gltf_influence next = {attribute_of(from, "JOINTS_" + number),
-                                     attribute_of(from, "WEIGHTS_" + number)};
+        const std::string set = std::to_string(to.influence_count);
+        const gltf_influence next = {attribute_of(from, "JOINTS_" + set),
+                                     attribute_of(from, "WEIGHTS_" + set)};
         if (next.joints < 0 && next.weights < 0)
             break;
         to.influences[to.influence_count++] = next;
@@ -140,7 +140,7 @@ void to_c(const std::vector<tinygltf::Mesh> &from, gltf_model &to)
         for (const auto &primitive : mesh.primitives) {
             gltf_primitive &next = to.primitives[to.primitive_count++];
             next.mesh = to.mesh_count;
-            next.number = static_cast<size_t>(&next - made.primitives);
+            next.index = static_cast<size_t>(&next - made.primitives);
             to_c(primitive, next);
         }
         to.mesh_count++;

@@ -49,7 +49,7 @@ static stored_bounds find_bounds(const gltf_document *d, size_t a, const gltf_ve
     const gltf_accessor *accessor = &d->model.accessors[a];
     const int component = version ? version->component : accessor->component;
     const size_t size = ffd_gltf_component_size(component);
-    const size_t numbers = version ? ffd_gltf_version_numbers(d, version) : (size_t)accessor->rows;
+    const size_t width = version ? ffd_gltf_version_width(d, version) : (size_t)accessor->rows;
     stored_bounds bounds = {{0}, {0}};
     if (version && version->width == 0 && component == GLTF_FLOAT && accessor->rows == 3)
         return find_float_bounds(version->values, (size_t)accessor->count, tiles_of(d, version));
@@ -58,7 +58,7 @@ static stored_bounds find_bounds(const gltf_document *d, size_t a, const gltf_ve
         const unsigned char *element = version ? encoded : elements + i * d->layouts[a].stride;
         if (version)
             ffd_gltf_version_encode(d, version, i, encoded);
-        for (size_t c = 0; c < numbers; c++) {
+        for (size_t c = 0; c < width; c++) {
             const double value = ffd_gltf_read_number(element + c * size, component, false);
             if (i == 0 || value < bounds.least[c])
                 bounds.least[c] = value;

@@ -120,7 +120,7 @@ static ffd_status set_uri(gltf_saver *saver, size_t b, const char *name, ffd_err
 /* A buffer of the document, whose file is asked for. */
 typedef struct named_buffer {
     const gltf_document *document;
-    size_t number;
+    size_t index;
 } named_buffer;
 
 /* Whether the file belongs to the buffer and to no other buffer of the model. */
@@ -135,7 +135,7 @@ static bool is_own_file(const void *context, const char *target)
         char *const file = ffd_path_sibling(d->path, d->buffers[i].path);
         const bool same = file && ffd_file_same(file, target), is_known = file;
         ffd_free(file);
-        if (!is_known || (same && i != of->number)) /* without memory it is not replaced */
+        if (!is_known || (same && i != of->index)) /* without memory it is not replaced */
             return false;
         own = own || same;
     }

@@ -54,7 +54,7 @@ static new_location location_of(const gltf_saver *saver, size_t a)
 static bool needs_buffer(const gltf_saver *saver)
 {
     const gltf_document *d = saver->document;
-    if (ffd_gltf_added_bytes(d) > 0 && ffd_gltf_added_buffer(d) == d->buffer_values.count)
+    if (d->edit->bytes.size > 0 && ffd_gltf_added_buffer(d) == d->buffer_values.count)
         return true;
     for (size_t i = 0; i < saver->plan.appended_count; i++)
         if (ffd_gltf_append_buffer(d, saver->plan.versions[saver->plan.appended[i]].accessor) ==
@@ -88,7 +88,7 @@ static ffd_status make_buffers(gltf_saver *saver, ffd_error *error)
             .append_count++;
     for (size_t i = 0; i < saver->unpacking_count; i++)
         saver->buffers[saver->unpackings[i].buffer].append_count++;
-    if (ffd_gltf_added_bytes(d) > 0)
+    if (d->edit->bytes.size > 0)
         saver->buffers[ffd_gltf_added_buffer(d)].append_count++;
     for (size_t b = 0; b < saver->buffer_count; b++) {
         gltf_new_buffer *buffer = &saver->buffers[b];
@@ -143,7 +143,7 @@ static void list_overwrites(gltf_saver *saver)
 
 static size_t element_size(const gltf_document *d, const gltf_version *version)
 {
-    return ffd_gltf_version_numbers(d, version) * ffd_gltf_component_size(version->component);
+    return ffd_gltf_version_width(d, version) * ffd_gltf_component_size(version->component);
 }
 
 static ffd_status add_append(const gltf_saver *saver, size_t b, gltf_append append, ffd_error *error)
@@ -163,10 +163,10 @@ static ffd_status add_append(const gltf_saver *saver, size_t b, gltf_append appe
 static ffd_status list_added(const gltf_saver *saver, ffd_error *error)
 {
     const gltf_document *const d = saver->document;
-    const size_t size = ffd_gltf_added_bytes(d);
+    const byte_buffer *const added = &d->edit->bytes;
     const gltf_append append = {
-        .size = size, .version = GLTF_NONE, .bytes = size ? (unsigned char *)d->edit->bytes.data : NULL};
-    return size ? add_append(saver, ffd_gltf_added_buffer(d), append, error) : FFD_OK;
+        .size = added->size, .version = GLTF_NONE, .bytes = (unsigned char *)added->data};
+    return added->size > 0 ? add_append(saver, ffd_gltf_added_buffer(d), append, error) : FFD_OK;
 }
 
 static ffd_status list_unpacked(gltf_saver *saver, ffd_error *error)
@@ -248,7 +248,7 @@ static void put_vectors(const float *xyz, size_t count, unsigned char *bytes)
 /* Whether a version's bytes are those of its values: vectors of three floats, contiguous. */
 static bool has_vectors(const gltf_document *d, const gltf_version *version)
 {
-    return version->component == GLTF_FLOAT && ffd_gltf_version_numbers(d, version) == 3;
+    return version->component == GLTF_FLOAT && ffd_gltf_version_width(d, version) == 3;
 }
 
 static void apply_overwrite(const gltf_document *d, const gltf_overwrite *overwrite, size_t offset,

@@ -2,7 +2,7 @@
    longer needs, and finds bounds of meshes. */
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
-#include "io/gltf/edit/gltf_rig.h"
+#include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/write/gltf_plan.h"
 #include "io/gltf/write/gltf_saver.h"
 #include <string.h>
@@ -161,13 +161,13 @@ typedef struct stale_search {
     bool any;
 } stale_search;
 
-/* Whether the positions of a primitive change for a use of its mesh, as default weights show them. */
-static bool is_primitive_moved(const gltf_saver *saver, const gltf_primitive *primitive, size_t use)
+/* Whether the positions of an instance change, as default weights show them. */
+static bool is_instance_moved(const gltf_saver *saver, const gltf_instance *instance, size_t use)
 {
     const gltf_document *const d = saver->document;
+    const gltf_primitive *const primitive = instance->primitive;
     if (ffd_gltf_version_at(d, &saver->plan, primitive, GLTF_POSITION, use) != GLTF_NONE)
         return true;
-    const gltf_instance *const instance = &ffd_gltf_instances(d, primitive)[use];
     for (size_t k = 0; k < primitive->target_count; k++) {
         const size_t shape = d->targets[instance->first_target + k];
         const size_t slot = GLTF_DEFORMED * (k + 1) + GLTF_POSITION;
@@ -175,14 +175,6 @@ static bool is_primitive_moved(const gltf_saver *saver, const gltf_primitive *pr
             ffd_gltf_version_at(d, &saver->plan, primitive, slot, use) != GLTF_NONE)
             return true;
     }
-    return false;
-}
-
-static bool is_moved(const gltf_saver *saver, size_t m, size_t use)
-{
-    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(saver->document, m, p));)
-        if (is_primitive_moved(saver, p, use))
-            return true;
     return false;
 }
 
@@ -194,29 +186,26 @@ static void mark_node(stale_search *s, size_t n)
     s->any = true;
 }
 
-static void mark_uses(stale_search *s, const gltf_saver *saver, size_t m)
-{
-    const gltf_document *const d = s->document;
-    const gltf_mesh_uses *const uses = &d->mesh_uses[m];
-    const size_t base = saver->plan.base_uses[m];
-    s->meshes[m] = base != GLTF_NONE && is_moved(saver, m, base);
-    s->any = s->any || s->meshes[m];
-    for (size_t i = 0; uses->nodes && i < uses->node_count; i++)
-        if (is_moved(saver, m, i))
-            mark_node(s, uses->nodes[i]);
-}
-
 static void mark_all(stale_search *s, const gltf_saver *saver)
 {
     const gltf_document *const d = s->document;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        mark_uses(s, saver, m);
-    /* In mesh space uses have no nodes. */
+    for (size_t i = 0; i < d->instance_count; i++) {
+        const gltf_instance *const instance = &d->instances[i];
+        const size_t mesh = instance->primitive->mesh;
+        const size_t use = (size_t)(instance - ffd_gltf_instances(d, instance->primitive));
+        if (!is_instance_moved(saver, instance, use))
+            continue;
+        if (use == saver->plan.base_uses[mesh])
+            s->meshes[mesh] = s->any = true;
+        if (instance->node != GLTF_NONE)
+            mark_node(s, instance->node);
+    }
+    /* In mesh space instances have no nodes. */
     for (size_t n = 0; n < d->model.node_count && d->space != FFD_SPACE_SCENE; n++)
         if (d->model.nodes[n].mesh >= 0 && s->meshes[d->model.nodes[n].mesh])
             mark_node(s, n);
-    for (size_t i = 0; d->rig && i < d->rig->node_count; i++)
-        mark_node(s, d->rig->nodes[i].node);
+    for (size_t i = 0; i < d->edit->rig.node_count; i++)
+        mark_node(s, d->edit->rig.nodes[i].node);
 }
 
 static bool is_named_as_bounds(const json_tree *tree, const json_value *value)
@@ -251,8 +240,8 @@ static bool is_value_before(const void *element, const void *value)
     return *(const uint32_t *)element < *(const uint32_t *)value;
 }
 
-/* Returns the number of an element of a list; GLTF_NONE if the list does not have it. */
-static size_t number_in(const gltf_values *list, uint32_t element)
+/* Returns the index of an element of a list; GLTF_NONE if the list does not have it. */
+static size_t index_in(const gltf_values *list, uint32_t element)
 {
     const size_t i = lower_bound(&element, list->values, list->count, sizeof *list->values, is_value_before);
     return i < list->count && list->values[i] == element ? i : GLTF_NONE;
@@ -266,8 +255,8 @@ static bool is_of_changed(const stale_search *s, uint32_t value)
     uint32_t element = value, list = tree->values[value].parent;
     for (; list != 0 && tree->values[list].parent != 0; list = tree->values[list].parent)
         element = list;
-    const size_t node = number_in(&s->document->node_values, element);
-    const size_t mesh = number_in(&s->document->mesh_values, element);
+    const size_t node = index_in(&s->document->node_values, element);
+    const size_t mesh = index_in(&s->document->mesh_values, element);
     if (node != GLTF_NONE)
         return s->nodes[node];
     if (mesh != GLTF_NONE)

@@ -101,7 +101,7 @@ static size_t first_copy(const gltf_plan *plan, size_t mesh)
     return lower_bound(&mesh, plan->copies, plan->copy_count, sizeof *plan->copies, is_of_mesh_before);
 }
 
-/* Writes a reference to a mesh: its number, or a pointer that ends with `rest`. */
+/* Writes a reference to a mesh: its index, or a pointer that ends with `rest`. */
 static void write_name(const gltf_index_place *place, size_t mesh, const char *rest, byte_buffer *text)
 {
     byte_buffer pointer = {0};
@@ -122,7 +122,7 @@ static void write_name(const gltf_index_place *place, size_t mesh, const char *r
 /* Appends a range of the file's JSON as the document's edit changes it: a channel may get another sampler. */
 static void copy_edited(const gltf_document *d, uint32_t begin, uint32_t end, byte_buffer *text)
 {
-    ffd_edits_apply(d->edit ? &d->edit->edits : &(json_edits){0}, d->tree.text, begin, end, text);
+    ffd_edits_apply(&d->edit->edits, d->tree.text, begin, end, text);
 }
 
 /* Repeats an element of a list, for a copy of the mesh that it refers to. */

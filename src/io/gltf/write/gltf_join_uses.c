@@ -54,7 +54,7 @@ static double ulp_of(float size)
 typedef struct shared_mesh {
     const gltf_document *document;
     const gltf_plan *plan;
-    size_t number;
+    size_t index;
     double size[3]; /* the largest coordinates of its vertices before the deformation, per axis */
 } shared_mesh;
 
@@ -188,7 +188,7 @@ static bool agree_in_slot(const shared_mesh *mesh, const gltf_primitive *primiti
 static bool agree(const shared_mesh *mesh, const size_t use[2])
 {
     const gltf_document *const d = mesh->document;
-    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh->number, p));) {
+    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh->index, p));) {
         const gltf_instance *const instances = ffd_gltf_instances(d, p);
         if (!instances[use[0]].selected || !instances[use[1]].selected)
             return false;
@@ -265,14 +265,14 @@ static void drop_joined(size_t mesh, size_t first_copy, size_t first_change, glt
         const gltf_use_group *const leader = &groups[groups[1 + c].leader];
         if (leader->target != c)
             continue;
-        groups[1 + c].number = kept;
+        groups[1 + c].copy = kept;
         plan->copies[kept++] = (gltf_mesh_copy){mesh, leader->use};
     }
     for (size_t i = first_change; i < plan->change_count; i++) {
         const gltf_node_change change = plan->changes[i];
         const size_t target = groups[groups[1 + change.copy - first_copy].leader].target;
         if (target != GLTF_NONE)
-            plan->changes[changed++] = (gltf_node_change){change.node, groups[1 + target].number};
+            plan->changes[changed++] = (gltf_node_change){change.node, groups[1 + target].copy};
     }
     plan->copy_count = kept;
     plan->change_count = changed;

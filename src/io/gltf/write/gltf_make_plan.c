@@ -1,7 +1,6 @@
 /* gltf_make_plan.c - makes the plan of saving. */
 #include "base/memory/memory.h"
 #include "io/gltf/edit/gltf_edit.h"
-#include "io/gltf/edit/gltf_rig.h"
 #include "io/gltf/read/gltf_elements.h"
 #include "io/gltf/read/gltf_users.h"
 #include "io/gltf/write/gltf_plan.h"
@@ -120,11 +119,11 @@ static void choose_component(const gltf_document *d, gltf_version *version)
     version->component = fits ? accessor->component : GLTF_FLOAT;
 }
 
-/* Adds a version for each of the rig's contents, which are all different. */
-static void add_rig(const gltf_rig *rig, gltf_plan *plan)
+/* Adds a version for each of the edit's contents, which are all different. */
+static void add_contents(const gltf_edit *edit, gltf_plan *plan)
 {
-    for (size_t i = 0; i < rig->content_count; i++) {
-        const gltf_rig_content *const content = &rig->contents[i];
+    for (size_t i = 0; i < edit->content_count; i++) {
+        const gltf_content *const content = &edit->contents[i];
         gltf_version *const made = &plan->versions[plan->version_count];
         *made = (gltf_version){.accessor = content->accessor,
                                .values = content->values,
@@ -133,21 +132,21 @@ static void add_rig(const gltf_rig *rig, gltf_plan *plan)
                                .needed = true,
                                .component = GLTF_FLOAT,
                                .output = GLTF_NONE};
-        plan->rig_versions[i] = plan->version_count++;
+        plan->content_versions[i] = plan->version_count++;
     }
 }
 
 static ffd_status make_versions(const gltf_document *d, gltf_plan *plan, ffd_error *error)
 {
     const size_t most = ffd_gltf_part_count(d) * GLTF_DEFORMED;
-    const size_t contents = d->rig ? d->rig->content_count : 0;
+    const size_t contents = d->edit->content_count;
     candidate *candidates = ffd_alloc(most, sizeof *candidates);
-    size_t *numbers = ffd_alloc(most, sizeof *numbers);
+    size_t *indices = ffd_alloc(most, sizeof *indices);
     plan->versions = ffd_alloc(most + contents, sizeof *plan->versions);
-    plan->rig_versions = ffd_alloc(contents, sizeof *plan->rig_versions);
+    plan->content_versions = ffd_alloc(contents, sizeof *plan->content_versions);
     plan->part_versions = ffd_alloc(most, sizeof *plan->part_versions);
     ffd_status status = FFD_OK;
-    if (!candidates || !numbers || !plan->versions || !plan->part_versions || !plan->rig_versions) {
+    if (!candidates || !indices || !plan->versions || !plan->part_versions || !plan->content_versions) {
         status = ffd_fail_memory(error);
         goto done;
     }
@@ -157,17 +156,16 @@ static ffd_status make_versions(const gltf_document *d, gltf_plan *plan, ffd_err
     if (plan->version_count > 0)
         qsort(plan->versions, plan->version_count, sizeof *plan->versions, compare_versions);
     for (size_t i = 0; i < plan->version_count; i++) {
-        numbers[plan->versions[i].order] = i;
+        indices[plan->versions[i].order] = i;
         choose_component(d, &plan->versions[i]);
     }
     for (size_t i = 0; i < most; i++)
         if (plan->part_versions[i] != GLTF_NONE)
-            plan->part_versions[i] = numbers[plan->part_versions[i]];
-    if (d->rig)
-        add_rig(d->rig, plan);
+            plan->part_versions[i] = indices[plan->part_versions[i]];
+    add_contents(d->edit, plan);
 done:
     ffd_free(candidates);
-    ffd_free(numbers);
+    ffd_free(indices);
     return status;
 }
 
@@ -317,10 +315,10 @@ static ffd_status choose_in_place(const gltf_document *d, gltf_plan *plan, ffd_e
     for (size_t i = 0; i < plan->copy_count; i++)
         mark_mesh(d, plan, plan->copies[i].mesh, plan->copies[i].use, original);
     ffd_gltf_mark_other_users(d, original);
-    if (d->rig)
-        ffd_gltf_mark_rig_originals(d, original);
+    if (ffd_gltf_follows(d))
+        ffd_gltf_mark_rig_originals(d, &d->edit->rig, original);
     else
-        ffd_gltf_mark_rig_users(d, d->replaced, original);
+        ffd_gltf_mark_rig_users(d, &d->replaced, original);
     for (size_t a = 0; a < d->model.accessor_count; a++)
         plan->in_place[a] = GLTF_NONE;
     for (size_t v = plan->version_count; v-- > 0;) {

@@ -123,7 +123,7 @@ static bool is_candidate(const gltf_plan *plan, const byte_user *user)
     return user->accessor != GLTF_NONE && plan->in_place[user->accessor] != GLTF_NONE;
 }
 
-/* Whether two accessors are equal except for their numbers, and get the same new content. */
+/* Whether two accessors are equal except for their indices, and get the same new content. */
 static bool agree(const gltf_document *d, const gltf_plan *plan, const byte_user *x, const byte_user *y)
 {
     if (!is_candidate(plan, x) || !is_candidate(plan, y) || x->begin != y->begin || x->end != y->end ||

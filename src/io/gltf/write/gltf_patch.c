@@ -2,7 +2,6 @@
 #include "base/memory/memory.h"
 #include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/edit/gltf_json_insert.h"
-#include "io/gltf/edit/gltf_rig.h"
 #include "io/gltf/read/gltf_elements.h"
 #include "io/gltf/write/gltf_plan.h"
 #include "io/gltf/write/gltf_saver.h"
@@ -109,7 +108,7 @@ static void write_view(const gltf_saver *saver, const gltf_append *append, size_
 {
     const gltf_version *version = &saver->plan.versions[append->version];
     const size_t element =
-        ffd_gltf_version_numbers(saver->document, version) * ffd_gltf_component_size(version->component);
+        ffd_gltf_version_width(saver->document, version) * ffd_gltf_component_size(version->component);
     ffd_buffer_format(text, "%s{\"buffer\":%zu,\"byteOffset\":%zu,\"byteLength\":%zu",
                       text->size > 0 ? "," : "", buffer, append->offset, append->size);
     if (append->stride > element && !append->bytes)
@@ -128,10 +127,10 @@ static void add_views(gltf_saver *saver)
         saver->edits.failed = true;
         return;
     }
-    if (ffd_gltf_added_bytes(d) > 0) {
+    if (d->edit->bytes.size > 0) {
         const size_t buffer = ffd_gltf_added_buffer(d);
         ffd_buffer_format(&text, "{\"buffer\":%zu,\"byteOffset\":%zu,\"byteLength\":%zu}", buffer,
-                          saver->buffers[buffer].appends[0].offset, ffd_gltf_added_bytes(d));
+                          saver->buffers[buffer].appends[0].offset, d->edit->bytes.size);
         next[buffer]++;
     }
     for (size_t i = 0; i < saver->plan.appended_count; i++) {
@@ -269,12 +268,12 @@ static void edit_buffers(gltf_saver *saver)
 static void edit_rig(gltf_saver *saver)
 {
     const gltf_document *d = saver->document;
-    if (!d->rig)
+    if (!ffd_gltf_follows(d))
         return;
-    size_t *const outputs = ffd_alloc(d->rig->content_count, sizeof *outputs);
+    size_t *const outputs = ffd_alloc(d->edit->content_count, sizeof *outputs);
     saver->edits.failed = saver->edits.failed || !outputs;
-    for (size_t i = 0; i < d->rig->content_count && outputs; i++)
-        outputs[i] = saver->plan.versions[saver->plan.rig_versions[i]].output;
+    for (size_t i = 0; i < d->edit->content_count && outputs; i++)
+        outputs[i] = saver->plan.versions[saver->plan.content_versions[i]].output;
     if (outputs) {
         ffd_gltf_edit_nodes(d, &saver->edits);
         ffd_gltf_edit_skins(d, outputs, &saver->edits);

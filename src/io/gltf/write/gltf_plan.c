@@ -42,7 +42,7 @@ void ffd_gltf_version_encode(const gltf_document *d, const gltf_version *version
 
 void ffd_gltf_free_plan(gltf_plan *plan)
 {
-    ffd_free(plan->rig_versions);
+    ffd_free(plan->content_versions);
     ffd_free(plan->versions);
     ffd_free(plan->part_versions);
     ffd_free(plan->base_uses);

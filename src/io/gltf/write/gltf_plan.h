@@ -6,15 +6,15 @@
 
 #include "io/gltf/read/gltf_document.h"
 
-/* A new content of an accessor. As the number of a version, GLTF_NONE means the original content. */
+/* A new content of an accessor. As the index of a version, GLTF_NONE means the original content. */
 typedef struct gltf_version {
     size_t accessor; /* GLTF_NONE: a new accessor of MAT4 */
-    /* Owned by a part: components * count floats, the first components of each element. Owned by the rig:
+    /* Owned by a part: components * count floats, the first components of each element. Owned by the edit:
        count elements of width numbers, all numbers of each element, stored as floats. */
     const float *values;
     size_t width, count; /* width is 0 if a part owns the values */
     size_t components;
-    size_t order; /* number of the first part and attribute with this content */
+    size_t order; /* index of the first part and attribute with this content */
     bool needed;
     int component; /* the component type: the accessor's, or GLTF_FLOAT if that cannot represent the values */
     size_t output; /* its accessor in the output; GLTF_NONE: none yet */
@@ -41,9 +41,9 @@ typedef struct gltf_plan {
     size_t copy_count;
     gltf_node_change *changes;
     size_t change_count;
-    size_t *rig_versions; /* per content of the document's rig */
-    size_t *in_place;     /* per accessor: the version that overwrites it, or GLTF_NONE */
-    size_t *appended;     /* versions with new bufferViews, in order */
+    size_t *content_versions; /* per content of the document's edit */
+    size_t *in_place;         /* per accessor: the version that overwrites it, or GLTF_NONE */
+    size_t *appended;         /* versions with new bufferViews, in order */
     size_t appended_count;
 } gltf_plan;
 
@@ -54,7 +54,7 @@ static inline size_t ffd_gltf_version_count(const gltf_document *document, const
 }
 
 /* Returns the number of components of its elements. */
-static inline size_t ffd_gltf_version_numbers(const gltf_document *document, const gltf_version *version)
+static inline size_t ffd_gltf_version_width(const gltf_document *document, const gltf_version *version)
 {
     return version->width ? version->width : (size_t)document->model.accessors[version->accessor].rows;
 }
@@ -80,7 +80,7 @@ typedef struct gltf_use_group {
     /* If it is a leader: the copy, counted from first_copy, that gets its bits; GLTF_NONE: the mesh
        itself. */
     size_t target;
-    size_t number; /* if it is a target: the new number of its copy in the plan */
+    size_t copy; /* if it is a target: the new index of its copy in the plan */
 } gltf_use_group;
 
 /* Joins the mesh and its copies (plan->copies from first_copy on) where their results agree: each coordinate

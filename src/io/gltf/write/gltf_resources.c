@@ -148,7 +148,7 @@ static ffd_status copy_image(const resources *r, const mesh_resource *image, ffd
     if (!refused.status)
         return FFD_OK;
     return ffd_json_tree_fail(
-        &d->tree, d->image_values.values[image->number], d->name, FFD_E_IO, error,
+        &d->tree, d->image_values.values[image->index], d->name, FFD_E_IO, error,
         "the image \"%s\" cannot be copied: %s; {resources=reference} refers to it where it is", image->path,
         refused.message);
 }
@@ -272,7 +272,7 @@ static ffd_status bring_image(resources *r, size_t image, ffd_error *error)
 static ffd_status refuse_image_name(const resources *r, size_t index, bool own_copy, ffd_error *error)
 {
     const gltf_saver *saver = r->saver;
-    mesh_resource image = {.kind = &ffd_resource_image, .number = index};
+    mesh_resource image = {.kind = &ffd_resource_image, .index = index};
     ffd_status status = image_path(saver->document, index, &image.path, error);
     if (status || !image.path)
         return status;

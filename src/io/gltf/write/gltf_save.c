@@ -2,7 +2,6 @@
 #include "base/little_endian.h"
 #include "base/text/base64.h"
 #include "io/gltf/edit/gltf_edit.h"
-#include "io/gltf/edit/gltf_rig.h"
 #include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/model/gltf_results.h"
 #include "io/gltf/read/gltf_document.h"
@@ -145,7 +144,7 @@ static ffd_status put_glb(const gltf_saver *saver, ffd_error *error)
     if (!status && d->binary)
         status = put(saver, d->input.data + d->glb.rest_begin, sizes.rest, error);
     /* Bytes beyond the stated length are kept only if nothing else changes. */
-    const bool still = saver->plan.version_count == 0 && !d->edit && !(d->rig && d->rig->node_count > 0);
+    const bool still = saver->plan.version_count == 0 && !d->edit->any;
     if (!status && d->binary && still)
         status = put(saver, d->input.data + d->glb.end, d->input.size - d->glb.end, error);
     return status;
@@ -202,10 +201,8 @@ ffd_status ffd_gltf_save_results(mesh_document *document, const mesh_save_option
     saver.binary = options->format == FFD_FORMAT_AUTO ? d->binary : options->format == FFD_FORMAT_GLB;
     saver.in_place = !ffd_output_is_stream(options->path) && !ffd_file_is_stream(d->path) &&
                      ffd_save_meets(options, d->path, options->path);
-    if (d->edit) {
-        ffd_edits_join(&saver.edits, &d->edit->edits);
-        ffd_edits_sort(&d->edit->edits);
-    }
+    ffd_edits_join(&saver.edits, &d->edit->edits);
+    ffd_edits_sort(&d->edit->edits);
     ffd_status status = ffd_gltf_make_plan(d, &saver.plan, error);
     if (!status)
         status = ffd_gltf_make_content(&saver, error);

@@ -122,8 +122,6 @@ void ffd_gltf_add_new_accessors(gltf_saver *saver)
     const gltf_plan *const plan = &saver->plan;
     const size_t first = d->accessor_values.count, count = d->model.accessor_count - first;
     byte_buffer text = {0};
-    if (!d->edit)
-        return;
     size_t *const appended = ffd_alloc(count, sizeof *appended);
     saver->edits.failed = saver->edits.failed || !appended;
     for (size_t i = 0; i < count && appended; i++)
@@ -145,7 +143,7 @@ void ffd_gltf_add_new_accessors(gltf_saver *saver)
 
 bool ffd_gltf_replaces_target(const gltf_document *d, size_t mesh, size_t target)
 {
-    for (size_t k = 0; d->edit && k < d->morph_count; k++)
+    for (size_t k = 0; k < d->morph_count; k++)
         if (d->morphs[k].places[mesh] == target)
             return true;
     return false;
@@ -232,8 +230,6 @@ void ffd_gltf_edit_targets(const gltf_saver *saver, size_t mesh, size_t use, jso
 {
     const gltf_document *const d = saver->document;
     const gltf_mesh_uses *const uses = &d->mesh_uses[mesh];
-    if (!d->edit)
-        return;
     for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh, p));)
         edit_primitive(saver, p, use, edits);
     add_weights(d, d->mesh_values.values[mesh], uses, true, edits);
@@ -244,7 +240,7 @@ void ffd_gltf_edit_targets(const gltf_saver *saver, size_t mesh, size_t use, jso
 void ffd_gltf_edit_node_weights(gltf_saver *saver)
 {
     const gltf_document *const d = saver->document;
-    for (size_t n = 0; n < d->model.node_count && d->edit; n++)
+    for (size_t n = 0; n < d->model.node_count; n++)
         if (d->model.nodes[n].mesh >= 0)
             add_weights(d, d->node_values.values[n], &d->mesh_uses[d->model.nodes[n].mesh], false,
                         &saver->edits);

@@ -35,11 +35,11 @@ static bool is_redirected(const gltf_saver *saver, const gltf_primitive *primiti
     return false;
 }
 
-static void add_unpacking(gltf_saver *saver, size_t *number, gltf_unpacking unpacking)
+static void add_unpacking(gltf_saver *saver, size_t *index, gltf_unpacking unpacking)
 {
-    if (*number != GLTF_NONE)
+    if (*index != GLTF_NONE)
         return;
-    *number = saver->unpacking_count;
+    *index = saver->unpacking_count;
     saver->unpackings[saver->unpacking_count++] = unpacking;
 }
 
@@ -167,7 +167,7 @@ void ffd_gltf_edit_compression(const gltf_saver *saver, size_t mesh, size_t use,
         ffd_log_line(saver->log, FFD_LOG_INFO,
                      "primitive %zu of mesh %zu is written uncompressed (it was " DRACO
                      ") because it is deformed",
-                     p->number, mesh);
+                     p->index, mesh);
     }
 }
 
@@ -195,7 +195,7 @@ static void edit_view(gltf_saver *saver, const gltf_unpacking *unpacking)
                  unpacking->view, ffd_gltf_has_extension(d, view, names[0]) ? names[0] : names[1]);
 }
 
-/* number: that of its new bufferView. */
+/* index: that of its new bufferView. */
 static void edit_accessor(gltf_saver *saver, const gltf_unpacking *unpacking, size_t index)
 {
     const gltf_document *d = saver->document;

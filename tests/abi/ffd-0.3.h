@@ -1,4 +1,4 @@
-/* ffd-0.2.h - the public headers that programs of this ABI were built with (test_abi.py --keep). */
+/* ffd-0.3.h - the public headers that programs of this ABI were built with (test_abi.py --keep). */
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -700,7 +700,7 @@ typedef struct ffd_run_options {
     bool (*progress)(void *user, double done);
     void *user;
 } ffd_run_options;
-void ffd_run_options_init(ffd_run_options *run, size_t size);
+void ffd_run_options_init(ffd_run_options *options, size_t size);
 typedef struct ffd_embedding_desc {
     size_t struct_size;
     const ffd_lattice *lattice;
@@ -711,18 +711,18 @@ typedef struct ffd_embedding_desc {
 } ffd_embedding_desc;
 void ffd_embedding_desc_init(ffd_embedding_desc *desc, size_t size);
 typedef struct ffd_embedding ffd_embedding;
-ffd_status ffd_embedding_create(const ffd_embedding_desc *desc, const ffd_run_options *run,
+ffd_status ffd_embedding_create(const ffd_embedding_desc *desc, const ffd_run_options *options,
                                 ffd_embedding **embedding, ffd_error *error);
 void ffd_embedding_destroy(ffd_embedding **embedding);
 size_t ffd_embedding_get_count(const ffd_embedding *embedding);
 const double *ffd_embedding_get_uvw(const ffd_embedding *embedding);
 const uint8_t *ffd_embedding_get_status(const ffd_embedding *embedding);
 ffd_status ffd_embedding_deform(const ffd_embedding *embedding, const ffd_lattice *moved, ffd_span in,
-                                ffd_span out, double *gradients, const ffd_run_options *run,
+                                ffd_span out, double *gradients, const ffd_run_options *options,
                                 ffd_error *error);
 ffd_status ffd_embedding_deform_some(const ffd_embedding *embedding, const ffd_lattice *moved,
                                      const uint32_t *vertices, size_t count, ffd_span in, ffd_span out,
-                                     double *gradients, const ffd_run_options *run, ffd_error *error);
+                                     double *gradients, const ffd_run_options *options, ffd_error *error);
 ffd_status ffd_embedding_affected(const ffd_embedding *embedding, const size_t *control_points, size_t count,
                                   uint32_t **vertices, size_t *vertex_count, ffd_error *error);
 typedef struct ffd_csr {
@@ -732,23 +732,23 @@ typedef struct ffd_csr {
     double *values;
 } ffd_csr;
 ffd_status ffd_embedding_basis(const ffd_embedding *embedding, const double *weights, ffd_csr *matrix,
-                               const ffd_run_options *run, ffd_error *error);
+                               const ffd_run_options *options, ffd_error *error);
 void ffd_csr_free(ffd_csr *matrix);
 ffd_status ffd_embedding_basis_times(const ffd_embedding *embedding, const double *weights, const double *dq,
-                                     double *dx, const ffd_run_options *run, ffd_error *error);
+                                     double *dx, const ffd_run_options *options, ffd_error *error);
 ffd_status ffd_embedding_basis_transposed(const ffd_embedding *embedding, const double *weights,
-                                          const double *dfdx, double *dfdq, const ffd_run_options *run,
+                                          const double *dfdx, double *dfdq, const ffd_run_options *options,
                                           ffd_error *error);
 ffd_status ffd_embedding_save(const ffd_embedding *embedding, void **bytes, size_t *size, ffd_error *error);
 ffd_status ffd_embedding_load(const void *bytes, size_t size, const ffd_lattice *lattice,
                               ffd_embedding **embedding, ffd_error *error);
 ffd_status ffd_normals_deform(const double *gradients, ffd_span in, ffd_span out, size_t *collapsed,
-                              const ffd_run_options *run, ffd_error *error);
+                              const ffd_run_options *options, ffd_error *error);
 ffd_status ffd_tangents_deform(const double *gradients, ffd_span normals, ffd_span in, ffd_span out,
-                               size_t *collapsed, const ffd_run_options *run, ffd_error *error);
+                               size_t *collapsed, const ffd_run_options *options, ffd_error *error);
 ffd_status ffd_lattice_evaluate_many(const ffd_lattice *lattice, ffd_volume volume, const double *uvw,
-                                     size_t count, double *xyz, double *jacobians, const ffd_run_options *run,
-                                     ffd_error *error);
+                                     size_t count, double *xyz, double *jacobians,
+                                     const ffd_run_options *options, ffd_error *error);
 void ffd_occupy_closed_streams(void);
 void ffd_cleanup_on_signals(void);
 void ffd_guard_inputs(void);

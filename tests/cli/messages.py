@@ -15,14 +15,14 @@ def lines_with(done, *patterns):
     return [line for line in done.err + done.announced if all(re.search(p, line, re.I) for p in patterns)]
 
 
-def told(done, *patterns):
+def one_line(done, *patterns):
     """One line has all of these, and no second one."""
     found = lines_with(done, *patterns)
     check(len(found) == 1, f"expected one line with all of {patterns}, said {done.err + done.announced}")
     return found[0]
 
 
-def not_told(done, *patterns):
+def no_line(done, *patterns):
     found = lines_with(done, *patterns)
     check(not found, f"expected no line with all of {patterns}, said {found}")
 

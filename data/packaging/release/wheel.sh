@@ -1,0 +1,38 @@
+# The Python package with all that it needs, for CPython 3.11 and later; by zig, which compiles for older systems. Read by
+# release.sh.
+set -eu
+case $name in
+wheel)
+    target=x86_64-linux-gnu.2.28
+    platform=manylinux_2_28_x86_64
+    ;;
+wheel-musl)
+    target=x86_64-linux-musl
+    platform=musllinux_1_2_x86_64
+    ;;
+esac
+zig=$("$tools/bin/python3" -c 'import os, ziglang; print(os.path.join(os.path.dirname(ziglang.__file__), "zig"))')
+mkdir -p "$work/zig/$target"
+# Meson asks by --fatal-warnings what the linker knows; zig refuses what it does not know, and that word too.
+for language in cc c++; do
+    cat >"$work/zig/$target/$language" <<EOF
+#!/bin/sh
+for argument; do
+    shift
+    [ "\$argument" = -Wl,--fatal-warnings ] || set -- "\$@" "\$argument"
+done
+exec '$zig' $language -target $target "\$@"
+EOF
+    chmod +x "$work/zig/$target/$language"
+done
+export CCACHE_COMPILERTYPE=clang CCACHE_COMPILERCHECK="string:$("$zig" version) $target"
+export ZIG_GLOBAL_CACHE_DIR="$root/.build-release/zig" ZIG_LOCAL_CACHE_DIR="$root/.build-release/zig"
+# Debian's Python.h includes a header of the processor's folder, which zig does not search.
+mkdir -p "$work/python"
+ln -sf /usr/include/x86_64-linux-gnu "$work/python/"
+# What is installed is told by this name of the system.
+export _PYTHON_HOST_PLATFORM="$platform"
+cd "$source"
+PATH=$tools/bin:$PATH CC="$ccache$work/zig/$target/cc" CXX="$ccache$work/zig/$target/c++" "$tools/bin/python3" -c "
+import sys, mesonpy
+mesonpy.build_wheel(sys.argv[1], {'setup-args': ['--wrap-mode=forcefallback', '-Doptimization=2', '-Dc_args=-I$work/python', '-Dc_link_args=-s', '-Dcpp_link_args=-s']})" "$made"

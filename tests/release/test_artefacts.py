@@ -1,0 +1,204 @@
+#!/usr/bin/env python3
+"""What data/packaging/release.sh has made is what its page says: names, sums, SBOMs, sizes, what it needs of a system and shows to it;
+and does the jobs of the list.
+
+    test_artefacts.py OUT [wheel|wheel-musl|static|source|deb|sums|sbom]...     default: all that OUT holds
+
+The tools are those of `sh .ci/setup release`; numpy comes from the wheels of the suite python.
+"""
+
+import glob
+import hashlib
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tarfile
+import tempfile
+import zipfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+TOOLS = os.path.join(ROOT, ".build-release/venv/bin")
+with open(os.path.join(ROOT, "include/ffd/version.h"), encoding="utf-8") as header:
+    VERSION = re.search(r'#define FFD_VERSION "(.*)"', header.read())[1]
+ABI = ".".join(VERSION.split(".")[:2])
+NAMES = {
+    "wheel": f"ffd_mesh-{VERSION}-cp311-abi3-manylinux_2_28_x86_64.whl",
+    "wheel-musl": f"ffd_mesh-{VERSION}-cp311-abi3-musllinux_1_2_x86_64.whl",
+    "static": f"ffd-{VERSION}-linux-x86_64.tar.xz",
+    "source": f"ffd-{VERSION}.tar.xz",
+    "npm": f"ffd-mesh-{VERSION}.tgz",
+    "deb": f"ffd_{VERSION}-1_amd64.deb",
+}
+MEGABYTE = 1_000_000
+findings = []
+
+
+def check(right, text):
+    if not right:
+        findings.append(text)
+
+
+def run(*command, **more):
+    """Its standard output. A failure ends the test, with what was said."""
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8", errors="replace", check=False, **more)
+    if done.returncode:
+        sys.exit(f"{' '.join(command)}: exit {done.returncode}\n{done.stdout[-4000:]}{done.stderr[-4000:]}")
+    return done.stdout
+
+
+def do_jobs(what, *program, options=()):
+    done = subprocess.run([sys.executable, os.path.join(HERE, "run_jobs.py"), *options, *program], capture_output=True, text=True,
+                          check=False)
+    print(f"{what}: {done.stdout.splitlines()[-1] if done.stdout else done.stderr[-500:]}")
+    check(done.returncode == 0, f"{what}: the job list: {done.stdout[-2000:]}{done.stderr[-500:]}")
+
+
+def needed(path):
+    return set(re.findall(r"\(NEEDED\).*\[(.*)\]", run("readelf", "-d", path)))
+
+
+def shown(path):
+    """The names that a shared object defines for others."""
+    lines = run("nm", "-D", "--defined-only", path).splitlines()
+    return {line.split()[-1].split("@")[0] for line in lines}
+
+
+def unpack(out, name, folder):
+    with tarfile.open(os.path.join(out, NAMES[name])) as archive:
+        archive.extractall(folder, filter="data")
+    return os.path.join(folder, f"ffd-{VERSION}")
+
+
+def test_sums(out):
+    with open(os.path.join(out, "SHA256SUMS"), encoding="utf-8") as file:
+        listed = dict(reversed(line.rstrip("\n").split("  ", 1)) for line in file)
+    artefacts = {name for name in os.listdir(out) if name != "SHA256SUMS" and not name.endswith(".spdx.json")}
+    check(set(listed) == artefacts, f"SHA256SUMS lists {sorted(listed)}, and {sorted(artefacts)} are there")
+    for name, digest in listed.items():
+        with open(os.path.join(out, name), "rb") as file:
+            check(hashlib.sha256(file.read()).hexdigest() == digest, f"{name}: not the sum of SHA256SUMS")
+
+
+def test_sbom(out):
+    for path in sorted(glob.glob(os.path.join(out, "*.spdx.json"))):
+        done = subprocess.run([os.path.join(TOOLS, "pyspdxtools"), "-i", path], capture_output=True, text=True, check=False)
+        check(done.returncode == 0, f"{path}: {done.stdout}{done.stderr}")
+        with open(path, encoding="utf-8") as file:
+            own = json.load(file)["packages"][0]
+        with open(path.removesuffix(".spdx.json"), "rb") as file:
+            check(hashlib.sha256(file.read()).hexdigest() == own["checksums"][0]["checksumValue"], f"{path}: the sum of another file")
+
+
+def test_static(out):
+    with tempfile.TemporaryDirectory() as folder:
+        tree = unpack(out, "static", folder)
+        for name in ("share/man/man1/ffd.1", "share/bash-completion/completions/ffd", "share/zsh/site-functions/_ffd",
+                     "share/doc/ffd/LICENSE", "share/doc/ffd/THIRD-PARTY.md", "share/doc/ffd/licenses/glibc.txt"):
+            check(os.path.isfile(os.path.join(tree, name)), f"static: lacks {name}")
+        program = os.path.join(tree, "bin/ffd")
+        check(not needed(program) and "INTERP" not in run("readelf", "-lW", program), "static: needs a loader or a library")
+        in_empty_root(program, folder)
+        do_jobs("static", program)
+
+
+def in_empty_root(program, folder):
+    """No /proc, no /dev, no home folder, no environment; with workers."""
+    root = os.path.join(folder, "root")
+    os.makedirs(os.path.join(root, "w"))
+    shutil.copy(program, root)
+    for path in ("data/models/spot.obj", "data/lattices/twist.json"):
+        shutil.copy(os.path.join(ROOT, path), os.path.join(root, "w"))
+    enter = [shutil.which("chroot", path="/usr/sbin:/usr/bin"), root, "/ffd"]
+    if os.geteuid() != 0:
+        enter = ["unshare", "--map-root-user", *enter]
+    run(*enter, "deform", "/w/spot.obj", "/w/one.obj", "-l", "/w/twist.json", env={})
+    with open(os.path.join(root, "w/jobs.jsonl"), "w", encoding="utf-8") as file:
+        file.write('{"in": "spot.obj", "lattice": "twist.json", "out": "two.obj"}\n'
+                   '{"in": "spot.obj", "lattice": "twist.json", "out": "three.glb"}\n')
+    run(*enter, "batch", "/w/jobs.jsonl", "-j", "2", env={})
+    with open(os.path.join(root, "w/one.obj"), "rb") as one, open(os.path.join(root, "w/two.obj"), "rb") as two:
+        check(one.read() == two.read(), "static: a worker gives other bytes")
+    check(sorted(os.listdir(root)) == ["ffd", "w"], f"static: makes {os.listdir(root)} in an empty root")
+
+
+def check_wheel(path, name):
+    """What is in it needs the C library alone, and shows its own names alone."""
+    check(os.path.getsize(path) <= 4 * MEGABYTE, f"{name}: {os.path.getsize(path)} bytes")
+    system = {"libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "librt.so.1", "ld-linux-x86-64.so.2", "libc.so"}
+    with tempfile.TemporaryDirectory() as folder:
+        with zipfile.ZipFile(path) as archive:
+            archive.extractall(folder)
+            names = archive.namelist()
+        for library in glob.glob(os.path.join(folder, "**/*.so"), recursive=True):
+            check(needed(library) <= system, f"{name}: {os.path.basename(library)} needs {sorted(needed(library) - system)}")
+            others = {symbol for symbol in shown(library) if not re.match(r"PyInit_|ffd_", symbol)}
+            check(not others, f"{name}: {os.path.basename(library)} shows {sorted(others)[:5]}")
+        check(needed(os.path.join(folder, "ffd_mesh/ffd")) <= system, f"{name}: the program needs more than the C library")
+    for notice in ("LICENSE", "THIRD-PARTY.md", "licenses/draco.txt"):
+        check(any("licenses/" in entry and entry.endswith(notice) for entry in names), f"{name}: lacks {notice}")
+
+
+def test_wheel(out):
+    path = os.path.join(out, NAMES["wheel"])
+    check_wheel(path, "wheel")
+    check("manylinux_2_28_x86_64" in run(os.path.join(TOOLS, "auditwheel"), "show", path).replace("\n", " "), "wheel: auditwheel gives another tag")
+    done = subprocess.run([os.path.join(TOOLS, "abi3audit"), "--strict", path], capture_output=True, text=True, check=False)
+    check(done.returncode == 0, f"wheel: abi3audit: {done.stdout}{done.stderr}")
+    with tempfile.TemporaryDirectory() as folder:
+        run("/usr/bin/python3", "-m", "venv", os.path.join(folder, "venv"))
+        python = os.path.join(folder, "venv/bin/python3")
+        run(python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-index", "--find-links",
+            os.path.join(ROOT, ".build-test/wheels"), path)
+        check(run(os.path.join(folder, "venv/bin/ffd"), "--version").startswith(f"ffd {VERSION}"), "wheel: ffd --version")
+        with_batch = ("import ffd_mesh, sys\n"
+                      "r = ffd_mesh.batch([{'in': sys.argv[1], 'lattice': sys.argv[2], 'out': sys.argv[3]}])\n"
+                      "assert r[0].error is None, r[0].error")
+        environment = {"PATH": "/nowhere", "HOME": folder}
+        run(python, "-c", with_batch, os.path.join(ROOT, "data/models/spot.obj"), os.path.join(ROOT, "data/lattices/twist.json"),
+            os.path.join(folder, "out.obj"), env=environment)
+        do_jobs("wheel, ffd", os.path.join(folder, "venv/bin/ffd"))
+        do_jobs("wheel, -m", python, "-m", "ffd_mesh", options=["--every", "10"])
+
+
+def test_wheel_musl(out):
+    check_wheel(os.path.join(out, NAMES["wheel-musl"]), "wheel-musl")
+
+
+def test_source(out):
+    """It builds without a network, and without the system's libraries."""
+    with tempfile.TemporaryDirectory() as folder:
+        tree = unpack(out, "source", folder)
+        build = os.path.join(folder, "build")
+        environment = dict(os.environ)
+        if shutil.which("ccache"):
+            environment |= {"CC": "ccache gcc", "CXX": "ccache g++", "CCACHE_BASEDIR": folder, "CCACHE_NOHASHDIR": "1"}
+        offline = ["unshare", "--net", "--map-root-user"]
+        run(*offline, "meson", "setup", build, tree, "--wrap-mode=forcefallback", "-Dtests=disabled", "--buildtype=release", env=environment)
+        run(*offline, "ninja", "-C", build, env=environment)
+        check(run(os.path.join(build, "src/cli/ffd"), "--version").startswith(f"ffd {VERSION}"), "source: ffd --version")
+        do_jobs("source", os.path.join(build, "src/cli/ffd"), options=["--every", "10"])
+
+
+def test_deb(out):
+    with tempfile.TemporaryDirectory() as folder:
+        for package in ("ffd", f"libffd{ABI}", "libffd-dev"):
+            run("dpkg-deb", "--extract", os.path.join(out, f"{package}_{VERSION}-1_amd64.deb"), folder)
+        do_jobs("deb", os.path.join(folder, "usr/bin/ffd"))
+
+
+def main():
+    out, *chosen = sys.argv[1:]
+    chosen = chosen or [name for name, file in NAMES.items() if os.path.exists(os.path.join(out, file)) and name != "npm"] + ["sums", "sbom"]
+    for name in chosen:
+        globals()["test_" + name.replace("-", "_")](out)
+    for finding in findings:
+        print(finding)
+    print(f"{', '.join(chosen)}: {len(findings)} findings")
+    sys.exit(bool(findings))
+
+
+main()
