@@ -1,4 +1,5 @@
-/* batch.c - what stands in the program for npm in place of src/batch: WebAssembly has no processes to do jobs in. */
+/* batch.c - what stands in the program for npm in place of src/batch: WebAssembly has no processes to do jobs
+ * in. */
 #include "base/fail.h"
 #include "base/struct_size.h"
 #include <ffd/ffd.h>
@@ -20,9 +21,10 @@ ffd_status ffd_batch_run(const ffd_batch_desc *desc, ffd_batch_result *result, f
 {
     (void)desc;
     (void)result;
-    return ffd_fail(error, FFD_E_UNSUPPORTED,
-                    "batch: the jobs of a batch run in processes, which this build for WebAssembly does not have (the "
-                    "program for your system does them)");
+    return ffd_fail(
+        error, FFD_E_UNSUPPORTED,
+        "batch: the jobs of a batch run in processes, which this build for WebAssembly does not have (the "
+        "program for your system does them)");
 }
 
 bool ffd_worker_main(int argc, char **argv, int *exit_code)

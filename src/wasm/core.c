@@ -1,5 +1,5 @@
-/* core.c - what the package for npm calls beside the public functions: calls whose structs stay in C, and the error of the
-   last call that failed. js/lattice.mjs is the other side. */
+/* core.c - what the package for npm calls beside the public functions: calls whose structs stay in C, and the
+   error of the last call that failed. js/lattice.mjs is the other side. */
 #include <ffd/ffd.h>
 #include <math.h>
 #include <stdio.h>
@@ -12,10 +12,10 @@ CALLED const char *ffd_wasm_error_pointer(void);
 CALLED const char *ffd_wasm_error_line(void);
 CALLED ffd_status ffd_wasm_around(const double *xyz, size_t count, const int *shape, const double *margin,
                                   ffd_lattice **lattice);
-CALLED ffd_status ffd_wasm_embed(ffd_lattice *lattice, void *points, size_t count, ffd_number type, ffd_outside outside,
-                                 double falloff, double snap, ffd_embedding **embedding);
-CALLED ffd_status ffd_wasm_deform(const ffd_embedding *embedding, const ffd_lattice *lattice, void *in, ffd_number in_type,
-                                  void *out, ffd_number out_type);
+CALLED ffd_status ffd_wasm_embed(ffd_lattice *lattice, void *points, size_t count, ffd_number type,
+                                 ffd_outside outside, double falloff, double snap, ffd_embedding **embedding);
+CALLED ffd_status ffd_wasm_deform(const ffd_embedding *embedding, const ffd_lattice *lattice, void *in,
+                                  ffd_number in_type, void *out, ffd_number out_type);
 CALLED const char *ffd_wasm_folds(const ffd_lattice *lattice, double figures[2]);
 
 static ffd_error failure;
@@ -81,8 +81,8 @@ static ffd_status fit(ffd_lattice *lattice, const void *points, size_t count, ff
     return ffd_lattice_fit(lattice, low, high, &failure);
 }
 
-ffd_status ffd_wasm_embed(ffd_lattice *lattice, void *points, size_t count, ffd_number type, ffd_outside outside,
-                          double falloff, double snap, ffd_embedding **embedding)
+ffd_status ffd_wasm_embed(ffd_lattice *lattice, void *points, size_t count, ffd_number type,
+                          ffd_outside outside, double falloff, double snap, ffd_embedding **embedding)
 {
     if (ffd_lattice_needs_bounds(lattice)) {
         const ffd_status status = fit(lattice, points, count, type);
@@ -100,12 +100,13 @@ ffd_status ffd_wasm_embed(ffd_lattice *lattice, void *points, size_t count, ffd_
 }
 
 /* in and out hold the points of the embedding. */
-ffd_status ffd_wasm_deform(const ffd_embedding *embedding, const ffd_lattice *lattice, void *in, ffd_number in_type,
-                           void *out, ffd_number out_type)
+ffd_status ffd_wasm_deform(const ffd_embedding *embedding, const ffd_lattice *lattice, void *in,
+                           ffd_number in_type, void *out, ffd_number out_type)
 {
     const size_t count = ffd_embedding_get_count(embedding);
     return ffd_embedding_deform(embedding, lattice, (ffd_span){.data = in, .count = count, .type = in_type},
-                                (ffd_span){.data = out, .count = count, .type = out_type}, NULL, NULL, &failure);
+                                (ffd_span){.data = out, .count = count, .type = out_type}, NULL, NULL,
+                                &failure);
 }
 
 /* Returns the verdict; NULL: it failed. figures: cells and min_det. */

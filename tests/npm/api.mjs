@@ -204,6 +204,29 @@ test('a .gltf comes with its buffers, whose names follow the result', async (fol
   await assert.rejects(ffd.deform({...mesh, files: {}}, BOX), {code: 3, file: 'spot.gltf'});
 });
 
+// The C library of WebAssembly reads and writes the numbers for which ours falls back to it.
+test('numbers are read and written as by the native program: all powers of two, and random ones', async (folder) => {
+  const bits = BigUint64Array.from(randoms(6 * 20000), (x) => BigInt(Math.floor(x * 2 ** 32)));
+  const random = new Float64Array(BigUint64Array.from({length: 60000}, (_, i) => bits[2 * i] << 32n | bits[2 * i + 1]).buffer);
+  const powers = Array.from({length: 2098}, (_, i) => 2 ** (i - 1074));
+  const numbers = Float64Array.from([...powers, ...random].filter((x) => Number.isFinite(x) && Math.abs(x) < 1e150));
+  const points = numbers.slice(0, numbers.length - numbers.length % 3);
+  writePoints(folder, points);
+  const still = {...FOLDED, moves: []};
+  writeFileSync(join(folder, 'lattice'), JSON.stringify(still));
+  run(folder, ['deform', 'in.ply', 'out.obj', '-l', 'lattice', '-q']);
+  const text = readFileSync(join(folder, 'out.obj'));
+  sameBytes((await ffd.deform({name: 'in.ply', bytes: readFileSync(join(folder, 'in.ply'))}, still, {output: 'out.obj'})).bytes, text, 'written');
+  // With digits that no shortest text has.
+  const extend = (number) => number.replace(/^-?[\d.]+/, (digits) => digits + (digits.includes('.') ? '' : '.') + '0123456789'.repeat(3));
+  const long = String(text).replace(/^v .*/gm, (line) => line.replace(/ (\S+)/g, (_, number) => ' ' + extend(number)));
+  for (const [name, content] of [['short.obj', String(text)], ['long.obj', long]]) {
+    writeFileSync(join(folder, name), content);
+    run(folder, ['deform', name, 'back.ply', '-l', 'lattice', '-q', '--force']);
+    sameBytes((await ffd.deform({name, bytes: content}, still, {output: 'back.ply'})).bytes, readFileSync(join(folder, 'back.ply')), name);
+  }
+});
+
 test('options are those of the program, in camelCase', async (folder) => {
   const bytes = source('data/models/knight.glb'), mesh = {name: 'knight.glb', bytes};
   writeFileSync(join(folder, 'knight.glb'), bytes);

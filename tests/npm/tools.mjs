@@ -1,15 +1,15 @@
-// What the tests of the package for npm share, which are called with PACKAGE FFD ROOT: the package's folder, the native program, the
-// folder of the sources.
+// What the tests of the package for npm share, which are called with PACKAGE FFD ROOT [WORD]: the package's folder, the native
+// program, the folder of the sources; only tests whose names hold WORD.
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
 import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 
-export const [packageFolder, native, root] = process.argv.slice(2);
+export const [packageFolder, native, root, wanted = ''] = process.argv.slice(2);
 
 const tests = [];
-export const test = (name, act) => tests.push({name, act});
+export const test = (name, act) => name.includes(wanted) && tests.push({name, act});
 
 // Runs all tests, each in a folder of its own, and ends the process.
 export async function runAll() {

@@ -69,7 +69,6 @@ def main():
     root, build, version, folder = sys.argv[1:5]
     own, built, dist = os.path.join(root, "src", "wasm", "js"), os.path.join(build, "src", "wasm"), os.path.join(folder, "dist")
     packaging = os.path.join(root, "data", "packaging")
-    npm = os.path.join(packaging, "npm")
     for name in DIST:
         write(os.path.join(dist, name), read(os.path.join(own, name)))
     for name, function in MODULES.items():
@@ -78,13 +77,14 @@ def main():
     write(os.path.join(dist, "ffd-mesh.js"), make_classic(own, built, version))
     write(os.path.join(folder, "bin", "ffd-mesh.mjs"), read(os.path.join(own, "command.mjs")))
     write(os.path.join(folder, "package.json"), read(os.path.join(own, "package.json")).replace("@VERSION@", version))
-    write(os.path.join(folder, "examples", "index.html"), read(os.path.join(npm, "index.html")))
+    write(os.path.join(folder, "examples", "index.html"), read(os.path.join(packaging, "npm", "index.html")))
     write(os.path.join(folder, "README.md"), read(os.path.join(root, "data", "npm.md")))
     write(os.path.join(folder, "LICENSE"), read(os.path.join(root, "LICENSE")))
-    write(os.path.join(folder, "THIRD-PARTY.md"), "".join(read(os.path.join(place, "THIRD-PARTY.md")) for place in (packaging, npm)))
-    for place in (packaging, npm):
-        for name in sorted(os.listdir(os.path.join(place, "licenses"))):
-            write(os.path.join(folder, "licenses", name), read(os.path.join(place, "licenses", name)))
+    notices = read(os.path.join(packaging, "THIRD-PARTY.md"))
+    write(os.path.join(folder, "THIRD-PARTY.md"), notices)
+    for name, places in re.findall(r"\| `([\w-]+\.txt)` \| ([^|]+) \|$", notices, flags=re.MULTILINE):
+        if places == "all" or "npm" in places.split(", "):
+            write(os.path.join(folder, "licenses", name), read(os.path.join(packaging, "licenses", name)))
 
 
 main()

@@ -1,2 +1,3 @@
-# The package for npm (part of release.sh).
+# The package for npm. Read by release.sh.
+set -eu
 sh "$source/data/packaging/npm.sh" "$made" "$work/npm"
