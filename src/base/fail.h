@@ -15,13 +15,21 @@ extern "C" {
 #define FFD_PRINTF(text, first)
 #endif
 
-/* Returns the status of a call that fails, from the function that makes it. For functions in which nothing is
-   to be freed then; others carry the status to the one place where they free. */
+/* Returns the status of a call that fails, from the function that makes it: for functions in which nothing is
+   to be freed then. */
 #define TRY(call)                                                                                            \
     do {                                                                                                     \
         const ffd_status try_status = (call);                                                                \
         if (try_status)                                                                                      \
             return try_status;                                                                               \
+    } while (0)
+
+/* Sets `status` to that of a call, and goes to `end` if it fails: for functions that free something there. */
+#define TRY_END(call)                                                                                        \
+    do {                                                                                                     \
+        status = (call);                                                                                     \
+        if (status)                                                                                          \
+            goto end;                                                                                        \
     } while (0)
 
 /* A failure without a file. Line breaks and control characters in the text are replaced by '?'. */

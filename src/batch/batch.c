@@ -92,12 +92,12 @@ static ffd_status take(const ffd_batch_desc *callers, ffd_batch_desc *desc, ffd_
 {
     ffd_batch_desc_init(desc, sizeof *desc);
     ffd_deform_desc_init(jobs, sizeof *jobs);
-    ffd_status status = ffd_struct_take(desc, sizeof *desc, callers, "ffd_batch_desc", error);
-    if (!status && desc->defaults)
-        status = ffd_struct_take(jobs, sizeof *jobs, desc->defaults, "ffd_deform_desc", error);
+    TRY(ffd_struct_take(desc, sizeof *desc, callers, "ffd_batch_desc", error));
+    if (desc->defaults)
+        TRY(ffd_struct_take(jobs, sizeof *jobs, desc->defaults, "ffd_deform_desc", error));
     desc->defaults = jobs;
-    const char *const why = status ? NULL : find_misfit(desc, jobs);
-    return why ? ffd_fail(error, FFD_E_ARGUMENT, "%s", SPELLED(why)) : status;
+    const char *const why = find_misfit(desc, jobs);
+    return why ? ffd_fail(error, FFD_E_ARGUMENT, "%s", SPELLED(why)) : FFD_OK;
 }
 
 ffd_status ffd_batch_desc_check(const ffd_batch_desc *callers, ffd_error *error)
@@ -135,28 +135,26 @@ ffd_status ffd_batch_run(const ffd_batch_desc *callers, ffd_batch_result *result
     ffd_deform_desc jobs;
     ffd_batch_result found = {.struct_size = sizeof found};
     char program[LONGEST_PATH];
-    ffd_status status = ffd_struct_check(sizeof found, result, "ffd_batch_result", error);
-    if (status)
-        return status;
-    status = take(callers, &given, &jobs, error);
-    if (!status && !given.is_program)
-        status = ffd_worker_program_find(program, error);
-    if (!status) {
-        const batch_desc desc = {.given = &given,
-                                 .jobs = describe_jobs(&given),
-                                 .pool = {.workers = given.workers,
-                                          .program = given.is_program ? NULL : program,
-                                          .timeout = given.timeout,
-                                          .wishes = {.resume = given.resume,
-                                                     .dry = given.dry_run,
-                                                     .stable = given.report_stable,
-                                                     .quality = jobs.quality,
-                                                     .result = given.ended != NULL,
-                                                     .quiet = given.quiet,
-                                                     .verbose = given.verbose && !given.quiet}},
-                                 .force = jobs.force || jobs.if_changed};
-        status = ffd_batch_do(&desc, &found, error);
-    }
+    TRY(ffd_struct_check(sizeof found, result, "ffd_batch_result", error));
+    ffd_status status;
+    TRY_END(take(callers, &given, &jobs, error));
+    if (!given.is_program)
+        TRY_END(ffd_worker_program_find(program, error));
+    const batch_desc desc = {.given = &given,
+                             .jobs = describe_jobs(&given),
+                             .pool = {.workers = given.workers,
+                                      .program = given.is_program ? NULL : program,
+                                      .timeout = given.timeout,
+                                      .wishes = {.resume = given.resume,
+                                                 .dry = given.dry_run,
+                                                 .stable = given.report_stable,
+                                                 .quality = jobs.quality,
+                                                 .result = given.ended != NULL,
+                                                 .quiet = given.quiet,
+                                                 .verbose = given.verbose && !given.quiet}},
+                             .force = jobs.force || jobs.if_changed};
+    TRY_END(ffd_batch_do(&desc, &found, error));
+end:
     ffd_struct_give(&found, sizeof found, result, result->struct_size);
     return status;
 }

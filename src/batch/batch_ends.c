@@ -168,9 +168,8 @@ static ffd_status complete_entry(const batch_run *run, pool_task *task, ffd_erro
 
 static ffd_status report_task(const batch_run *run, ffd_report *report, pool_task *task, ffd_error *error)
 {
-    const ffd_status status = complete_entry(run, task, error);
-    return status ? status
-                  : ffd_report_add_text(report, task->index, task->entry.data, task->entry.size, error);
+    TRY(complete_entry(run, task, error));
+    return ffd_report_add_text(report, task->index, task->entry.data, task->entry.size, error);
 }
 
 static ffd_status show_task(batch_run *run, pool_task *task, ffd_error *error)
@@ -184,11 +183,11 @@ static ffd_status log_task(batch_run *run, const pool_task *task, ffd_error *err
     byte_buffer lines = {0};
     append_lines(task, ffd_run_manifest(run), &lines);
     ffd_buffer_append(&lines, "", 1);
-    const ffd_status status = lines.failed ? ffd_fail_memory(error) : FFD_OK;
-    if (!status) {
-        ffd_progress_print(&run->progress, lines.data);
-        ffd_run_call_ended(run, task, lines.data);
-    }
+    ffd_status status;
+    TRY_END(lines.failed ? ffd_fail_memory(error) : FFD_OK);
+    ffd_progress_print(&run->progress, lines.data);
+    ffd_run_call_ended(run, task, lines.data);
+end:
     ffd_buffer_free(&lines);
     return status;
 }
@@ -212,6 +211,18 @@ static void put_records(const batch_run *run, const pool_task *task)
         ffd_journal_put(run->journal, &task->picture_target, &drawn, "", 0);
 }
 
+/* Learns from the end of a job, and logs it. */
+static ffd_status learn_end(batch_run *run, pool_task *task, ffd_error *error)
+{
+    uint32_t index;
+    TRY(ffd_run_learn(run, task, error));
+    TRY(note_state(&run->meshes, task, error));
+    TRY(log_task(run, task, error));
+    if (task->end.own_box && !ffd_intern(&run->boxed, &task->mesh, sizeof task->mesh, &index))
+        return ffd_fail_memory(error);
+    return FFD_OK;
+}
+
 /* Does what must happen as soon as a job ends, even if earlier jobs still run. */
 static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
 {
@@ -220,30 +231,23 @@ static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
     task->noted = true;
     if (task->end.outcome == OUTCOME_FAILED)
         clear_row(run, task);
-    ffd_status status = ffd_run_learn(run, task, error);
-    if (!status)
-        status = note_state(&run->meshes, task, error);
-    if (!status)
-        status = log_task(run, task, error);
-    uint32_t index;
-    if (!status && task->end.own_box && !ffd_intern(&run->boxed, &task->mesh, sizeof task->mesh, &index))
-        status = ffd_fail_memory(error);
+    const ffd_status learned = learn_end(run, task, error);
     if (task->end.outcome == OUTCOME_FAILED && run->desc->given->stop)
         run->ending = true;
     if (run->journal && task->end.outcome == OUTCOME_DONE && task->end.has_record)
         put_records(run, task);
-    if (!status && run->report && !ffd_report_is_ordered(run->report))
-        status = report_task(run, run->report, task, error);
-    if (!status && run->rows.report)
-        status = report_task(run, run->rows.report, task, error);
-    return status;
+    TRY(learned);
+    if (run->report && !ffd_report_is_ordered(run->report))
+        TRY(report_task(run, run->report, task, error));
+    if (run->rows.report)
+        TRY(report_task(run, run->rows.report, task, error));
+    return FFD_OK;
 }
 
 ffd_status ffd_run_note_ends(batch_run *run, ffd_error *error)
 {
     bool is_first = true; /* no earlier job is still running or waiting */
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < run->count && !status; i++) {
+    for (size_t i = 0; i < run->count; i++) {
         pool_task *const task = run->tasks[i];
         const bool is_valid = !task->job.error.status;
         is_first = is_first && (task->state == TASK_ENDED || task->state == TASK_DROPPED);
@@ -253,10 +257,10 @@ ffd_status ffd_run_note_ends(batch_run *run, ffd_error *error)
             task->state = TASK_DROPPED;
             run->dropped = true;
         } else {
-            status = note_end(run, task, error);
+            TRY(note_end(run, task, error));
         }
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Does what must happen in the order of the jobs. */

@@ -111,11 +111,12 @@ static void check_interrupts(batch_run *run)
    finished. */
 static ffd_status begin_jobs(batch_run *run, ffd_error *error)
 {
-    ffd_status status = read_jobs(run, error);
-    if (!status)
-        status = ffd_run_claim_tasks(run, error);
-    if (!status && !run->ending)
-        status = ffd_pool_assign(run->pool, run->tasks, run->count, error);
+    ffd_status status;
+    TRY_END(read_jobs(run, error));
+    TRY_END(ffd_run_claim_tasks(run, error));
+    if (!run->ending)
+        TRY_END(ffd_pool_assign(run->pool, run->tasks, run->count, error));
+end:
     run->ending = run->ending || status;
     return status;
 }
@@ -150,6 +151,16 @@ static void log_memory_shortage(batch_run *run)
     ffd_run_log_error(run, &note);
 }
 
+/* Handles the ends of jobs, and drops those that wait if the run ends. */
+static ffd_status take_ends(batch_run *run, ffd_error *error)
+{
+    TRY(ffd_run_note_ends(run, error));
+    check_interrupts(run);
+    if (run->ending)
+        TRY(ffd_run_note_ends(run, error)); /* of those that were just stopped */
+    return ffd_run_take_ended(run, error);
+}
+
 static ffd_status run_jobs(batch_run *run, ffd_error *error)
 {
     ffd_status status = FFD_OK, first = FFD_OK;
@@ -160,12 +171,7 @@ static ffd_status run_jobs(batch_run *run, ffd_error *error)
         const ffd_status waited = wait_for_ends(run, first ? NULL : error);
         first = first ? first : waited;
         log_memory_shortage(run);
-        status = ffd_run_note_ends(run, first ? NULL : error);
-        check_interrupts(run);
-        if (!status && run->ending)
-            status = ffd_run_note_ends(run, first ? NULL : error); /* of those that were just stopped */
-        if (!status)
-            status = ffd_run_take_ended(run, first ? NULL : error);
+        status = take_ends(run, first ? NULL : error);
         run->cancelled =
             !ffd_progress_show(&run->progress, &run->counts, ffd_run_fraction(run)) || run->cancelled;
         if (run->count == 0 && (run->ended || run->ending))
@@ -217,13 +223,12 @@ static ffd_status claim_own(batch_run *run, ffd_error *error)
                                run->desc->given->positions,
                                run->rows.list,
                                run->view ? ffd_run_view_page(run->view) : NULL};
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < sizeof own / sizeof *own && !status; i++)
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
         if (own[i] && !ffd_output_is_stream(own[i]))
-            status = ffd_run_reserve(&run->files, own[i], error);
-    if (origin && !status && !ffd_file_is_stream(origin))
-        status = ffd_run_keep(&run->files, origin, error);
-    return status;
+            TRY(ffd_run_reserve(&run->files, own[i], error));
+    if (origin && !ffd_file_is_stream(origin))
+        TRY(ffd_run_keep(&run->files, origin, error));
+    return FFD_OK;
 }
 
 /* Whether there is a file of its own that the run may replace whatever it holds: the array, before the first
@@ -271,35 +276,30 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
 {
     const batch_desc *const desc = run->desc;
     pool_desc pool = desc->pool;
-    ffd_status status = FFD_OK;
     /* Until workers exist, a signal may end the program in the default way. */
     if (desc->given->shared_box) {
         watch(run);
-        status = ffd_batch_measure(&desc->jobs, &pool, desc->given->depfile && !pool.wishes.dry, &run->box,
-                                   &run->box_files, error);
+        TRY(ffd_batch_measure(&desc->jobs, &pool, desc->given->depfile && !pool.wishes.dry, &run->box,
+                              &run->box_files, error));
     }
-    if (!status && desc->given->positions) {
+    if (desc->given->positions) {
         watch(run);
-        status = ffd_run_rows_open(&run->rows, desc, error);
+        TRY(ffd_run_rows_open(&run->rows, desc, error));
     }
-    if (!status)
-        status = ffd_jobs_open(&desc->jobs, &run->source, error);
-    if (!status)
-        status = open_journal(run, error);
+    TRY(ffd_jobs_open(&desc->jobs, &run->source, error));
+    TRY(open_journal(run, error));
     watch(run);
-    if (!status && desc->given->depfile && !pool.wishes.dry)
-        status = ffd_depfile_create(desc->given->depfile, &run->depfile, error);
-    if (!status && desc->given->view)
-        status = open_view(run, error);
-    run->files.manifest = status ? NULL : ffd_run_manifest(run);
-    if (!status)
-        status = claim_own(run, error);
-    if (!status)
-        status = ffd_run_expect(run, replaces_files(run), error);
-    if (!status && desc->given->report)
-        status = ffd_report_create(desc->given->report, pool.wishes.stable, NULL, &run->report, error);
-    if (!status && desc->given->positions)
-        status = ffd_run_rows_place(&run->rows, desc, error);
+    if (desc->given->depfile && !pool.wishes.dry)
+        TRY(ffd_depfile_create(desc->given->depfile, &run->depfile, error));
+    if (desc->given->view)
+        TRY(open_view(run, error));
+    run->files.manifest = ffd_run_manifest(run);
+    TRY(claim_own(run, error));
+    TRY(ffd_run_expect(run, replaces_files(run), error));
+    if (desc->given->report)
+        TRY(ffd_report_create(desc->given->report, pool.wishes.stable, NULL, &run->report, error));
+    if (desc->given->positions)
+        TRY(ffd_run_rows_place(&run->rows, desc, error));
     pool.wishes.report = run->report || run->view || run->rows.report;
     pool.wishes.quality = pool.wishes.quality || run->report || run->view;
     pool.draws = run->view != NULL;
@@ -308,8 +308,8 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
     pool.wishes.records = run->journal != NULL;
     pool.box = desc->given->shared_box ? &run->box : NULL;
     pool.wishes.reports_empty_scan = run->files.comes_once;
-    pool.origin = status ? NULL : ffd_jobs_name(run->source);
-    return status ? status : ffd_pool_create(&pool, &run->pool, error);
+    pool.origin = ffd_jobs_name(run->source);
+    return ffd_pool_create(&pool, &run->pool, error);
 }
 
 static const char *remark_of(const batch_run *run)
@@ -383,9 +383,9 @@ static ffd_status write_depfile(batch_run *run, ffd_error *error)
     byte_buffer rule = {0};
     ffd_status status = FFD_OK;
     if (run->outputs.count)
-        status = ffd_depfile_common_rule(&run->outputs, &run->box_files, &rule, error);
-    if (!status)
-        ffd_depfile_add(run->depfile, &rule);
+        TRY_END(ffd_depfile_common_rule(&run->outputs, &run->box_files, &rule, error));
+    ffd_depfile_add(run->depfile, &rule);
+end:
     ffd_buffer_free(&rule);
     return status ? status : ffd_depfile_write(run->depfile, error);
 }
@@ -395,40 +395,44 @@ static ffd_status refuse_cancelled(ffd_error *error)
     return ffd_fail(error, FFD_E_CANCELLED, "the caller has ended the batch");
 }
 
+static ffd_status run_and_report(batch_run *run, ffd_error *error)
+{
+    ffd_status status = run_jobs(run, error);
+    if (!status && run->cancelled)
+        status = refuse_cancelled(error);
+    if (status)
+        ffd_pool_stop(run->pool);
+    ffd_report *const reports[] = {run->report, run->rows.report};
+    for (int i = 0; i < 2; i++) {
+        const ffd_status reported = reports[i] ? ffd_report_write(reports[i], status ? NULL : error) : FFD_OK;
+        status = status ? status : reported;
+    }
+    const ffd_status shown = run->view ? ffd_run_view_write(run->view, status ? NULL : error) : FFD_OK;
+    status = status ? status : shown;
+    if (!status && run->depfile && !run->counts.failed && !run->dropped)
+        status = write_depfile(run, error);
+    warn_of_flaws(run);
+    log_boxes(run);
+    if (!status) {
+        warn_of_empty_manifest(run);
+        log_kept_array(run);
+    }
+    log_counts(run);
+    if (!status)
+        ffd_progress_end(&run->progress, &run->counts, run->desc->pool.wishes.dry ? "to do" : "done",
+                         SPELLED(remark_of(run)));
+    return status;
+}
+
 ffd_status ffd_batch_do(const batch_desc *desc, ffd_batch_result *result, ffd_error *error)
 {
     batch_run run = {.desc = desc};
     ffd_progress_begin(&run.progress, desc->given);
-    ffd_status status = ffd_batch_check_own_files(desc, error);
-    if (!status)
-        status = open_all(&run, error);
-    if (!status) {
-        status = run_jobs(&run, error);
-        if (!status && run.cancelled)
-            status = refuse_cancelled(error);
-        if (status)
-            ffd_pool_stop(run.pool);
-        ffd_report *const reports[] = {run.report, run.rows.report};
-        for (int i = 0; i < 2; i++) {
-            const ffd_status reported =
-                reports[i] ? ffd_report_write(reports[i], status ? NULL : error) : FFD_OK;
-            status = status ? status : reported;
-        }
-        const ffd_status shown = run.view ? ffd_run_view_write(run.view, status ? NULL : error) : FFD_OK;
-        status = status ? status : shown;
-        if (!status && run.depfile && !run.counts.failed && !run.dropped)
-            status = write_depfile(&run, error);
-        warn_of_flaws(&run);
-        log_boxes(&run);
-        if (!status) {
-            warn_of_empty_manifest(&run);
-            log_kept_array(&run);
-        }
-        log_counts(&run);
-        if (!status)
-            ffd_progress_end(&run.progress, &run.counts, desc->pool.wishes.dry ? "to do" : "done",
-                             SPELLED(remark_of(&run)));
-    }
+    ffd_status status;
+    TRY_END(ffd_batch_check_own_files(desc, error));
+    TRY_END(open_all(&run, error));
+    TRY_END(run_and_report(&run, error));
+end:
     *result = run.counts;
     result->struct_size = sizeof *result;
     result->is_complete = !status && !run.dropped;

@@ -80,13 +80,13 @@ static ffd_status add_images_of_input(hash_list *list, hash_cache *cache, const 
                                       path_list *files, ffd_error *error)
 {
     path_list images = {0};
-    ffd_status status =
-        copies_images(desc) ? ffd_hash_cache_images(cache, &desc->input, &images, error) : FFD_OK;
-    if (!status)
-        status = add_images(list, cache, &images, error);
-    for (size_t i = 0; i < images.count && !status; i++)
+    ffd_status status;
+    TRY_END(copies_images(desc) ? ffd_hash_cache_images(cache, &desc->input, &images, error) : FFD_OK);
+    TRY_END(add_images(list, cache, &images, error));
+    for (size_t i = 0; i < images.count; i++)
         if (ffd_file_exists(images.paths[i]))
-            status = ffd_paths_add(files, images.paths[i], error);
+            TRY_END(ffd_paths_add(files, images.paths[i], error));
+end:
     ffd_paths_free(&images);
     return status;
 }
@@ -97,18 +97,18 @@ static ffd_status add_boxes(hash_list *list, hash_cache *cache, const ffd_deform
 {
     path_list meshes = {0}, read = {0};
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < desc->lattice_count && !status; i++)
-        status = ffd_hash_cache_box_meshes(cache, desc->lattices[i].path, &meshes, error);
-    for (size_t i = 0; i < meshes.count && !status; i++) {
+    for (size_t i = 0; i < desc->lattice_count; i++)
+        TRY_END(ffd_hash_cache_box_meshes(cache, desc->lattices[i].path, &meshes, error));
+    for (size_t i = 0; i < meshes.count; i++) {
         ffd_source source = desc->input;
         source.path = meshes.paths[i];
         source.format = FFD_FORMAT_AUTO;
-        status = ffd_hash_cache_list(cache, &source, &read, error);
+        TRY_END(ffd_hash_cache_list(cache, &source, &read, error));
     }
-    if (!status)
-        status = add_files(list, cache, &read, error);
-    for (size_t i = 0; i < read.count && !status; i++)
-        status = ffd_paths_add(files, read.paths[i], error);
+    TRY_END(add_files(list, cache, &read, error));
+    for (size_t i = 0; i < read.count; i++)
+        TRY_END(ffd_paths_add(files, read.paths[i], error));
+end:
     ffd_paths_free(&meshes);
     ffd_paths_free(&read);
     if (status || !desc->shared_box)
@@ -124,24 +124,21 @@ ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const hash128 *co
 {
     hash_list list = {0};
     path_list others = {0};
-    ffd_status status = add_hash(&list, content, error);
-    if (!status)
-        status = ffd_hash_cache_list(cache, &desc->input, files, error);
-    if (!status)
-        status = add_files(&list, cache, files, error);
-    if (!status)
-        status = add_images_of_input(&list, cache, desc, files, error);
-    for (size_t i = 0; i < desc->lattice_count && !status; i++)
-        status = ffd_paths_add(&others, desc->lattices[i].path, error);
-    if (!status && desc->embedding.path)
-        status = ffd_paths_add(&others, desc->embedding.path, error);
-    if (!status)
-        status = add_files(&list, cache, &others, error);
-    for (size_t i = 0; i < others.count && !status; i++)
-        status = ffd_paths_add(files, others.paths[i], error);
+    ffd_status status;
+    TRY_END(add_hash(&list, content, error));
+    TRY_END(ffd_hash_cache_list(cache, &desc->input, files, error));
+    TRY_END(add_files(&list, cache, files, error));
+    TRY_END(add_images_of_input(&list, cache, desc, files, error));
+    for (size_t i = 0; i < desc->lattice_count; i++)
+        TRY_END(ffd_paths_add(&others, desc->lattices[i].path, error));
+    if (desc->embedding.path)
+        TRY_END(ffd_paths_add(&others, desc->embedding.path, error));
+    TRY_END(add_files(&list, cache, &others, error));
+    for (size_t i = 0; i < others.count; i++)
+        TRY_END(ffd_paths_add(files, others.paths[i], error));
+    TRY_END(add_boxes(&list, cache, desc, files, error));
+end:
     ffd_paths_free(&others);
-    if (!status)
-        status = add_boxes(&list, cache, desc, files, error);
     return finish(&list, status, hash);
 }
 
@@ -163,19 +160,18 @@ static ffd_status list_output(const ffd_source *output, bool has_copies, path_li
                               ffd_error *error)
 {
     ffd_format format;
-    mesh_document *document = NULL;
-    ffd_status status = ffd_source_format(output, &format, error);
-    if (!status && !ffd_format_table(format)->sidecars) {
-        status = ffd_paths_add(files, output->path, error);
-        return !status && has_copies ? find_copies(output->path, ffd_format_table(format), images, error)
-                                     : status;
+    mesh_document *document;
+    TRY(ffd_source_format(output, &format, error));
+    if (!ffd_format_table(format)->sidecars) {
+        TRY(ffd_paths_add(files, output->path, error));
+        return has_copies ? find_copies(output->path, ffd_format_table(format), images, error) : FFD_OK;
     }
-    if (!status)
-        status = ffd_source_open(output, 1, &document, error);
-    if (!status)
-        status = ffd_source_files(output, document, files, error);
-    if (!status && document->format->sidecars)
-        status = document->format->sidecars->list_images(document, images, error);
+    TRY(ffd_source_open(output, 1, &document, error));
+    ffd_status status;
+    TRY_END(ffd_source_files(output, document, files, error));
+    if (document->format->sidecars)
+        TRY_END(document->format->sidecars->list_images(document, images, error));
+end:
     ffd_source_close(&document);
     return status;
 }
@@ -187,11 +183,11 @@ ffd_status ffd_fingerprint_output(const ffd_deform_desc *desc, hash128 *hash, ff
                                .memory = desc->input.memory};
     hash_list list = {0};
     path_list files = {0}, images = {0};
-    ffd_status status = list_output(&output, copies_images(desc), &files, &images, error);
-    if (!status)
-        status = add_files(&list, NULL, &files, error);
-    if (!status)
-        status = add_images(&list, NULL, &images, error);
+    ffd_status status;
+    TRY_END(list_output(&output, copies_images(desc), &files, &images, error));
+    TRY_END(add_files(&list, NULL, &files, error));
+    TRY_END(add_images(&list, NULL, &images, error));
+end:
     ffd_paths_free(&files);
     ffd_paths_free(&images);
     return finish(&list, status, hash);

@@ -86,11 +86,12 @@ static const cached_mesh *find_mesh(const hash_cache *cache, const ffd_source *s
 static ffd_status list_by_document(cached_mesh *mesh, const ffd_source *source, ffd_error *error)
 {
     mesh_document *document = NULL;
-    ffd_status status = ffd_source_open(source, 1, &document, error);
-    if (!status)
-        status = ffd_source_files(source, document, &mesh->files, error);
-    if (!status && document->format->sidecars)
-        status = document->format->sidecars->list_images(document, &mesh->images, error);
+    TRY(ffd_source_open(source, 1, &document, error));
+    ffd_status status;
+    TRY_END(ffd_source_files(source, document, &mesh->files, error));
+    if (document->format->sidecars)
+        TRY_END(document->format->sidecars->list_images(document, &mesh->images, error));
+end:
     ffd_source_close(&document);
     return status;
 }
@@ -121,17 +122,16 @@ static ffd_status scan_source(hash_cache *cache, cached_mesh *mesh, const ffd_so
                               ffd_format format, const file_stamp *stamp, ffd_error *error)
 {
     const mesh_format *const table = ffd_format_table(format);
-    ffd_status status = FFD_OK;
+    mesh->format = format;
     if (stamp)
         mesh->stamp = *stamp;
     if (table->sidecars || !table->resources)
-        status = list_by_document(mesh, source, error);
+        TRY(list_by_document(mesh, source, error));
     else if (stamp)
-        status = list_by_bytes(cache, mesh, source, table, error);
-    if (!status && stamp)
+        TRY(list_by_bytes(cache, mesh, source, table, error));
+    if (stamp)
         mesh->path = ffd_text_copy(source->path);
-    mesh->format = format;
-    return status;
+    return FFD_OK;
 }
 
 /* Finds or reads the file lists of a mesh. The result is borrowed until the next call. */
@@ -198,9 +198,8 @@ static ffd_status scan_bytes(hash_cache *cache, const char *path, const file_sta
     const mesh_format *const table = ffd_format_table(from);
     file_input bytes;
     forget_scan(scan);
-    ffd_status status = load_and_hash(cache, path, stamp, &bytes, error);
-    if (status)
-        return status;
+    TRY(load_and_hash(cache, path, stamp, &bytes, error));
+    ffd_status status = FFD_OK;
     if (table->sidecars)
         scan->sidecars = table->sidecars->count(&bytes, from, to);
     /* A GLB that is made of a .gltf holds its images. */
@@ -222,17 +221,15 @@ ffd_status ffd_hash_cache_scan(hash_cache *cache, const ffd_source *source, ffd_
     ffd_format from;
     file_stamp stamp;
     *sidecars = 0;
-    ffd_status status = ffd_source_format(source, &from, error);
-    if (!status && !ffd_format_table(from)->sidecars) {
+    TRY(ffd_source_format(source, &from, error));
+    if (!ffd_format_table(from)->sidecars) {
         TRY(ffd_hash_cache_images(cache, source, copied, error));
         return copy_list(copied, named, error);
     }
-    if (status || !ffd_file_stamp(source->path, &stamp))
-        return status;
+    if (!ffd_file_stamp(source->path, &stamp))
+        return FFD_OK;
     if (!is_last_scan(&cache->scan, source->path, &stamp, from, to))
-        status = scan_bytes(cache, source->path, &stamp, from, to, error);
-    if (status)
-        return status;
+        TRY(scan_bytes(cache, source->path, &stamp, from, to, error));
     *sidecars = cache->scan.sidecars;
     TRY(copy_list(&cache->scan.named, named, error));
     return copy_list(&cache->scan.copied, copied, error);
@@ -258,14 +255,15 @@ static ffd_status scan_lattice(hash_cache *cache, const char *path, path_list *m
     file_input bytes;
     if (!ffd_file_stamp(path, &stamp) || load_and_hash(cache, path, &stamp, &bytes, NULL))
         return FFD_OK;
-    ffd_status status = ffd_lattice_box_meshes(path, &bytes, meshes, error);
+    const ffd_status status = ffd_lattice_box_meshes(path, &bytes, meshes, error);
     ffd_file_unload(&bytes);
-    cached_file *const file = status ? NULL : find(cache, path, &stamp);
+    TRY(status);
+    cached_file *const file = find(cache, path, &stamp);
     if (!file || file->is_scanned_through)
-        return status;
-    status = copy_list(meshes, &file->meshes, error);
-    file->is_scanned_through = !status;
-    return status;
+        return FFD_OK;
+    TRY(copy_list(meshes, &file->meshes, error));
+    file->is_scanned_through = true;
+    return FFD_OK;
 }
 
 ffd_status ffd_hash_cache_box_meshes(hash_cache *cache, const char *path, path_list *meshes, ffd_error *error)
@@ -275,9 +273,10 @@ ffd_status ffd_hash_cache_box_meshes(hash_cache *cache, const char *path, path_l
     const cached_file *const file = ffd_file_stamp(path, &stamp) ? find(cache, path, &stamp) : NULL;
     if (file && file->is_scanned_through)
         return copy_list(&file->meshes, meshes, error);
-    ffd_status status = scan_lattice(cache, path, &found, error);
-    if (!status)
-        status = copy_list(&found, meshes, error);
+    ffd_status status;
+    TRY_END(scan_lattice(cache, path, &found, error));
+    TRY_END(copy_list(&found, meshes, error));
+end:
     ffd_paths_free(&found);
     return status;
 }

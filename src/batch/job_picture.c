@@ -58,9 +58,10 @@ ffd_status ffd_job_picture_write(const char *path, const ffd_deform_desc *desc, 
     view.output = path;
     view.force = force;
     ffd_result_clear(result);
-    ffd_status status = make_folder(path, &folder, &made, &result->error);
-    if (!status)
-        status = ffd_view_run(&view, result, NULL);
+    ffd_status status;
+    TRY_END(make_folder(path, &folder, &made, &result->error));
+    TRY_END(ffd_view_run(&view, result, NULL));
+end:
     if (status && !result->picture && folder)
         ffd_folder_unmake(folder, made);
     ffd_free(folder);

@@ -248,11 +248,11 @@ ffd_status ffd_journal_open(const char *path, job_journal **journal, ffd_error *
     *journal = ffd_alloc_zero(1, sizeof **journal);
     if (*journal)
         (*journal)->path = ffd_text_copy(path);
-    ffd_status status = folder && *journal && (*journal)->path ? FFD_OK : ffd_fail_memory(error);
-    if (!status)
-        status = ffd_folder_make(folder, &made, error);
-    if (!status)
-        status = open_table(*journal, error);
+    ffd_status status;
+    TRY_END(folder && *journal && (*journal)->path ? FFD_OK : ffd_fail_memory(error));
+    TRY_END(ffd_folder_make(folder, &made, error));
+    TRY_END(open_table(*journal, error));
+end:
     ffd_free(folder);
     if (status)
         ffd_journal_close(journal);

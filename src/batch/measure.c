@@ -77,7 +77,6 @@ static ffd_status read_jobs(measuring *m, ffd_error *error)
 
 static ffd_status take_task(measuring *m, const pool_task *task, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     if (task->end.outcome == OUTCOME_FAILED)
         return FFD_OK;
     if (m->counts) {
@@ -86,9 +85,9 @@ static ffd_status take_task(measuring *m, const pool_task *task, ffd_error *erro
         return FFD_OK;
     }
     ffd_shown_box_join(m->box, &task->end.box);
-    for (size_t at = 0; at < task->rule.size && !status; at += strlen(task->rule.data + at) + 1)
-        status = ffd_paths_add(m->files, task->rule.data + at, error);
-    return status;
+    for (size_t at = 0; at < task->rule.size; at += strlen(task->rule.data + at) + 1)
+        TRY(ffd_paths_add(m->files, task->rule.data + at, error));
+    return FFD_OK;
 }
 
 static ffd_status take_ended(measuring *m, ffd_error *error)
@@ -110,19 +109,16 @@ static ffd_status take_ended(measuring *m, ffd_error *error)
 
 static ffd_status measure_all(measuring *m, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    while (!status && !ffd_interrupt_requested()) {
-        status = read_jobs(m, error);
-        if (!status)
-            status = ffd_pool_assign(m->pool, m->tasks, m->count, error);
-        if (!status && (ffd_pool_running(m->pool) > 0 || m->starved))
+    while (!ffd_interrupt_requested()) {
+        TRY(read_jobs(m, error));
+        TRY(ffd_pool_assign(m->pool, m->tasks, m->count, error));
+        if (ffd_pool_running(m->pool) > 0 || m->starved)
             ffd_pool_wait(m->pool, -1, POLL);
-        if (!status)
-            status = take_ended(m, error);
+        TRY(take_ended(m, error));
         if (m->count == 0 && (m->ended || m->found))
             break;
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Sends the jobs of all shards to workers. member: the reason, for messages. */
@@ -136,12 +132,12 @@ static ffd_status measure(measuring *m, const job_source_desc *jobs, pool_desc *
                                    : "standard input and pipes can be read only once");
     all.shard = 0;
     all.shards = 1;
-    ffd_status status = ffd_jobs_open(&all, &m->source, error);
-    pool->origin = status ? NULL : ffd_jobs_name(m->source);
-    if (!status)
-        status = ffd_pool_create(pool, &m->pool, error);
-    if (!status)
-        status = measure_all(m, error);
+    ffd_status status;
+    TRY_END(ffd_jobs_open(&all, &m->source, error));
+    pool->origin = ffd_jobs_name(m->source);
+    TRY_END(ffd_pool_create(pool, &m->pool, error));
+    TRY_END(measure_all(m, error));
+end:
     if (m->pool)
         ffd_pool_stop(m->pool);
     for (size_t i = 0; i < m->count; i++)

@@ -57,14 +57,13 @@ static ffd_status check_reads(const own_file *file, const job_source_desc *jobs,
 
 static ffd_status check_all(const own_file *files, size_t count, const batch_desc *desc, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < count && !status; i++) {
-        for (size_t j = 0; j < i && files[i].path && !status; j++)
-            status = files[j].path ? check_pair(&files[j], &files[i], error) : FFD_OK;
-        if (files[i].path && !status)
-            status = check_reads(&files[i], &desc->jobs, error);
+    for (size_t i = 0; i < count; i++) {
+        for (size_t j = 0; j < i && files[i].path; j++)
+            TRY(files[j].path ? check_pair(&files[j], &files[i], error) : FFD_OK);
+        if (files[i].path)
+            TRY(check_reads(&files[i], &desc->jobs, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_batch_check_own_files(const batch_desc *desc, ffd_error *error)

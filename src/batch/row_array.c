@@ -106,10 +106,12 @@ static ffd_status write_empty(const row_array *array, file_output *output, ffd_e
     if (!nan)
         return ffd_fail_memory(error);
     fill_nan(array, nan, PIECE);
-    ffd_status status = ffd_output_write(output, head, make_head(array, head), error);
-    for (uint64_t left = array->rows * row_size(array); left > 0 && !status && !ffd_interrupt_requested();
+    ffd_status status;
+    TRY_END(ffd_output_write(output, head, make_head(array, head), error));
+    for (uint64_t left = array->rows * row_size(array); left > 0 && !ffd_interrupt_requested();
          left -= piece_of(left))
-        status = ffd_output_write(output, nan, piece_of(left), error);
+        TRY_END(ffd_output_write(output, nan, piece_of(left), error));
+end:
     ffd_free(nan);
     return status;
 }
@@ -117,12 +119,13 @@ static ffd_status write_empty(const row_array *array, file_output *output, ffd_e
 /* *busy: another run is writing the file. */
 static ffd_status begin(const row_array *array, bool force, file_output **made, bool *busy, ffd_error *error)
 {
-    ffd_status status = ffd_output_create(made, error);
-    if (!status)
-        status = ffd_output_begin(*made, array->path, force, error);
-    *busy = status && *made && ffd_output_was_busy(*made);
-    if (!status)
-        status = write_empty(array, *made, error);
+    *busy = false;
+    TRY(ffd_output_create(made, error));
+    ffd_status status;
+    TRY_END(ffd_output_begin(*made, array->path, force, error));
+    TRY_END(write_empty(array, *made, error));
+end:
+    *busy = status && ffd_output_was_busy(*made);
     if (status || ffd_interrupt_requested())
         ffd_output_destroy(made);
     return status;
@@ -237,11 +240,13 @@ static ffd_status write_row(const row_array *array, uint64_t row, update_file *f
     unsigned char *const piece = ffd_alloc(PIECE, 1);
     if (!piece)
         return ffd_fail_memory(error);
-    ffd_status status = unmark(array, row, file) ? FFD_OK : fail_writing(array, error);
-    if (!status && count > 1)
-        status = write_vertices(array, row, file, positions, 1, count, piece, error);
-    if (!status && count > 0)
-        status = write_vertices(array, row, file, positions, 0, 1, piece, error);
+    ffd_status status;
+    TRY_END(unmark(array, row, file) ? FFD_OK : fail_writing(array, error));
+    if (count > 1)
+        TRY_END(write_vertices(array, row, file, positions, 1, count, piece, error));
+    if (count > 0)
+        TRY_END(write_vertices(array, row, file, positions, 0, 1, piece, error));
+end:
     ffd_free(piece);
     return status;
 }
@@ -294,11 +299,10 @@ static bool hash_bytes(const row_array *array, uint64_t row, const update_file *
 ffd_status ffd_row_hash(const row_array *array, uint64_t row, hash128 *hash, ffd_error *error)
 {
     update_file *file;
-    ffd_status status = open_array(array, &file, error);
-    if (status)
-        return status;
+    TRY(open_array(array, &file, error));
     unsigned char *const piece = ffd_alloc(PIECE, 1);
     hash_stream *const stream = ffd_hash_stream_create();
+    ffd_status status = FFD_OK;
     if (!piece || !stream)
         status = ffd_fail_memory(error);
     else if (!hash_bytes(array, row, file, piece, stream))

@@ -26,11 +26,10 @@ static void find_record(batch_run *run, pool_task *task)
 static ffd_status claim_picture(batch_run *run, pool_task *task, ffd_error *error)
 {
     hash128 file;
-    const ffd_status status = ffd_run_view_name(run->view, task, &file, error);
+    TRY(ffd_run_view_name(run->view, task, &file, error));
     const hash_block blocks[] = {{file.bytes, sizeof file.bytes}, {task->target.bytes, sizeof file.bytes}};
-    if (!status)
-        task->picture_target = ffd_hash_blocks(blocks, 2);
-    return status ? status : ffd_claims_picture(&run->files, &task->job, &file, task->picture, error);
+    task->picture_target = ffd_hash_blocks(blocks, 2);
+    return ffd_claims_picture(&run->files, &task->job, &file, task->picture, error);
 }
 
 /* Claims the output of a job and checks what it reads, as far as its description says it. */
@@ -72,22 +71,20 @@ static ffd_status claim_others(batch_run *run, pool_task *task, ffd_error *error
 {
     batch_job *const job = &task->job;
     job_kind kind = ffd_job_kind(job);
-    ffd_status status = FFD_OK;
     if (task->has_scanned)
-        status = ffd_reads_learn(&run->files, job, &kind, task->order.needs.mesh, task->end.sidecars,
-                                 &task->found, error);
+        TRY(ffd_reads_learn(&run->files, job, &kind, task->order.needs.mesh, task->end.sidecars, &task->found,
+                            error));
     ffd_buffer_free(&task->found);
     task->has_scanned = false;
     kind.is_scanned = ffd_reads_know_mesh(&run->files, &kind);
-    if (!status && ffd_claims_need_survey(&run->files, job, &kind))
+    if (ffd_claims_need_survey(&run->files, job, &kind))
         return ask_for_survey(run, task, error);
-    if (!status)
-        status = ffd_claims_others(&run->files, job, &kind, &task->passed, error);
+    TRY(ffd_claims_others(&run->files, job, &kind, &task->passed, error));
     task->order.is_unsurveyed = ffd_claims_lack_survey(&run->files, job, &kind);
     task->state = TASK_WAITS;
-    if (!status && job->error.status)
+    if (job->error.status)
         ffd_run_fail_task(task);
-    return status;
+    return FFD_OK;
 }
 
 /* Whether a task that waits for a worker to scan needs that no more, since others were scanned. */
@@ -114,18 +111,16 @@ ffd_status ffd_run_learn(batch_run *run, pool_task *task, ffd_error *error)
    are. */
 ffd_status ffd_run_claim_tasks(batch_run *run, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     bool settled = true;
-    for (size_t i = 0; i < run->count && !status; i++) {
+    for (size_t i = 0; i < run->count; i++) {
         pool_task *const task = run->tasks[i];
         if (task->scanned_in_vain && !task->is_learned)
-            status = ffd_run_learn(run, task, error);
-        if (!status && task->state == TASK_ORDERED &&
-            (settled || (task->has_mesh_name && !run->files.comes_once)))
-            status = claim_output(run, task, error);
-        if (!status && settled && (task->state == TASK_LOOKED || is_known(run, task)))
-            status = claim_others(run, task, error);
+            TRY(ffd_run_learn(run, task, error));
+        if (task->state == TASK_ORDERED && (settled || (task->has_mesh_name && !run->files.comes_once)))
+            TRY(claim_output(run, task, error));
+        if (settled && (task->state == TASK_LOOKED || is_known(run, task)))
+            TRY(claim_others(run, task, error));
         settled = settled && ffd_task_is_settled(task);
     }
-    return status;
+    return FFD_OK;
 }

@@ -39,18 +39,19 @@ static ffd_status keep(batch_run *run, batch_job *job, ffd_error *error)
 static ffd_status expect_next(batch_run *run, bool checks, line_state *state, ffd_error *error)
 {
     batch_job job = {0};
-    ffd_status status = ffd_jobs_next(run->source, &job, state, error);
-    if (!status && *state == LINE_READ && !job.error.status) {
+    ffd_status status;
+    TRY_END(ffd_jobs_next(run->source, &job, state, error));
+    if (*state == LINE_READ && !job.error.status) {
         if (checks)
             ffd_reads_check_own(&run->files, &job);
-        status = job.error.status;
-        if (status && error)
+        if (job.error.status && error)
             *error = job.error;
-        if (!status)
-            status = ffd_claims_expect(&run->files, &job, error);
+        TRY_END(job.error.status);
+        TRY_END(ffd_claims_expect(&run->files, &job, error));
     }
-    if (!status && *state == LINE_READ)
+    if (*state == LINE_READ)
         return keep(run, &job, error);
+end:
     ffd_job_free(&job);
     return status;
 }
@@ -59,16 +60,15 @@ ffd_status ffd_run_expect(batch_run *run, bool checks, ffd_error *error)
 {
     const job_source_desc *const jobs = &run->desc->jobs;
     line_state state = LINE_READ;
-    ffd_status status = FFD_OK;
     run->files.comes_once = ffd_jobs_come_once(jobs);
     run->files.has_odd_outputs = run->files.comes_once || run->view;
     if (run->files.comes_once)
         return FFD_OK;
     run->early.are_all = true;
-    while (!status && state == LINE_READ && !ffd_interrupt_requested())
-        status = expect_next(run, checks, &state, error);
-    if (status || run->early.are_all)
-        return status;
+    while (state == LINE_READ && !ffd_interrupt_requested())
+        TRY(expect_next(run, checks, &state, error));
+    if (run->early.are_all)
+        return FFD_OK;
     ffd_jobs_close(&run->source);
     return ffd_jobs_open(jobs, &run->source, error);
 }

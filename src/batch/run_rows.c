@@ -31,11 +31,9 @@ static ffd_status measure(run_rows *rows, const batch_desc *desc, ffd_error *err
     all.shard = 0;
     all.shards = 1;
     /* It refuses jobs that can be read only once. */
-    ffd_status status =
-        ffd_batch_count_vertices(&desc->jobs, &desc->pool, &rows->array.vertices, &rows->is_there, error);
-    if (!status)
-        status = ffd_jobs_total(&all, &rows->array.rows, error);
-    return status ? status : ffd_rows_check_size(&rows->array, error);
+    TRY(ffd_batch_count_vertices(&desc->jobs, &desc->pool, &rows->array.vertices, &rows->is_there, error));
+    TRY(ffd_jobs_total(&all, &rows->array.rows, error));
+    return ffd_rows_check_size(&rows->array, error);
 }
 
 /* An existing array stays if others may be writing to it, or if this run resumes it. */
@@ -43,7 +41,7 @@ static ffd_status make_array(run_rows *rows, const batch_desc *desc, ffd_error *
 {
     const bool is_shared = desc->jobs.shards > 1, joins = is_shared || desc->jobs.resume;
     bool is_there;
-    ffd_status status = ffd_rows_find(&rows->array, &is_there, error);
+    const ffd_status status = ffd_rows_find(&rows->array, &is_there, error);
     rows->replaces = desc->force && !is_shared;
     if (status && !(status == FFD_E_EXISTS && rows->replaces))
         return status;
@@ -51,24 +49,23 @@ static ffd_status make_array(run_rows *rows, const batch_desc *desc, ffd_error *
     if (rows->goes_on)
         return FFD_OK;
     const bool force = desc->force || is_shared;
-    status = is_there && rows->replaces ? ffd_rows_check_replaced(&rows->array, error) : FFD_OK;
-    if (!status && (is_there || desc->pool.wishes.dry)) /* report all refusals before any work */
-        status = ffd_output_check(rows->array.path, force, error);
-    if (status || desc->pool.wishes.dry)
-        return status;
-    return ffd_rows_make(&rows->array, rows->replaces, &rows->made, error);
+    if (is_there && rows->replaces)
+        TRY(ffd_rows_check_replaced(&rows->array, error));
+    if (is_there || desc->pool.wishes.dry) /* report all refusals before any work */
+        TRY(ffd_output_check(rows->array.path, force, error));
+    return desc->pool.wishes.dry ? FFD_OK : ffd_rows_make(&rows->array, rows->replaces, &rows->made, error);
 }
 
 ffd_status ffd_run_rows_open(run_rows *rows, const batch_desc *desc, ffd_error *error)
 {
-    rows->list = ffd_run_rows_list(desc);
-    ffd_status status = rows->list ? FFD_OK : ffd_fail_memory(error);
-    if (!status)
-        status = measure(rows, desc, error);
-    if (!status && rows->is_there)
-        status = make_array(rows, desc, error);
     rows->file = ffd_place_of(NULL, desc->given->positions);
-    return status ? status : ffd_report_check(rows->list, error);
+    rows->list = ffd_run_rows_list(desc);
+    if (!rows->list)
+        return ffd_fail_memory(error);
+    TRY(measure(rows, desc, error));
+    if (rows->is_there)
+        TRY(make_array(rows, desc, error));
+    return ffd_report_check(rows->list, error);
 }
 
 ffd_status ffd_run_rows_place(run_rows *rows, const batch_desc *desc, ffd_error *error)

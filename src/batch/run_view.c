@@ -44,16 +44,13 @@ static ffd_status begin_page(run_view *view, ffd_error *error)
 static ffd_status open_view(run_view *view, ffd_error *error)
 {
     const run_view_desc *const desc = &view->desc;
-    ffd_status status = FFD_OK;
     view->page = ffd_run_view_page_of(desc->folder, desc->shard, desc->shards);
     if (!view->page)
         return ffd_fail_memory(error);
     if (!desc->dry)
-        status = begin_page(view, error);
+        TRY(begin_page(view, error));
     else if (ffd_file_exists(view->page))
-        status = ffd_output_check(view->page, desc->force, error);
-    if (status)
-        return status;
+        TRY(ffd_output_check(view->page, desc->force, error));
     view->resolved = ffd_path_resolve(desc->folder);
     if (!view->resolved)
         view->resolved = ffd_text_copy(desc->folder);

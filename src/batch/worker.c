@@ -181,11 +181,13 @@ static ffd_status hash_files(batch_worker *worker, const wire_task *task, const 
     path_list files = {0};
     if (!task->wishes.records && !task->wishes.dry && !task->wishes.depfile)
         return FFD_OK;
+    ffd_status status;
     /* In a dry run this also shows that they can be read. */
-    ffd_status status = ffd_fingerprint_inputs(desc, &task->content, &worker->hashes, &files,
-                                               &answer->end.record.inputs, error);
-    if (!status && task->wishes.depfile && !task->wishes.dry && desc->output)
-        status = ffd_depfile_rule(desc->output, &files, &worker->rule, error);
+    TRY_END(ffd_fingerprint_inputs(desc, &task->content, &worker->hashes, &files, &answer->end.record.inputs,
+                                   error));
+    if (task->wishes.depfile && !task->wishes.dry && desc->output)
+        TRY_END(ffd_depfile_rule(desc->output, &files, &worker->rule, error));
+end:
     ffd_paths_free(&files);
     return status;
 }
@@ -198,9 +200,8 @@ static ffd_status plan(const ffd_deform_desc *desc, ffd_error *error)
                                .set = desc->set,
                                .set_count = desc->set_count,
                                .mesh = &desc->input};
-    const ffd_status status =
-        desc->output ? ffd_output_check(desc->output, desc->force || desc->if_changed, error) : FFD_OK;
-    return status ? status : ffd_chain_check(&files, error);
+    TRY(desc->output ? ffd_output_check(desc->output, desc->force || desc->if_changed, error) : FFD_OK);
+    return ffd_chain_check(&files, error);
 }
 
 /* Draws the picture of a job that was done or refused by a gate. result: of the job; replaced if only the
@@ -338,10 +339,12 @@ static ffd_status measure(batch_worker *worker, const wire_task *task, const ffd
                           wire_answer *answer, ffd_error *error)
 {
     path_list files = {0};
-    const ffd_status status = ffd_shown_box_add(&answer->end.box, &desc->input, desc->only, desc->only_count,
-                                                task->wishes.depfile ? &files : NULL, NULL, error);
-    for (size_t i = 0; i < files.count && !status; i++)
+    ffd_status status;
+    TRY_END(ffd_shown_box_add(&answer->end.box, &desc->input, desc->only, desc->only_count,
+                              task->wishes.depfile ? &files : NULL, NULL, error));
+    for (size_t i = 0; i < files.count; i++)
         ffd_buffer_append(&worker->rule, files.paths[i], strlen(files.paths[i]) + 1);
+end:
     ffd_paths_free(&files);
     return status;
 }
@@ -376,30 +379,24 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const cha
 {
     const ffd_shared_box shared = {.box = task->box};
     const unsigned losses = ffd_mapping_losses();
-    ffd_status status = take_row(task, row, desc, answer, &result->error);
-    if (!status && task->order.scans)
-        status = ffd_job_scan(&worker->hashes, task, desc, &worker->rule, answer, &result->error);
-    if (status || answer->scanned)
-        return status;
+    ffd_error *const error = &result->error;
+    TRY(take_row(task, row, desc, answer, error));
+    if (task->order.scans)
+        TRY(ffd_job_scan(&worker->hashes, task, desc, &worker->rule, answer, error));
+    if (answer->scanned)
+        return FFD_OK;
     if (task->order.scans && task->wishes.reports_empty_scan)
-        status = send_nothing_found(&result->error);
-    if (status)
-        return status;
-    if (task->wishes.count) {
-        status = count_vertices(task, desc, answer, &result->error);
-        return ffd_mapping_judge(losses, status, &result->error);
-    }
+        TRY(send_nothing_found(error));
+    if (task->wishes.count)
+        return ffd_mapping_judge(losses, count_vertices(task, desc, answer, error), error);
     /* Files that a killed run has set aside are restored before they are read. */
     if (desc->in_place && !task->wishes.dry)
-        status = ffd_restore_output(desc->input.path, &result->error);
-    if (!status && task->wishes.measure)
-        return measure(worker, task, desc, answer, &result->error);
+        TRY(ffd_restore_output(desc->input.path, error));
+    if (task->wishes.measure)
+        return measure(worker, task, desc, answer, error);
     desc->shared_box = task->has_box ? &shared : NULL;
-    if (!status)
-        status = hash_files(worker, task, desc, answer, &result->error);
-    status = ffd_mapping_judge(losses, status, &result->error);
-    if (!status)
-        status = do_job(worker, task, *picture ? picture : NULL, row, desc, answer, result);
+    TRY(ffd_mapping_judge(losses, hash_files(worker, task, desc, answer, error), error));
+    const ffd_status status = do_job(worker, task, *picture ? picture : NULL, row, desc, answer, result);
     answer->end.own_box = result->own_box;
     return status;
 }
@@ -412,15 +409,14 @@ static ffd_status take_passed(batch_worker *worker, const wire_task *task, const
     const mesh_format *const format = ffd_format_table(ffd_job_output_format(desc));
     if (!format || !format->sidecars)
         return FFD_OK;
-    ffd_status status = ffd_output_set_create(&worker->output_set, error);
-    for (uint32_t i = 0; i < task->passed_count && !status; i++) {
+    TRY(ffd_output_set_create(&worker->output_set, error));
+    for (uint32_t i = 0; i < task->passed_count; i++) {
         const char *const users = next_text(text);
-        status = ffd_users_add(&worker->output_set->users.users, text, users, error);
+        TRY(ffd_users_add(&worker->output_set->users.users, text, users, error));
         text = next_text(users);
     }
-    if (!status)
-        worker->output_set->users.is_complete = !task->order.is_unsurveyed;
-    return status;
+    worker->output_set->users.is_complete = !task->order.is_unsurveyed;
+    return FFD_OK;
 }
 
 /* Finds the settings of the job and the other texts. */
@@ -428,9 +424,7 @@ static ffd_status take_texts(batch_worker *worker, ffd_error *error)
 {
     const char *at = worker->text.data;
     ffd_deform_desc *const desc = &worker->desc;
-    const ffd_status status = ffd_settings_take(&at, desc, error);
-    if (status)
-        return status;
+    TRY(ffd_settings_take(&at, desc, error));
     desc->input.path = at;
     task_texts *const texts = &worker->texts;
     texts->origin = next_text(at);

@@ -18,10 +18,7 @@ static ffd_status find_shorter(const ffd_locator *locator, const double *xyz, si
             theirs = *allowance;
             theirs.rounding = allowance->rounding ? allowance->rounding + 3 * first : NULL;
         }
-        const ffd_status status =
-            ffd_locator_find_near(locator, xyz + 3 * first, some, allowance ? &theirs : NULL, own, error);
-        if (status)
-            return status;
+        TRY(ffd_locator_find_near(locator, xyz + 3 * first, some, allowance ? &theirs : NULL, own, error));
         for (size_t i = 0; i < some; i++)
             memcpy(callers + size * (first + i), &own[i], size);
     }
@@ -33,7 +30,6 @@ ffd_status ffd_locator_locate(const ffd_locator *locator, const double *xyz, siz
                               size_t location_size, ffd_error *error)
 {
     ffd_border_allowance allowance = {.snap = 0};
-    ffd_status status = FFD_OK;
     if (!location_size || location_size % _Alignof(ffd_location) || location_size > sizeof *locations)
         return ffd_fail(
             error, FFD_E_ARGUMENT,
@@ -41,10 +37,7 @@ ffd_status ffd_locator_locate(const ffd_locator *locator, const double *xyz, siz
             "from a newer header",
             location_size, sizeof *locations);
     if (callers_allowance)
-        status =
-            ffd_struct_take(&allowance, sizeof allowance, callers_allowance, "ffd_border_allowance", error);
-    if (status)
-        return status;
+        TRY(ffd_struct_take(&allowance, sizeof allowance, callers_allowance, "ffd_border_allowance", error));
     const ffd_border_allowance *const own = callers_allowance ? &allowance : NULL;
     return location_size == sizeof *locations
                ? ffd_locator_find_near(locator, xyz, count, own, locations, error)

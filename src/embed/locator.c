@@ -70,17 +70,17 @@ ffd_status ffd_locator_create_for(const ffd_lattice *lattice, ffd_isa isa, ffd_l
         return ffd_fail_memory(error);
     }
     find_origin(made);
-
-    ffd_status status = FFD_OK;
     bool separable = false;
+    ffd_status status = FFD_OK;
     if (ffd_affine_detect(made)) {
         made->method = METHOD_AFFINE;
     } else {
-        status = ffd_separable_detect(made, &separable, error);
+        TRY_END(ffd_separable_detect(made, &separable, error));
         made->method = separable ? METHOD_SEPARABLE : METHOD_GENERAL;
-        if (!status && !separable)
-            status = ffd_cells_create(made, error);
+        if (!separable)
+            TRY_END(ffd_cells_create(made, error));
     }
+end:
     if (status)
         ffd_locator_destroy(&made);
     *locator = made;
@@ -148,14 +148,16 @@ static ffd_status find_general(const ffd_locator *locator, const double *xyz, si
 {
     search_scratch *scratch = NULL;
     double *p = ffd_alloc(CELLS_AT_ONCE, 3 * sizeof *p);
-    ffd_status status = p ? FFD_OK : ffd_fail_memory(error);
-    for (size_t first = 0; first < count && !status; first += CELLS_AT_ONCE) {
+    ffd_status status;
+    TRY_END(p ? FFD_OK : ffd_fail_memory(error));
+    for (size_t first = 0; first < count; first += CELLS_AT_ONCE) {
         const size_t size = count - first < CELLS_AT_ONCE ? count - first : CELLS_AT_ONCE;
         for (size_t i = 0; i < size; i++)
             if (!begin(locator, xyz + 3 * (first + i), p + 3 * i, &locations[first + i]))
                 p[3 * i] = NAN;
-        status = ffd_cells_find_many(locator, p, size, &scratch, locations + first, error);
+        TRY_END(ffd_cells_find_many(locator, p, size, &scratch, locations + first, error));
     }
+end:
     ffd_search_scratch_free(scratch);
     ffd_free(p);
     return status;
@@ -180,9 +182,8 @@ ffd_status ffd_locator_find_near(const ffd_locator *locator, const double *xyz, 
                                  const ffd_border_allowance *allowance, ffd_location *locations,
                                  ffd_error *error)
 {
-    const ffd_status status = ffd_locator_find(locator, xyz, count, locations, error);
-    return status || !allowance ? status
-                                : ffd_near_border_find(locator, xyz, count, allowance, locations, error);
+    TRY(ffd_locator_find(locator, xyz, count, locations, error));
+    return allowance ? ffd_near_border_find(locator, xyz, count, allowance, locations, error) : FFD_OK;
 }
 
 bool ffd_locator_has_seam(const ffd_locator *locator, int direction)

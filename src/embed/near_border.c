@@ -124,19 +124,18 @@ ffd_status ffd_near_border_find(const ffd_locator *locator, const double *xyz, s
                                 const ffd_border_allowance *allowance, ffd_location *locations,
                                 ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     if (!allowance->rounding && !(allowance->snap > 0))
         return FFD_OK;
-    for (size_t i = 0; i < count && !status; i++) {
+    for (size_t i = 0; i < count; i++) {
         const double *const p = xyz + 3 * i, *const rounding = allowance->rounding;
         border_reach reach;
         if (!isnan(locations[i].uvw[0]) || !vec_is_finite(p) ||
             !find_reach(locator, p, rounding ? rounding + 3 * i : NULL, allowance->snap, &reach) ||
             !is_near_hull(locator, p, &reach))
             continue;
-        status = retry(locator, p, &reach, &locations[i], error);
+        TRY(retry(locator, p, &reach, &locations[i], error));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* A cheap test: returns whether a point may be inside with its rounding cell and snap, both doubled to allow
@@ -170,10 +169,9 @@ ffd_status ffd_near_border_miss(const ffd_locator *locator, const double p[3], d
     if (!vec_is_finite(p) || !is_near(&locator->hull, p, none, reach))
         return FFD_OK;
     *searched = locator->method != METHOD_AFFINE;
-    ffd_status status = ffd_locator_border(locator, &border, error);
-    if (!status)
-        status = ffd_boundary_find(border, p, reach, &nearest, error);
-    if (!status && nearest.found)
+    TRY(ffd_locator_border(locator, &border, error));
+    TRY(ffd_boundary_find(border, p, reach, &nearest, error));
+    if (nearest.found)
         *miss = nearest.distance;
-    return status;
+    return FFD_OK;
 }

@@ -237,20 +237,16 @@ static ffd_status find(const ffd_lattice *lattice, int threads, ffd_folds *folds
     folds->relative_to = FFD_FOLDS_TO_PLACE;
     if (ffd_fold_is_affine(lattice, &folds->min_det))
         return FFD_OK;
-    ffd_status status = ffd_fold_plan_make(lattice, &work.plan, error);
-    if (!status)
-        status = allocate(&work, threads, error);
-    if (status)
-        goto out;
+    ffd_status status;
+    TRY_END(ffd_fold_plan_make(lattice, &work.plan, error));
+    TRY_END(allocate(&work, threads, error));
     folds->relative_to = work.plan.volume.is_mean ? FFD_FOLDS_TO_MEAN : FFD_FOLDS_TO_BOUNDS;
     decide_all(&work);
-    status = ffd_deadline_check(error);
-    if (status)
-        goto out;
+    TRY_END(ffd_deadline_check(error));
     folds->min_det = refine(&work, join_tiles(&work, folds));
     if (folds->witness.is_there) /* the witness' value can be below the bound by rounding */
         folds->min_det = fmin(folds->min_det, folds->witness.det);
-out:
+end:
     for (int i = 0; i < work.workers; i++)
         ffd_fold_scratch_destroy(work.scratch[i]);
     ffd_free(work.scratch);

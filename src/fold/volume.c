@@ -99,22 +99,18 @@ static ffd_status add_direction(const fold_plan *plan, int a, const face_scale *
                                 ffd_error *error)
 {
     volume_face face = {.plan = plan};
-    ffd_status status = ffd_face_net_create(plan->lattice, a, &face.net, error);
+    TRY(ffd_face_net_create(plan->lattice, a, &face.net, error));
     const int order[3] = {plan->order[face.net.b], plan->order[face.net.c], 1};
     const size_t count = ffd_bernstein_count(order), scratch = ffd_determinant_scratch(order, false);
-    if (status)
-        return status;
     face.coefficients = ffd_alloc(N * count + 9 * count + scratch + 9 * count, sizeof(double));
-    if (!face.coefficients) {
-        status = ffd_fail_memory(error);
-        goto out;
-    }
+    ffd_status status;
+    TRY_END(face.coefficients ? FFD_OK : ffd_fail_memory(error));
     face.rows = face.coefficients + N * count;
     face.scratch = face.rows + 9 * count;
     face.product = face.scratch + scratch;
     for (int end = 0; end < 2; end++)
         add_face(&face, scale, end, total);
-out:
+end:
     ffd_face_net_free(&face.net);
     ffd_free(face.coefficients);
     return status;

@@ -42,11 +42,11 @@ ffd_status ffd_format_open(const mesh_format *format, file_input *input, const f
                            mesh_document **document, ffd_error *error)
 {
     const ffd_status status = format->open(input, source, document, error);
-    if (!status)
-        (*document)->format = format;
-    else if (status == FFD_E_INVALID && error)
+    if (status == FFD_E_INVALID && error)
         mention_content(format, input, error);
-    return status;
+    TRY(status);
+    (*document)->format = format;
+    return FFD_OK;
 }
 
 ffd_format ffd_format_from_name(const char *name)

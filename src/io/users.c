@@ -12,13 +12,14 @@ static ffd_status add_model(const mesh_format *format, const char *path, path_li
     path_list named = {0};
     if (ffd_file_load(path, &bytes, NULL))
         return FFD_OK;
-    ffd_status status = format->resources->find_named(path, &bytes, &(mesh_named){.files = &named}, error);
-    ffd_file_unload(&bytes);
-    for (size_t i = 0; i < named.count && !status; i++) {
-        status = ffd_paths_add(pairs, path, error);
-        if (!status)
-            status = ffd_paths_add(pairs, named.paths[i], error);
+    ffd_status status;
+    TRY_END(format->resources->find_named(path, &bytes, &(mesh_named){.files = &named}, error));
+    for (size_t i = 0; i < named.count; i++) {
+        TRY_END(ffd_paths_add(pairs, path, error));
+        TRY_END(ffd_paths_add(pairs, named.paths[i], error));
     }
+end:
+    ffd_file_unload(&bytes);
     ffd_paths_free(&named);
     return status;
 }
@@ -26,8 +27,9 @@ static ffd_status add_model(const mesh_format *format, const char *path, path_li
 ffd_status ffd_users_list(const char *folder, path_list *pairs, ffd_error *error)
 {
     path_list names = {0};
-    ffd_status status = ffd_folder_list(folder, &names, error);
-    for (size_t i = 0; i < names.count && !status; i++) {
+    ffd_status status;
+    TRY_END(ffd_folder_list(folder, &names, error));
+    for (size_t i = 0; i < names.count; i++) {
         const mesh_format *const format = ffd_format_table(ffd_format_from_name(names.paths[i]));
         if (!format || !format->sidecars)
             continue;
@@ -35,7 +37,9 @@ ffd_status ffd_users_list(const char *folder, path_list *pairs, ffd_error *error
             strcmp(folder, ".") == 0 ? ffd_text_copy(names.paths[i]) : ffd_path_join(folder, names.paths[i]);
         status = path ? add_model(format, path, pairs, error) : ffd_fail_memory(error);
         ffd_free(path);
+        TRY_END(status);
     }
+end:
     ffd_paths_free(&names);
     return status;
 }

@@ -63,11 +63,11 @@ static ffd_status open_and_compare(const ffd_compare_desc *desc, ffd_comparison 
     if (!(desc->tolerance >= 0) || !(desc->direction_tolerance >= 0))
         return ffd_fail(error, FFD_E_ARGUMENT, "a tolerance must not be negative");
     const unsigned losses = ffd_mapping_losses();
-    ffd_status status = open_source(&desc->a, &first, error);
-    if (!status)
-        status = open_source(&desc->b, &second, error);
-    if (!status)
-        status = compare(desc, first, second, comparison, error);
+    ffd_status status;
+    TRY_END(open_source(&desc->a, &first, error));
+    TRY_END(open_source(&desc->b, &second, error));
+    TRY_END(compare(desc, first, second, comparison, error));
+end:
     status = ffd_mapping_judge(losses, status, error);
     if (!status) {
         ffd_flaws_warn(&first->flaws, ffd_source_name(&desc->a), &log);
@@ -86,11 +86,11 @@ ffd_status ffd_compare_run(const ffd_compare_desc *callers, ffd_comparison *comp
     TRY(ffd_struct_take(&desc, sizeof desc, callers, "ffd_compare_desc", error));
     TRY(ffd_struct_check(sizeof own, comparison, "ffd_comparison", error));
     job_memory memory = {0};
-    ffd_status status = ffd_in_memory_source(&memory, &desc.a, error);
-    if (!status)
-        status = ffd_in_memory_source(&memory, &desc.b, error);
-    if (!status)
-        status = open_and_compare(&desc, &own, error);
+    ffd_status status;
+    TRY_END(ffd_in_memory_source(&memory, &desc.a, error));
+    TRY_END(ffd_in_memory_source(&memory, &desc.b, error));
+    TRY_END(open_and_compare(&desc, &own, error));
+end:
     status = ffd_in_memory_end(&memory, status, error);
     ffd_struct_give(&own, sizeof own, comparison, comparison->struct_size);
     return status;

@@ -210,9 +210,10 @@ static ffd_status make_model(const mesh_document *document, mesh_state state, co
     *morph->base = (mesh_model){0};
     if (!morph->name)
         return FFD_OK;
-    ffd_status status = document->format->model(document, state, &after, error);
-    if (!status)
-        status = ffd_model_add_morph(model, &after, morph->name, error);
+    ffd_status status;
+    TRY_END(document->format->model(document, state, &after, error));
+    TRY_END(ffd_model_add_morph(model, &after, morph->name, error));
+end:
     ffd_model_free(&after);
     return status;
 }
@@ -224,16 +225,14 @@ ffd_status ffd_conversion_save(const mesh_document *document, mesh_state state, 
     const model_target *target = ffd_model_target(options->format);
     mesh_model model = {0};
     memory_budget budget = document->budget;
-    ffd_status status = make_model(document, state, morph, &budget, &model, error);
-    if (!status)
-        status = check_range(&model, target, options->path, error);
-    if (!status) {
-        clear_attributes(&model, target, log);
-        limit_colours(&model, target, log);
-        status = target->write(&model, options, output, log, error);
-    }
-    if (!status)
-        warn(&model, target, log);
+    ffd_status status;
+    TRY_END(make_model(document, state, morph, &budget, &model, error));
+    TRY_END(check_range(&model, target, options->path, error));
+    clear_attributes(&model, target, log);
+    limit_colours(&model, target, log);
+    TRY_END(target->write(&model, options, output, log, error));
+    warn(&model, target, log);
+end:
     ffd_model_free(&model);
     return status;
 }

@@ -110,16 +110,15 @@ static void warn_of_name(const deform_job *job, const char *name)
 /* Adds the paths that `to` does not have yet. */
 static ffd_status add_paths(path_list *to, const path_list *from, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     const size_t before = to->count;
-    for (size_t i = 0; i < from->count && !status; i++) {
+    for (size_t i = 0; i < from->count; i++) {
         size_t k = 0;
         while (k < before && strcmp(to->paths[k], from->paths[i]) != 0)
             k++;
         if (k == before)
-            status = ffd_paths_add(to, from->paths[i], error);
+            TRY(ffd_paths_add(to, from->paths[i], error));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Whether a lattice takes the cached box. */
@@ -164,11 +163,11 @@ static ffd_status write_all(deform_job *job, const mesh_save_options *options, f
     path_list inputs = {0};
     mesh_save_options listing = *options;
     listing.copied = &inputs;
-    ffd_status status = ffd_source_files(&job->desc->input, job->document, &inputs, error);
-    if (!status)
-        status = write_mesh(job, &listing, output, error);
-    if (!status)
-        status = make_rule(job, &inputs, rule, error);
+    ffd_status status;
+    TRY_END(ffd_source_files(&job->desc->input, job->document, &inputs, error));
+    TRY_END(write_mesh(job, &listing, output, error));
+    TRY_END(make_rule(job, &inputs, rule, error));
+end:
     ffd_paths_free(&inputs);
     return status;
 }
@@ -194,16 +193,16 @@ static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_er
         ffd_output_keep_equal(output);
     if (hashed)
         ffd_output_hash(output);
-    ffd_status status = write_all(job, options, output, &rule, error);
-    status = ffd_mapping_judge(job->losses, status, error);
-    if (!status) /* a missing resource may be the fault of a resolve callback */
-        status = ffd_in_memory_judge(&job->desc->input, status, error);
-    if (!status)
-        status = ffd_output_commit(output, error);
-    if (!status && job->desc->depfile)
+    ffd_status status;
+    TRY_END(ffd_mapping_judge(job->losses, write_all(job, options, output, &rule, error), error));
+    /* a missing resource may be the fault of a resolve callback */
+    TRY_END(ffd_in_memory_judge(&job->desc->input, FFD_OK, error));
+    TRY_END(ffd_output_commit(output, error));
+    if (job->desc->depfile)
         ffd_depfile_add(job->desc->depfile, &rule);
-    if (!status && hashed && ffd_output_hash_value(output, &hash))
+    if (hashed && ffd_output_hash_value(output, &hash))
         ffd_job_cache_put_output(job->desc->cache, &hash);
+end:
     ffd_buffer_free(&rule);
     ffd_output_destroy(&output);
     return status;
@@ -217,16 +216,16 @@ static ffd_status dry_run_conversion(deform_job *job, const mesh_save_options *o
     ffd_format from;
     if (!to->sidecars || ffd_output_is_stream(options->path) || options->to_sink)
         return FFD_OK;
-    ffd_status status = ffd_source_format(&job->desc->input, &from, error);
-    const size_t count = status ? 0 : to->sidecars->count(NULL, from, options->format);
-    for (size_t i = 0; i < count && !status; i++) {
+    TRY(ffd_source_format(&job->desc->input, &from, error));
+    const size_t count = to->sidecars->count(NULL, from, options->format);
+    for (size_t i = 0; i < count; i++) {
         char *path;
-        status = ffd_sidecar_next(&names, NULL, NULL, &path, error);
-        if (!status)
-            status = ffd_output_check(path, options->force, error);
+        TRY(ffd_sidecar_next(&names, NULL, NULL, &path, error));
+        const ffd_status status = ffd_output_check(path, options->force, error);
         ffd_free(path);
+        TRY(status);
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Refuses an output whose other files cannot be written, as writing would. */
@@ -351,23 +350,28 @@ static ffd_status cache_locations(ffd_deform_desc *desc, ffd_job_cache **cache, 
     return FFD_OK;
 }
 
+static ffd_status run(const ffd_deform_desc *desc, ffd_job_result *result)
+{
+    deform_job job;
+    ffd_status status;
+    TRY_END(ffd_deform_job_begin(&job, desc, false, result));
+    TRY_END(deform_and_save(&job, result, &result->error));
+end:
+    ffd_morphs_end(&job);
+    return ffd_deform_job_end(&job, status, result, NULL);
+}
+
 ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
 {
     job_call call;
-    deform_job job;
     ffd_job_cache *cache = NULL;
-    ffd_status status = ffd_job_call_begin(&call, desc, result, error);
-    if (!status && !ffd_deform_desc_writes(&call.desc)) /* normals are not written */
+    ffd_status status;
+    TRY_END(ffd_job_call_begin(&call, desc, result, error));
+    if (!ffd_deform_desc_writes(&call.desc)) /* normals are not written */
         call.desc.normals = FFD_NORMALS_KEEP;
-    if (!status)
-        status = cache_locations(&call.desc, &cache, &call.result.error);
-    if (!status) {
-        status = ffd_deform_job_begin(&job, &call.desc, false, &call.result);
-        if (!status)
-            status = deform_and_save(&job, &call.result, &call.result.error);
-        ffd_morphs_end(&job);
-        status = ffd_deform_job_end(&job, status, &call.result, NULL);
-    }
+    TRY_END(cache_locations(&call.desc, &cache, &call.result.error));
+    TRY_END(run(&call.desc, &call.result));
+end:
     ffd_job_cache_destroy(&cache);
     return ffd_job_call_end(&call, status, error);
 }

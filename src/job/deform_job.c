@@ -67,16 +67,15 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
 ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bool check,
                                 ffd_job_result *result)
 {
+    const mesh_log log = {desc->log, desc->log_user};
     ffd_result_clear(result);
-    *job = (deform_job){.desc = desc, .check = check, .losses = ffd_mapping_losses()};
-    ffd_status status = check_desc(desc, &result->error);
-    if (!status && check && desc->morphs)
-        status =
-            ffd_fail(&result->error, FFD_E_ARGUMENT, "morphs: only ffd_deform_run supports several targets");
-    if (!status)
-        status = ffd_threads_choose(desc->threads, &job->threads, &result->error);
-    job->log = job->file_log = (mesh_log){desc->log, desc->log_user};
-    return status;
+    *job = (deform_job){
+        .desc = desc, .check = check, .losses = ffd_mapping_losses(), .log = log, .file_log = log};
+    TRY(check_desc(desc, &result->error));
+    if (check && desc->morphs)
+        return ffd_fail(&result->error, FFD_E_ARGUMENT,
+                        "morphs: only ffd_deform_run supports several targets");
+    return ffd_threads_choose(desc->threads, &job->threads, &result->error);
 }
 
 static ffd_status open_mesh(deform_job *job, bool only_positions, ffd_error *error)
@@ -125,19 +124,18 @@ ffd_status ffd_deform_job_open(deform_job *job, unsigned needs, ffd_job_result *
         ffd_written_holds(&desc->output_set->files, desc->input.path))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->input.path,
                              "was written by this run already, under this name or another");
-    ffd_status status = ffd_deform_job_load_chain(job, needs, &outside, desc->cache, error);
-    if (!status)
-        job->document = ffd_job_cache_take_mesh(desc->cache, desc, only_positions);
+    ffd_status status;
+    TRY_END(ffd_deform_job_load_chain(job, needs, &outside, desc->cache, error));
+    job->document = ffd_job_cache_take_mesh(desc->cache, desc, only_positions);
     job->document_is_cached = job->document;
-    if (!status && !job->document)
-        status = open_mesh(job, only_positions, error);
-    if (!status && desc->rig == FFD_RIG_FOLLOW && !job->document->format->places)
-        status = ffd_fail_file(error, FFD_E_ARGUMENT, ffd_source_name(&desc->input),
-                               "has no nodes that could follow: only glTF has ({rig=follow})");
-    if (!status)
-        ffd_result_note_flaws(result, &job->document->flaws);
-    if (!status)
-        status = ffd_deadline_check(error);
+    if (!job->document)
+        TRY_END(open_mesh(job, only_positions, error));
+    if (desc->rig == FFD_RIG_FOLLOW && !job->document->format->places)
+        TRY_END(ffd_fail_file(error, FFD_E_ARGUMENT, ffd_source_name(&desc->input),
+                              "has no nodes that could follow: only glTF has ({rig=follow})"));
+    ffd_result_note_flaws(result, &job->document->flaws);
+    TRY_END(ffd_deadline_check(error));
+end:
     for (size_t l = 0; l < job->chain.count; l++)
         result->own_box = result->own_box || !job->chain.links[l].locator;
     result->seconds.read = ffd_clock_seconds() - start;
@@ -194,11 +192,10 @@ static ffd_status prepare_arrays(deform_job *job, figure_arrays *arrays, figure_
 /* Refuses what can be refused before vertices are processed, and allocates the results. */
 static ffd_status prepare(deform_job *job, figure_arrays *arrays, figure_arrays *stored, ffd_error *error)
 {
-    ffd_status status = ffd_mesh_check(job->document, error);
-    if (!status && !job->details)
-        status = check_unknown(job, error);
-    if (!status)
-        status = ffd_mesh_warn(job->document, &job->file_log, error);
+    TRY(ffd_mesh_check(job->document, error));
+    if (!job->details)
+        TRY(check_unknown(job, error));
+    TRY(ffd_mesh_warn(job->document, &job->file_log, error));
     job->recomputes = job->desc->normals == FFD_NORMALS_RECOMPUTE && has_normals(job->document);
     const mesh_results results = {.state = ffd_job_written(job),
                                   .directions = job->desc->normals != FFD_NORMALS_KEEP,
@@ -206,23 +203,19 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, figure_arrays 
                                   .replace = !ffd_job_cache_holds_meshes(job->desc->cache) &&
                                              !ffd_figures_wanted(job) && !job->recomputes &&
                                              !job->desc->morphs};
-    if (!status)
-        status = job->document->format->begin_results(job->document, &results, error);
+    TRY(job->document->format->begin_results(job->document, &results, error));
     if (job->desc->normals == FFD_NORMALS_RECOMPUTE && !job->recomputes && !job->document->has_face_normals)
         ffd_log_line(&job->file_log, FFD_LOG_WARNING, "has no normals to recompute");
     arrays->budget = job->document->budget;
-    if (!status)
-        status = ffd_lattice_memory_share(&job->chain, &arrays->budget, error);
-    if (!status)
-        status = prepare_arrays(job, arrays, stored, error);
-    if (!status && job->details)
-        status = ffd_details_begin(job->details, (size_t)ffd_mesh_vertex_count(job->document),
-                                   &arrays->budget, error);
-    if (!status)
-        status = prepare_positions(job, &arrays->budget, error);
+    TRY(ffd_lattice_memory_share(&job->chain, &arrays->budget, error));
+    TRY(prepare_arrays(job, arrays, stored, error));
+    if (job->details)
+        TRY(ffd_details_begin(job->details, (size_t)ffd_mesh_vertex_count(job->document), &arrays->budget,
+                              error));
+    TRY(prepare_positions(job, &arrays->budget, error));
     job->threads =
         ffd_pass_threads(&arrays->budget, job->check ? ffd_chain_layers(&job->chain) : 0, job->threads);
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status locate(deform_job *job, ffd_error *error)
@@ -249,9 +242,9 @@ static ffd_status move_rig(deform_job *job, ffd_error *error)
     const mesh_format *const format = job->document->format;
     if (!has_rig(job))
         return FFD_OK;
-    const ffd_status status = ffd_rig_places_find(job->document, &job->chain, follows, &job->rig, error);
-    return status || !follows || job->rig.places.count == 0
-               ? status
+    TRY(ffd_rig_places_find(job->document, &job->chain, follows, &job->rig, error));
+    return !follows || job->rig.places.count == 0
+               ? FFD_OK
                : format->places->follow(job->document, &job->rig.places, job->rig.moves, &job->log,
                                         &job->following, error);
 }
@@ -259,11 +252,10 @@ static ffd_status move_rig(deform_job *job, ffd_error *error)
 /* Finds what is left behind, and how far joints, pivots and sockets lag. */
 static ffd_status find_left(deform_job *job, ffd_job_result *result, ffd_error *error)
 {
-    const ffd_status status = ffd_behind_find(job, result, error);
-    return status ? status
-                  : ffd_rig_figures_find(job->document, &job->rig, &job->following,
-                                         job->desc->as_morph ? RIG_KINDS_OF_MORPHS : RIG_KINDS,
-                                         ffd_rig_diagonal(&result->bounds.before), &result->rig, error);
+    TRY(ffd_behind_find(job, result, error));
+    return ffd_rig_figures_find(job->document, &job->rig, &job->following,
+                                job->desc->as_morph ? RIG_KINDS_OF_MORPHS : RIG_KINDS,
+                                ffd_rig_diagonal(&result->bounds.before), &result->rig, error);
 }
 
 static void warn_of_left(const deform_job *job, const ffd_job_result *result)
@@ -284,17 +276,17 @@ static ffd_status judge(deform_job *job, figure_arrays *arrays, ffd_job_result *
     const ffd_deform_desc *desc = job->desc;
     const char *name = ffd_source_name(&desc->input);
     const double start = ffd_clock_seconds();
-    ffd_status status = ffd_policies_judge(desc, name, &job->chain, &job->totals, error);
-    if (!status && (ffd_figures_wanted(job) || desc->fail_on & FFD_GATE_FOLDS))
-        status = ffd_figures_folds(&job->chain, job->threads, result, error);
-    if (!status)
-        status = ffd_tear_figures_find(job, arrays, result, error);
-    if (!status && ffd_figures_wanted(job))
-        status = ffd_figures_faces(job, arrays, result, error);
-    if (!status && job->details) /* check late, so that the picture can be drawn all the same */
-        status = check_unknown(job, error);
-    if (!status)
-        status = ffd_gates_judge(desc, name, &job->totals, result, error);
+    ffd_status status;
+    TRY_END(ffd_policies_judge(desc, name, &job->chain, &job->totals, error));
+    if (ffd_figures_wanted(job) || desc->fail_on & FFD_GATE_FOLDS)
+        TRY_END(ffd_figures_folds(&job->chain, job->threads, result, error));
+    TRY_END(ffd_tear_figures_find(job, arrays, result, error));
+    if (ffd_figures_wanted(job))
+        TRY_END(ffd_figures_faces(job, arrays, result, error));
+    if (job->details) /* check late, so that the picture can be drawn all the same */
+        TRY_END(check_unknown(job, error));
+    TRY_END(ffd_gates_judge(desc, name, &job->totals, result, error));
+end:
     result->seconds.judge = ffd_clock_seconds() - start;
     return status;
 }
@@ -376,12 +368,11 @@ static ffd_status warn(const deform_job *job, const ffd_job_result *result, ffd_
 ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     figure_arrays arrays = {0}, stored = {0};
-    ffd_status status = pass_and_judge(job, &arrays, &stored, result, error);
-    status = ffd_mapping_judge(job->losses, status, error);
-    if (!status)
-        status = warn(job, result, error);
-    if (!status)
-        status = give_positions(job, error);
+    ffd_status status;
+    TRY_END(ffd_mapping_judge(job->losses, pass_and_judge(job, &arrays, &stored, result, error), error));
+    TRY_END(warn(job, result, error));
+    TRY_END(give_positions(job, error));
+end:
     if (job->details)
         keep_arrays(&arrays, job->details, &job->document->budget);
     ffd_figures_free(&stored);

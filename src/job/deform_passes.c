@@ -98,9 +98,11 @@ static ffd_status pass_over_both(deform_job *job, const figure_arrays *figures, 
         TRY(recompute(job, MESH_STORED, stored, counts, error));
     fill_figures(job, figures, &shown);
     shown.discards = !writes_shown;
-    ffd_status status = ffd_pass_over_mesh(&shown, &job->totals, error);
-    if (!status && writes_shown && job->totals.moved)
-        status = recompute(job, MESH_SHOWN, figures, counts, error);
+    ffd_status status;
+    TRY_END(ffd_pass_over_mesh(&shown, &job->totals, error));
+    if (writes_shown && job->totals.moved)
+        TRY_END(recompute(job, MESH_SHOWN, figures, counts, error));
+end:
     ffd_totals_add_stored(&of_stored, pass.write, &job->totals);
     return status;
 }
@@ -115,16 +117,17 @@ ffd_status ffd_deform_passes(deform_job *job, const figure_arrays *figures, cons
                        .lattices = job->desc->lattices,
                        .more = figures->has_faces ? ", and edges longer (see {timeout})" : " (see {timeout})",
                        .log = job->log};
-    ffd_status status;
+    ffd_status status = FFD_OK;
     if (ffd_job_judged(job) == MESH_SHOWN) {
-        status = pass_over_both(job, figures, stored, &pace, &counts, error);
+        TRY_END(pass_over_both(job, figures, stored, &pace, &counts, error));
     } else {
         mesh_pass pass = describe(job, MESH_STORED, &pace);
         fill_figures(job, figures, &pass);
-        status = pass_over_stored(job, &pass, &job->totals, error);
-        if (!status && job->totals.moved)
-            status = recompute(job, MESH_STORED, figures, &counts, error);
+        TRY_END(pass_over_stored(job, &pass, &job->totals, error));
+        if (job->totals.moved)
+            TRY_END(recompute(job, MESH_STORED, figures, &counts, error));
     }
+end:
     job->totals.normals_collapsed += counts.collapsed;
     job->totals.normals_carried = counts.carried;
     return status;

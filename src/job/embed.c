@@ -40,28 +40,28 @@ typedef struct embedding {
     unsigned losses; /* of mapped inputs, before the job (base/file/mapping.h) */
 } embedding;
 
+static ffd_status write_arrays(const ffd_embed_desc *desc, const embedding *made, file_output *output,
+                               ffd_error *error)
+{
+    if (desc->status_output) {
+        TRY(ffd_output_begin(output, desc->status_output, desc->force, error));
+        TRY(ffd_npy_begin(output, "|u1", made->count, 0, error));
+        TRY(ffd_output_write(output, made->statuses, made->count, error));
+    }
+    TRY(ffd_output_begin(output, desc->output, desc->force, error));
+    return ffd_embedding_write(output, made->uvw, made->statuses, made->count, &made->positions,
+                               &made->lattice, error);
+}
+
 static ffd_status write_files(const ffd_embed_desc *desc, const embedding *made, ffd_error *error)
 {
     file_output *output;
-    ffd_status status = ffd_output_create(&output, error);
-    if (status)
-        return status;
+    TRY(ffd_output_create(&output, error));
     ffd_output_redirect(output, desc->sink, desc->sink_user);
-    if (desc->status_output) {
-        status = ffd_output_begin(output, desc->status_output, desc->force, error);
-        if (!status)
-            status = ffd_npy_begin(output, "|u1", made->count, 0, error);
-        if (!status)
-            status = ffd_output_write(output, made->statuses, made->count, error);
-    }
-    if (!status)
-        status = ffd_output_begin(output, desc->output, desc->force, error);
-    if (!status)
-        status = ffd_embedding_write(output, made->uvw, made->statuses, made->count, &made->positions,
-                                     &made->lattice, error);
-    status = ffd_mapping_judge(made->losses, status, error);
-    if (!status)
-        status = ffd_output_commit(output, error);
+    ffd_status status;
+    TRY_END(ffd_mapping_judge(made->losses, write_arrays(desc, made, output, error), error));
+    TRY_END(ffd_output_commit(output, error));
+end:
     ffd_output_destroy(&output);
     return status;
 }
@@ -196,10 +196,7 @@ static ffd_status embed(const ffd_embed_desc *desc, embedding *made, double star
     TRY(open_mesh(desc, made, threads, error));
     const double opened = ffd_clock_seconds();
     result->seconds.read = opened - start;
-    ffd_status status = make(desc, made, threads, &log, &totals, error);
-    status = ffd_mapping_judge(made->losses, status, error);
-    if (status)
-        return status;
+    TRY(ffd_mapping_judge(made->losses, make(desc, made, threads, &log, &totals, error), error));
     const double embedded = ffd_clock_seconds();
     ffd_result_fill(result, &totals, embedded - opened);
     ffd_result_note_flaws(result, &made->document->flaws);
@@ -207,7 +204,7 @@ static ffd_status embed(const ffd_embed_desc *desc, embedding *made, double star
     ffd_result_warn(&totals, &made->chain, false, &log);
     if (totals.vertices == 0)
         ffd_log_line(&log, FFD_LOG_WARNING, "there are no vertices");
-    status = write(desc, made, threads, error);
+    const ffd_status status = write(desc, made, threads, error);
     result->seconds.write = ffd_clock_seconds() - embedded;
     return status;
 }
@@ -227,9 +224,10 @@ static ffd_status load_and_embed(const ffd_embed_desc *desc, ffd_job_result *res
     embedding made = {.losses = ffd_mapping_losses()};
     TRY(check_outputs(desc, error));
     TRY(ffd_chain_load(&files, &outside, FFD_ISA_AUTO, NULL, &made.chain, error));
-    ffd_status status = check_reads(desc, &made, error);
-    if (!status)
-        status = embed(desc, &made, start, result, error);
+    ffd_status status;
+    TRY_END(check_reads(desc, &made, error));
+    TRY_END(embed(desc, &made, start, result, error));
+end:
     if (status)
         status = ffd_mapping_judge(made.losses, status, error);
     if (status && status != FFD_E_ARGUMENT)
@@ -261,9 +259,10 @@ ffd_status ffd_embed_run(const ffd_embed_desc *callers, ffd_job_result *callers_
     if (callers_result)
         TRY(ffd_struct_check(sizeof result, callers_result, "ffd_job_result", error));
     job_memory memory = {0};
-    ffd_status status = take_memory(&memory, &desc, &result.error);
-    if (!status)
-        status = load_and_embed(&desc, &result, &result.error);
+    ffd_status status;
+    TRY_END(take_memory(&memory, &desc, &result.error));
+    TRY_END(load_and_embed(&desc, &result, &result.error));
+end:
     result.status = ffd_in_memory_end(&memory, status, &result.error);
     if (result.status && error)
         *error = result.error;

@@ -64,17 +64,17 @@ ffd_status ffd_info_run(const ffd_info_desc *callers, char **text, ffd_error *er
     ffd_info_desc_init(&own, sizeof own);
     TRY(ffd_struct_take(&own, sizeof own, callers, "ffd_info_desc", error));
     job_memory memory = {0};
-    ffd_status status = ffd_in_memory_source(&memory, &own.file, error);
-    if (!status)
-        status = write_facts(desc, &facts, error);
-    status = ffd_mapping_judge(losses, status, error);
-    if (!status && !desc->json)
-        status = ffd_info_render(facts.data, facts.size, text, error);
-    else if (!status) {
+    ffd_status status;
+    TRY_END(ffd_in_memory_source(&memory, &own.file, error));
+    TRY_END(ffd_mapping_judge(losses, write_facts(desc, &facts, error), error));
+    if (desc->json) {
         *text = ffd_buffer_finish(&facts);
-        status = *text ? FFD_OK : ffd_fail_memory(error);
+        TRY_END(*text ? FFD_OK : ffd_fail_memory(error));
+    } else {
+        TRY_END(ffd_info_render(facts.data, facts.size, text, error));
     }
-    if (status != FFD_OK && status != FFD_E_ARGUMENT)
+end:
+    if (status && status != FFD_E_ARGUMENT)
         ffd_fail_name_file(error, ffd_source_name(&desc->file));
     status = ffd_in_memory_end(&memory, status, error);
     ffd_buffer_free(&facts);

@@ -22,17 +22,15 @@ void ffd_info_bounds(json_text *json, const char *key, const ffd_bounds *box)
 
 static ffd_status write_meshes(const ffd_lattice *lattice, json_text *json, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     ffd_json_array(json, "meshes", true);
-    for (size_t i = 0; i < ffd_lattice_get_mesh_count(lattice) && !status; i++) {
+    for (size_t i = 0; i < ffd_lattice_get_mesh_count(lattice); i++) {
         char *path = NULL;
-        status = ffd_lattice_get_mesh(lattice, i, &path, error);
-        if (!status)
-            ffd_json_string(json, NULL, path);
+        TRY(ffd_lattice_get_mesh(lattice, i, &path, error));
+        ffd_json_string(json, NULL, path);
         ffd_free(path);
     }
     ffd_json_end(json, ']');
-    return status;
+    return FFD_OK;
 }
 
 /* Measures the box round the named meshes, with the margin. fits: also fit the lattice to it. */
@@ -42,12 +40,12 @@ static ffd_status go_round(ffd_lattice *lattice, const ffd_source *like, bool fi
     mesh_boxes own = {0};
     path_list files = {0};
     ffd_bounds bounds;
-    ffd_status status = ffd_mesh_box_find(&own, lattice, like, &bounds, &files, NULL, error);
+    const ffd_status status = ffd_mesh_box_find(&own, lattice, like, &bounds, &files, NULL, error);
     ffd_mesh_boxes_free(&own);
     ffd_paths_free(&files);
-    if (!status)
-        status = ffd_shape_grow_box(bounds.min, bounds.max, lattice->spec->margin, box->min, box->max, error);
-    return status || !fits ? status : ffd_lattice_fit(lattice, bounds.min, bounds.max, error);
+    TRY(status);
+    TRY(ffd_shape_grow_box(bounds.min, bounds.max, lattice->spec->margin, box->min, box->max, error));
+    return fits ? ffd_lattice_fit(lattice, bounds.min, bounds.max, error) : FFD_OK;
 }
 
 static ffd_status describe_meshes(ffd_lattice *lattice, const ffd_source *like, bool fits, ffd_bounds *box,

@@ -210,12 +210,12 @@ static ffd_status load(const ffd_info_desc *desc, ffd_lattice **lattice, bool *f
     size_t size = 0;
     if (!used)
         return ffd_fail_memory(error);
-    ffd_status status = ffd_spec_load(&source, &settings, &spec, &size, error);
+    ffd_status status;
+    TRY_END(ffd_spec_load(&source, &settings, &spec, &size, error));
     ffd_budget_add_file(&budget, size, 0);
-    if (!status)
-        status = check_values(desc, used, error);
-    if (!status)
-        status = build(spec, &budget, lattice, fits, error);
+    TRY_END(check_values(desc, used, error));
+    TRY_END(build(spec, &budget, lattice, fits, error));
+end:
     if (status)
         ffd_spec_free(spec);
     ffd_free(used);
@@ -249,24 +249,24 @@ ffd_status ffd_info_lattice(const ffd_info_desc *desc, json_text *json, ffd_erro
     ffd_lattice *lattice = NULL;
     ffd_bounds box;
     bool fits = false;
-    ffd_status status = load(desc, &lattice, &fits, error);
-    if (status != FFD_OK)
-        return status;
+    TRY(load(desc, &lattice, &fits, error));
     write_directions(lattice, json);
     ffd_json_count(json, "control_points", lattice->count);
     ffd_json_string(json, "rest", rest_word(lattice->spec));
     write_parameters(lattice->spec, json);
     write_open(&lattice->spec->open, json);
-    status = ffd_info_box(lattice, &desc->file, fits, &box, json, error);
+    ffd_status status;
+    TRY_END(ffd_info_box(lattice, &desc->file, fits, &box, json, error));
     ffd_info_layers(lattice, &box, json);
-    if (!status && lattice->rest) {
+    if (lattice->rest) {
         ffd_json_bool(json, "rational", lattice->rest_weights != NULL);
         if (ffd_lattice_off_shape(lattice) > 0)
             ffd_json_number(json, "border_off", ffd_lattice_off_shape(lattice));
-        status = write_volume(lattice, json, error);
-    } else if (!status) {
+        TRY_END(write_volume(lattice, json, error));
+    } else {
         write_unbuilt(lattice, fits, json);
     }
+end:
     ffd_lattice_destroy(&lattice);
     return status;
 }

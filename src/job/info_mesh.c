@@ -84,18 +84,17 @@ static ffd_status survey_faces(const mesh_document *document, json_text *json, f
     mesh_faces faces = {0};
     mesh_topology topology;
     ffd_error reason = {0};
-    ffd_status status = document->format->faces(document, MESH_SHOWN, &faces, &reason);
-    if (!status)
-        status = check_memory(document, &faces, &reason);
-    if (!status)
-        status = ffd_topology_compute(&faces, &topology, &reason);
-    if (!status)
-        write_topology(&faces, &topology, json);
-    else if (status == FFD_E_UNSUPPORTED || status == FFD_E_LIMIT) {
+    ffd_status status;
+    TRY_END(document->format->faces(document, MESH_SHOWN, &faces, &reason));
+    TRY_END(check_memory(document, &faces, &reason));
+    TRY_END(ffd_topology_compute(&faces, &topology, &reason));
+    write_topology(&faces, &topology, json);
+end:
+    if (status == FFD_E_UNSUPPORTED || status == FFD_E_LIMIT) {
         ffd_json_null(json, "topology");
         ffd_json_string(json, "topology_unknown", reason.message);
         status = FFD_OK;
-    } else if (error)
+    } else if (status && error)
         *error = reason;
     ffd_mesh_faces_free(&faces);
     return status;
@@ -116,13 +115,13 @@ ffd_status ffd_info_mesh(const ffd_info_desc *desc, json_text *json, ffd_error *
 {
     const mesh_log log = {desc->log, desc->log_user};
     mesh_document *document;
-    ffd_status status = ffd_source_open(&desc->file, 0, &document, error);
-    if (!status)
-        status = ffd_info_document(document, json, error);
-    if (!status && desc->parts)
-        status = ffd_info_parts(document, json, error);
-    if (!status)
-        ffd_flaws_warn(&document->flaws, ffd_source_name(&desc->file), &log);
+    TRY(ffd_source_open(&desc->file, 0, &document, error));
+    ffd_status status;
+    TRY_END(ffd_info_document(document, json, error));
+    if (desc->parts)
+        TRY_END(ffd_info_parts(document, json, error));
+    ffd_flaws_warn(&document->flaws, ffd_source_name(&desc->file), &log);
+end:
     ffd_source_close(&document);
     return status;
 }

@@ -38,13 +38,12 @@ static bool is_worth_telling(const mesh_thing *thing, unsigned named)
 
 static ffd_status write_things(const mesh_listing *listing, json_text *json, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     unsigned named = 0;
     ffd_json_array(json, "named_parts", false);
-    for (size_t i = 0; i < listing->count && !status; i++)
+    for (size_t i = 0; i < listing->count; i++)
         if (listing->things[i].name) {
             named |= SELECTOR_BIT(listing->things[i].kind);
-            status = write_named(&listing->things[i], json, error);
+            TRY(write_named(&listing->things[i], json, error));
         }
     ffd_json_end(json, ']');
     ffd_json_array(json, "unnamed_parts", false);
@@ -56,7 +55,7 @@ static ffd_status write_things(const mesh_listing *listing, json_text *json, ffd
             write_drawing(&listing->things[i], json);
         }
     ffd_json_end(json, ']');
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_info_parts(const mesh_document *document, json_text *json, ffd_error *error)
@@ -66,18 +65,17 @@ ffd_status ffd_info_parts(const mesh_document *document, json_text *json, ffd_er
     ffd_error reason = {0};
     ffd_status status = FFD_OK;
     if (calls) {
-        status = ffd_listing_begin(document, &listing, &reason);
-        if (!status)
-            status = calls->list(document, &listing, &reason);
+        TRY_END(ffd_listing_begin(document, &listing, &reason));
+        TRY_END(calls->list(document, &listing, &reason));
     }
-    if (!status) {
-        status = write_things(&listing, json, &reason);
-    } else if (status == FFD_E_UNSUPPORTED || status == FFD_E_LIMIT) {
+    TRY_END(write_things(&listing, json, &reason));
+end:
+    if (status == FFD_E_UNSUPPORTED || status == FFD_E_LIMIT) {
         ffd_json_null(json, "named_parts");
         ffd_json_string(json, "parts_unknown", reason.message);
         status = FFD_OK;
     }
-    if (status != FFD_OK && error)
+    if (status && error)
         *error = reason;
     ffd_listing_free(&listing);
     return status;

@@ -61,18 +61,16 @@ static ffd_status add_mesh(const ffd_lattice_new_desc *desc, const ffd_source *m
     const mesh_log log = {desc->log, desc->log_user};
     mesh_document *document;
     TRY(ffd_source_open(mesh, 0, &document, error));
-    ffd_status status =
-        ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(mesh), document, error);
-    if (!status)
-        status = ffd_mesh_check(document, error);
-    if (!status && document->format->check_reach)
-        status = document->format->check_reach(document, &everywhere, error);
-    if (!status)
-        status = ffd_mesh_mark_used(document, error);
-    if (!status)
-        status = list_places(document, all, places, error);
-    if (!status && !all) /* in the second walk they are logged already */
+    ffd_status status;
+    TRY_END(ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(mesh), document, error));
+    TRY_END(ffd_mesh_check(document, error));
+    if (document->format->check_reach)
+        TRY_END(document->format->check_reach(document, &everywhere, error));
+    TRY_END(ffd_mesh_mark_used(document, error));
+    TRY_END(list_places(document, all, places, error));
+    if (!all) /* in the second walk they are logged already */
         ffd_flaws_warn(&document->flaws, ffd_source_name(mesh), &log);
+end:
     ffd_source_close(&document);
     if (status == FFD_E_INVALID)
         ffd_fail_name_file(error, ffd_source_name(mesh));
@@ -100,16 +98,22 @@ static ffd_status check_memory(const ffd_lattice_new_desc *desc, ffd_error *erro
     return ffd_lattice_memory_take(&budget, &spec, 0, error);
 }
 
+static ffd_status list_points(const ffd_lattice_new_desc *desc, place_list *points, ffd_error *error)
+{
+    TRY(add_meshes(desc, false, points, error));
+    if (points->count == 0 && !ffd_file_is_stream(desc->meshes[0].path))
+        TRY(add_meshes(desc, true, points, error));
+    return FFD_OK;
+}
+
 static ffd_status create_round(const ffd_lattice_new_desc *desc, ffd_lattice **lattice, ffd_error *error)
 {
     place_list points = {0};
     const unsigned losses = ffd_mapping_losses();
-    ffd_status status = add_meshes(desc, false, &points, error);
-    if (!status && points.count == 0 && !ffd_file_is_stream(desc->meshes[0].path))
-        status = add_meshes(desc, true, &points, error);
-    status = ffd_mapping_judge(losses, status, error);
-    if (!status)
-        status = ffd_lattice_create(desc->lattice, points.xyz, points.count, lattice, error);
+    ffd_status status;
+    TRY_END(ffd_mapping_judge(losses, list_points(desc, &points, error), error));
+    TRY_END(ffd_lattice_create(desc->lattice, points.xyz, points.count, lattice, error));
+end:
     ffd_free(points.xyz);
     /* other failures concern the description, not the meshes */
     if (status == FFD_E_INVALID)
@@ -143,15 +147,12 @@ static ffd_status take_memory(job_memory *memory, ffd_lattice_new_desc *desc, ff
     *meshes = ffd_alloc(count, sizeof **meshes);
     if (!*meshes)
         return ffd_fail_memory(error);
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < count && !status; i++) {
+    for (size_t i = 0; i < count; i++) {
         (*meshes)[i] = desc->meshes[i];
-        status = ffd_in_memory_source(memory, &(*meshes)[i], error);
+        TRY(ffd_in_memory_source(memory, &(*meshes)[i], error));
     }
     desc->meshes = count > 0 ? *meshes : NULL;
-    if (!status)
-        status = ffd_in_memory_output(desc->sink, desc->output, error);
-    return status;
+    return ffd_in_memory_output(desc->sink, desc->output, error);
 }
 
 static ffd_status save(const ffd_lattice_new_desc *desc, const ffd_lattice *lattice, ffd_error *error)
@@ -173,15 +174,13 @@ ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *callers, ffd_error *e
     TRY(ffd_struct_take(&own, sizeof own, callers, "ffd_lattice_new_desc", error));
     job_memory memory = {0};
     ffd_source *meshes = NULL;
-    ffd_status status = take_memory(&memory, &own, &meshes, error);
-    if (!status)
-        status = check_desc(desc, error);
-    if (!status)
-        status = check_memory(desc, error);
-    if (!status)
-        status = create_round(desc, &lattice, error);
-    if (!status)
-        status = save(desc, lattice, error);
+    ffd_status status;
+    TRY_END(take_memory(&memory, &own, &meshes, error));
+    TRY_END(check_desc(desc, error));
+    TRY_END(check_memory(desc, error));
+    TRY_END(create_round(desc, &lattice, error));
+    TRY_END(save(desc, lattice, error));
+end:
     status = ffd_in_memory_end(&memory, status, error);
     ffd_free(meshes);
     ffd_lattice_destroy(&lattice);

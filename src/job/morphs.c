@@ -26,17 +26,18 @@ static ffd_status check_names(const ffd_deform_desc *desc, ffd_error *error)
 {
     intern_table names = {0};
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < desc->lattice_count && !status; i++) {
+    for (size_t i = 0; i < desc->lattice_count; i++) {
         uint32_t index;
         char shown[80];
-        status = check_name(desc->morphs[i], error);
-        if (!status && !ffd_intern(&names, desc->morphs[i], strlen(desc->morphs[i]), &index))
-            status = ffd_fail_memory(error);
-        if (status || index == i)
+        TRY_END(check_name(desc->morphs[i], error));
+        if (!ffd_intern(&names, desc->morphs[i], strlen(desc->morphs[i]), &index))
+            TRY_END(ffd_fail_memory(error));
+        if (index == i)
             continue;
         ffd_name_shown(desc->morphs[i], shown, sizeof shown);
-        status = ffd_fail(error, FFD_E_ARGUMENT, "{morphs}: two morph targets are called \"%s\"", shown);
+        TRY_END(ffd_fail(error, FFD_E_ARGUMENT, "{morphs}: two morph targets are called \"%s\"", shown));
     }
+end:
     ffd_intern_free(&names);
     return status;
 }
@@ -44,16 +45,16 @@ static ffd_status check_names(const ffd_deform_desc *desc, ffd_error *error)
 ffd_status ffd_morphs_begin(deform_job *job, ffd_error *error)
 {
     const ffd_deform_desc *const desc = job->desc;
-    ffd_status status = desc->morphs ? check_names(desc, error) : FFD_OK;
-    if (status || desc->clip_count == 0)
-        return status;
+    TRY(desc->morphs ? check_names(desc, error) : FFD_OK);
+    if (desc->clip_count == 0)
+        return FFD_OK;
     job->clips = ffd_alloc_zero(desc->clip_count, sizeof *job->clips);
     if (!job->clips)
         return ffd_fail_memory(error);
     job->clip_count = desc->clip_count;
-    for (size_t c = 0; c < desc->clip_count && !status; c++)
-        status = ffd_morph_clip_parse(desc->clips[c], &job->clips[c], error);
-    return status;
+    for (size_t c = 0; c < desc->clip_count; c++)
+        TRY(ffd_morph_clip_parse(desc->clips[c], &job->clips[c], error));
+    return FFD_OK;
 }
 
 void ffd_morphs_end(deform_job *job)
@@ -99,9 +100,10 @@ static ffd_status begin(deform_job *job, ffd_error *error)
 static ffd_status keep_shape(deform_job *job, const char *name, ffd_error *error)
 {
     mesh_model after = {.budget = &job->document->budget};
-    ffd_status status = job->document->format->model(job->document, ffd_job_written(job), &after, error);
-    if (!status)
-        status = ffd_model_add_morph(&job->base, &after, name, error);
+    ffd_status status;
+    TRY_END(job->document->format->model(job->document, ffd_job_written(job), &after, error));
+    TRY_END(ffd_model_add_morph(&job->base, &after, name, error));
+end:
     ffd_model_free(&after);
     return status;
 }
@@ -135,12 +137,12 @@ static ffd_status add_target(deform_job *job, size_t k, const mesh_log *log, ffd
     job->file_log = k == 0 ? *log : (mesh_log){0};
     lattice_chain whole = job->chain;
     job->chain = ffd_chain_link_alone(&whole, k);
-    ffd_status status =
-        job->converts ? FFD_OK : job->document->format->morphs->keep_base(job->document, name, error);
-    if (!status)
-        status = ffd_deform_job_run(job, result, error);
-    if (!status && job->converts)
-        status = keep_shape(job, name, error);
+    ffd_status status;
+    TRY_END(job->converts ? FFD_OK : job->document->format->morphs->keep_base(job->document, name, error));
+    TRY_END(ffd_deform_job_run(job, result, error));
+    if (job->converts)
+        TRY_END(keep_shape(job, name, error));
+end:
     if (status)
         name_target(name, all->lattice_count, error);
     ffd_chain_end_alone(&job->chain);
@@ -165,19 +167,18 @@ static ffd_status add_targets(deform_job *job, ffd_job_result *results, size_t *
     const mesh_log log = job->log;
     const size_t count = job->desc->lattice_count;
     job->forgets_locations = !fits_budget(job, count);
-    ffd_status status = keep_clips(job, error);
-    if (!status)
-        status = begin(job, error);
-    for (size_t k = 0; k < count && !status; k++) {
-        status = add_target(job, k, &log, &results[k], error);
+    TRY(keep_clips(job, error));
+    TRY(begin(job, error));
+    for (size_t k = 0; k < count; k++) {
+        const ffd_status status = add_target(job, k, &log, &results[k], error);
         *done += !status || status == FFD_E_GATE;
-        if (!status)
-            ffd_log_line(&log, FFD_LOG_INFO, "morph target \"%s\": %llu of %llu %s moved, by %g at most",
-                         job->desc->morphs[k], (unsigned long long)results[k].moved,
-                         (unsigned long long)results[k].vertices,
-                         ffd_plural(results[k].vertices, "vertex", "vertices"), results[k].displacement.max);
+        TRY(status);
+        ffd_log_line(&log, FFD_LOG_INFO, "morph target \"%s\": %llu of %llu %s moved, by %g at most",
+                     job->desc->morphs[k], (unsigned long long)results[k].moved,
+                     (unsigned long long)results[k].vertices,
+                     ffd_plural(results[k].vertices, "vertex", "vertices"), results[k].displacement.max);
     }
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_morphs_run(deform_job *job, ffd_job_result *result, ffd_error *error)

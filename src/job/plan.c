@@ -30,18 +30,20 @@ static ffd_status add_folders(job_plan *plan, const char *path, ffd_error *error
     char *folder = ffd_path_folder(path);
     char *resolved = folder ? ffd_path_resolve(folder) : NULL;
     char *at = resolved ? resolved : folder; /* a folder that is not there holds no mesh */
-    ffd_status status = at ? FFD_OK : ffd_fail_memory(error);
-    for (bool goes_on = resolved; goes_on && !status;) {
+    ffd_status status;
+    TRY_END(at ? FFD_OK : ffd_fail_memory(error));
+    for (bool goes_on = resolved; goes_on;) {
         const hash128 place = ffd_place_of(&plan->places, at);
         const size_t known = plan->folders.count;
         uint32_t index;
         if (!ffd_intern(&plan->folders, &place, sizeof place, &index))
-            status = ffd_fail_memory(error);
+            TRY_END(ffd_fail_memory(error));
         char *const slash = strrchr(at, '/');
-        goes_on = !status && index == known && slash && at[1];
+        goes_on = index == known && slash && at[1];
         if (goes_on)
             slash[slash == at] = 0;
     }
+end:
     ffd_free(folder);
     ffd_free(resolved);
     return status;
@@ -138,9 +140,11 @@ static ffd_status check_box(job_plan *plan, const char *lattice, const char *mes
     const ffd_source source = {.path = mesh};
     path_list files = {0};
     size_t read;
-    ffd_status status = list_mesh(&source, &files, &read, error);
-    for (size_t i = 0; i < read && !status; i++)
-        status = check_common(plan, files.paths[i], lattice, error);
+    ffd_status status;
+    TRY_END(list_mesh(&source, &files, &read, error));
+    for (size_t i = 0; i < read; i++)
+        TRY_END(check_common(plan, files.paths[i], lattice, error));
+end:
     ffd_paths_free(&files);
     return status;
 }
@@ -151,12 +155,13 @@ static ffd_status check_lattice(job_plan *plan, const char *lattice, ffd_error *
     file_input bytes;
     if (ffd_file_is_stream(lattice) || ffd_file_load(lattice, &bytes, NULL))
         return FFD_OK;
-    ffd_status status = check_common(plan, lattice, NULL, error);
-    if (!status)
-        status = ffd_lattice_box_meshes(lattice, &bytes, &meshes, error);
+    ffd_status status;
+    TRY_END(check_common(plan, lattice, NULL, error));
+    TRY_END(ffd_lattice_box_meshes(lattice, &bytes, &meshes, error));
+    for (size_t i = 0; i < meshes.count; i++)
+        TRY_END(check_box(plan, lattice, meshes.paths[i], error));
+end:
     ffd_file_unload(&bytes);
-    for (size_t i = 0; i < meshes.count && !status; i++)
-        status = check_box(plan, lattice, meshes.paths[i], error);
     ffd_paths_free(&meshes);
     return status;
 }
@@ -166,12 +171,14 @@ static ffd_status check_mesh(job_plan *plan, size_t job, const ffd_source *sourc
 {
     path_list files = {0};
     size_t read = 1;
-    ffd_status status = has_outputs_below(plan, source->path) ? list_mesh(source, &files, &read, error)
-                                                              : ffd_paths_add(&files, source->path, error);
-    for (size_t i = 0; i < read && !status; i++)
-        status = check_file(plan, job, files.paths[i], NULL, error);
-    for (size_t i = read; i < files.count && !status; i++)
-        status = check_linked(plan, job, files.paths[i], error);
+    ffd_status status;
+    TRY_END(has_outputs_below(plan, source->path) ? list_mesh(source, &files, &read, error)
+                                                  : ffd_paths_add(&files, source->path, error));
+    for (size_t i = 0; i < read; i++)
+        TRY_END(check_file(plan, job, files.paths[i], NULL, error));
+    for (size_t i = read; i < files.count; i++)
+        TRY_END(check_linked(plan, job, files.paths[i], error));
+end:
     ffd_paths_free(&files);
     return status;
 }
@@ -199,14 +206,15 @@ static ffd_status check_names(const char *const *inputs, const char *const *outp
                               ffd_error *error)
 {
     named_output *const sorted = ffd_alloc(count, sizeof *sorted);
-    ffd_status status = sorted ? FFD_OK : ffd_fail_memory(error);
-    for (size_t i = 0; i < count && !status; i++)
+    ffd_status status;
+    TRY_END(sorted ? FFD_OK : ffd_fail_memory(error));
+    for (size_t i = 0; i < count; i++)
         sorted[i] = (named_output){inputs[i], outputs[i]};
-    if (!status)
-        qsort(sorted, count, sizeof *sorted, compare_outputs);
-    for (size_t i = 1; i < count && !status; i++)
+    qsort(sorted, count, sizeof *sorted, compare_outputs);
+    for (size_t i = 1; i < count; i++)
         if (compare_outputs(&sorted[i - 1], &sorted[i]) == 0)
-            status = refuse_equal(&sorted[i - 1], &sorted[i], error);
+            TRY_END(refuse_equal(&sorted[i - 1], &sorted[i], error));
+end:
     ffd_free(sorted);
     return status;
 }

@@ -96,14 +96,15 @@ ffd_status ffd_job_check_mesh_files(const char *output, const ffd_source *source
     const mesh_format *const table = ffd_format_table(format);
     ffd_status status = FFD_OK;
     if (document)
-        status = ffd_mesh_list_linked(document, &names.linked, error);
-    if (!status && may_name(table, output))
-        status = document && table->sidecars ? list_by_document(document, &names, error)
-                                             : list_by_bytes(table, source, &names, error);
-    const char *const role = status ? NULL : role_of(&names, output);
+        TRY_END(ffd_mesh_list_linked(document, &names.linked, error));
+    if (may_name(table, output))
+        TRY_END(document && table->sidecars ? list_by_document(document, &names, error)
+                                            : list_by_bytes(table, source, &names, error));
+    const char *const role = role_of(&names, output);
     if (role)
-        status =
-            ffd_fail_file(error, FFD_E_EXISTS, output, "is %s %s and is not overwritten", role, source->path);
+        TRY_END(ffd_fail_file(error, FFD_E_EXISTS, output, "is %s %s and is not overwritten", role,
+                              source->path));
+end:
     ffd_paths_free(&names.named);
     ffd_paths_free(&names.resources);
     ffd_paths_free(&names.linked);

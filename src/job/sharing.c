@@ -9,9 +9,11 @@
 static ffd_status add_models(job_sharing *s, const char *folder, ffd_error *error)
 {
     path_list pairs = {0};
-    ffd_status status = ffd_users_list(folder, &pairs, error);
-    for (size_t i = 0; i + 1 < pairs.count && !status; i += 2)
-        status = ffd_users_add(&s->known->users, pairs.paths[i + 1], pairs.paths[i], error);
+    ffd_status status;
+    TRY_END(ffd_users_list(folder, &pairs, error));
+    for (size_t i = 0; i + 1 < pairs.count; i += 2)
+        TRY_END(ffd_users_add(&s->known->users, pairs.paths[i + 1], pairs.paths[i], error));
+end:
     ffd_paths_free(&pairs);
     return status;
 }
@@ -25,10 +27,11 @@ static ffd_status list_folder(job_sharing *s, const char *file, ffd_error *error
     const hash128 there = ffd_place_of(&s->known->users.places, folder);
     const size_t count = s->known->folders.count;
     uint32_t index;
-    ffd_status status =
-        ffd_intern(&s->known->folders, &there, sizeof there, &index) ? FFD_OK : ffd_fail_memory(error);
-    if (!status && index == count)
-        status = add_models(s, folder, error);
+    ffd_status status;
+    TRY_END(ffd_intern(&s->known->folders, &there, sizeof there, &index) ? FFD_OK : ffd_fail_memory(error));
+    if (index == count)
+        TRY_END(add_models(s, folder, error));
+end:
     ffd_free(folder);
     return status;
 }
@@ -40,11 +43,12 @@ static ffd_status add_input(job_sharing *s, ffd_error *error)
     s->has_input = true;
     if (!s->document->format->sidecars || ffd_file_is_stream(s->input) || s->document->folder.resolve)
         return FFD_OK;
-    ffd_status status = s->document->format->sidecars->list(s->document, &files, error);
-    if (!status)
-        status = ffd_mesh_list_linked(s->document, &files, error);
-    for (size_t i = 0; i < files.count && !status; i++)
-        status = ffd_users_add(&s->known->users, files.paths[i], s->input, error);
+    ffd_status status;
+    TRY_END(s->document->format->sidecars->list(s->document, &files, error));
+    TRY_END(ffd_mesh_list_linked(s->document, &files, error));
+    for (size_t i = 0; i < files.count; i++)
+        TRY_END(ffd_users_add(&s->known->users, files.paths[i], s->input, error));
+end:
     ffd_paths_free(&files);
     return status;
 }

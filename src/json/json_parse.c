@@ -255,9 +255,10 @@ static ffd_status refuse_equal_keys(const scanner *s, uint32_t object)
         return ffd_fail_memory(s->error);
     ffd_json_tree_sort(tree, object, members);
     ffd_status status = FFD_OK;
-    for (size_t i = 1; i < count && !status; i++)
+    for (size_t i = 1; i < count; i++)
         if (ffd_json_tree_compare_keys(tree, members[i - 1].value, tree, members[i].value) == 0)
-            status = refuse_key(s, members[i - 1].value, members[i].value);
+            TRY_END(refuse_key(s, members[i - 1].value, members[i].value));
+end:
     if (members != few)
         ffd_free(members);
     return status;
@@ -319,13 +320,11 @@ static ffd_status scan_text(scanner *s)
     skip_space(s);
     uint32_t container = JSON_NONE;
     int depth = 0;
-    ffd_status status = scan_value(s, &container, &depth);
-    while (status == FFD_OK && container != JSON_NONE) {
+    TRY(scan_value(s, &container, &depth));
+    while (container != JSON_NONE) {
         skip_space(s);
-        status = scan_member(s, &container, &depth);
+        TRY(scan_member(s, &container, &depth));
     }
-    if (status)
-        return status;
     skip_space(s);
     return s->at < s->last ? expect(s, s->at, "nothing may follow the value") : FFD_OK;
 }

@@ -208,11 +208,11 @@ ffd_status ffd_json_read_integer(json_cursor cursor, double *number)
 
 ffd_status ffd_json_read_doubles(json_cursor cursor, size_t count, double *numbers)
 {
-    ffd_status status = ffd_json_read_array(cursor, count, "numbers");
+    TRY(ffd_json_read_array(cursor, count, "numbers"));
     json_cursor element = ffd_cursor_first(cursor);
-    for (size_t i = 0; i < count && !status; i++, element = ffd_cursor_next(element))
-        status = ffd_json_read_double(element, &numbers[i]);
-    return status;
+    for (size_t i = 0; i < count; i++, element = ffd_cursor_next(element))
+        TRY(ffd_json_read_double(element, &numbers[i]));
+    return FFD_OK;
 }
 
 ffd_status ffd_json_read_word(json_cursor cursor, const char *const *words, size_t count, size_t *index)

@@ -123,20 +123,16 @@ ffd_status ffd_lattice_from_arrays(const ffd_lattice_arrays *arrays, ffd_lattice
     ffd_lattice_arrays own;
     *lattice = NULL;
     ffd_lattice_arrays_init(&own, sizeof own);
-    ffd_status status = ffd_struct_take(&own, sizeof own, arrays, "ffd_lattice_arrays", error);
-    if (status)
-        return status;
+    TRY(ffd_struct_take(&own, sizeof own, arrays, "ffd_lattice_arrays", error));
     lattice_spec *const spec = ffd_alloc_zero(1, sizeof *spec);
+    ffd_status status = FFD_OK;
     if (!spec || !(spec->name = ffd_text_copy("")))
-        status = ffd_fail_memory(error);
-    if (!status)
-        status = fill_shape(&own, spec, error);
-    if (!status)
-        status = fill_knots(&own, spec, error);
-    if (!status)
-        status = fill_rest(&own, spec, error);
-    if (!status)
-        status = ffd_spec_build(spec, NULL, NULL, lattice, error);
+        TRY_END(ffd_fail_memory(error));
+    TRY_END(fill_shape(&own, spec, error));
+    TRY_END(fill_knots(&own, spec, error));
+    TRY_END(fill_rest(&own, spec, error));
+    TRY_END(ffd_spec_build(spec, NULL, NULL, lattice, error));
+end:
     if (status)
         ffd_spec_free(spec);
     return status;

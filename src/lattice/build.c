@@ -21,17 +21,16 @@ static ffd_status locate(const lattice_spec *spec, const char *pointer, ffd_stat
 
 static ffd_status make_knots(const lattice_spec *spec, ffd_lattice *lattice, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (int a = 0; a < 3 && !status; a++) {
+    for (int a = 0; a < 3; a++) {
         char pointer[16];
         snprintf(pointer, sizeof pointer, "/knots/%d", a);
         lattice->size[a] = spec->size[a];
-        status = ffd_knots_make(spec->kind[a], spec->degree[a], spec->size[a], spec->list[a],
-                                spec->list_count[a], "uvw"[a], &lattice -> knots[a], error);
-        status = locate(spec, pointer, status, error);
+        const ffd_status status = ffd_knots_make(spec->kind[a], spec->degree[a], spec->size[a], spec->list[a],
+                                                 spec->list_count[a], "uvw"[a], &lattice -> knots[a], error);
+        TRY(locate(spec, pointer, status, error));
     }
     lattice->count = spec->count;
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status make_points(ffd_lattice *lattice, ffd_error *error)
@@ -157,9 +156,11 @@ static ffd_status build(lattice_spec *spec, const double *min, const double *max
 {
     *lattice = NULL;
     ffd_lattice *result = ffd_alloc_zero(1, sizeof *result);
-    ffd_status status = result ? make_knots(spec, result, error) : ffd_fail_memory(error);
-    if (!status && points)
-        status = set_points(spec, min, max, observer, result, error);
+    ffd_status status;
+    TRY_END(result ? make_knots(spec, result, error) : ffd_fail_memory(error));
+    if (points)
+        TRY_END(set_points(spec, min, max, observer, result, error));
+end:
     if (status) {
         ffd_fail_name_file(error, spec->name);
         ffd_lattice_destroy(&result);

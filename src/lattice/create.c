@@ -171,20 +171,19 @@ static ffd_status fill_box(const ffd_lattice_desc *desc, const double *xyz, size
     spec->has_axes = desc->principal;
     for (int i = 0; i < 9; i++)
         spec->box_axes[i] = world_axes[i];
-    ffd_status status = desc->principal ? use_principal_axes(xyz, count, spec->box_axes, error) : FFD_OK;
-    if (!status)
-        status = find_bounds_or_fail(xyz, count, spec->box_axes, min, max, error);
-    if (!status)
-        status = ffd_shape_grow_box(min, max, desc->margin, spec->box_min, spec->box_max, error);
-    const double rounding = !status && desc->principal ? rounding_of_axes(xyz, count) : 0;
-    for (int a = 0; a < 3 && !status; a++) {
+    if (desc->principal)
+        TRY(use_principal_axes(xyz, count, spec->box_axes, error));
+    TRY(find_bounds_or_fail(xyz, count, spec->box_axes, min, max, error));
+    TRY(ffd_shape_grow_box(min, max, desc->margin, spec->box_min, spec->box_max, error));
+    const double rounding = desc->principal ? rounding_of_axes(xyz, count) : 0;
+    for (int a = 0; a < 3; a++) {
         spec->box_min[a] = fmin(spec->box_min[a], min[a] - rounding);
         spec->box_max[a] = fmax(spec->box_max[a], max[a] + rounding);
         if (!isfinite(spec->box_max[a] - spec->box_min[a]))
-            status =
-                ffd_fail(error, FFD_E_INVALID, "a box of side %g is too large for a double", max[a] - min[a]);
+            return ffd_fail(error, FFD_E_INVALID, "a box of side %g is too large for a double",
+                            max[a] - min[a]);
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Returns the greatest distance of a point from the axis through the middle, measured along zero and side. */
@@ -213,12 +212,9 @@ static ffd_status fill_cylinder(const ffd_lattice_desc *desc, const double *xyz,
     ffd_direction_unit(axis);
     ffd_direction_default_zero(axis, zero);
     vec_cross(axis, zero, side);
-    ffd_status status = find_bounds_or_fail(xyz, count, frame, min, max, error);
+    TRY(find_bounds_or_fail(xyz, count, frame, min, max, error));
     /* Without margin: only to widen flat sides and to refuse bounds that are too large. */
-    if (!status)
-        status = ffd_shape_grow_box(min, max, none, grown_min, grown_max, error);
-    if (status)
-        return status;
+    TRY(ffd_shape_grow_box(min, max, none, grown_min, grown_max, error));
     for (int a = 0; a < 3; a++)
         middle[a] = 0.5 * grown_min[a] + 0.5 * grown_max[a];
     const double least = 0.5 * fmin(grown_max[0] - grown_min[0], grown_max[1] - grown_min[1]);
@@ -248,26 +244,16 @@ ffd_status ffd_lattice_create(const ffd_lattice_desc *callers, const double *xyz
     const ffd_lattice_desc *const desc = &own;
     *lattice = NULL;
     ffd_lattice_desc_init(&own, sizeof own);
-    ffd_status status = ffd_struct_take(&own, sizeof own, callers, "ffd_lattice_desc", error);
-    if (!status)
-        status = check_desc(desc, error);
-    if (status)
-        return status;
+    TRY(ffd_struct_take(&own, sizeof own, callers, "ffd_lattice_desc", error));
+    TRY(check_desc(desc, error));
     lattice_spec *const spec = ffd_alloc_zero(1, sizeof *spec);
-    if (!spec || !(spec->name = ffd_text_copy(""))) {
-        status = ffd_fail_memory(error);
-        goto fail;
-    }
+    ffd_status status;
+    TRY_END(spec && (spec->name = ffd_text_copy("")) ? FFD_OK : ffd_fail_memory(error));
     fill_common(desc, spec);
-    if (desc->shape == FFD_SHAPE_CYLINDER)
-        status = fill_cylinder(desc, xyz, count, spec, error);
-    else
-        status = fill_box(desc, xyz, count, spec, error);
-    if (!status)
-        status = ffd_spec_build(spec, NULL, NULL, lattice, error);
-    if (!status)
-        return FFD_OK;
-fail:
-    ffd_spec_free(spec);
+    TRY_END((desc->shape == FFD_SHAPE_CYLINDER ? fill_cylinder : fill_box)(desc, xyz, count, spec, error));
+    TRY_END(ffd_spec_build(spec, NULL, NULL, lattice, error));
+end:
+    if (status)
+        ffd_spec_free(spec);
     return status;
 }

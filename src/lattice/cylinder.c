@@ -41,10 +41,7 @@ static ffd_status place_ring(const ffd_lattice *lattice, const lattice_spec *spe
     if (!weights_along_v(spec, points))
         for (size_t j = 0; j < knots->points; j++)
             points[j].weight = 1;
-    const ffd_status status =
-        ffd_ring_rotate(knots, spec->angle[0], spec->angle[1], ffd_spec_full_turn(spec), points, error);
-    if (status)
-        return status;
+    TRY(ffd_ring_rotate(knots, spec->angle[0], spec->angle[1], ffd_spec_full_turn(spec), points, error));
     double least, greatest;
     ffd_ring_radius(knots, points, &least, &greatest);
     if (!(least >= LEAST_RADIUS))
@@ -83,9 +80,10 @@ ffd_status ffd_shape_cylinder(const ffd_lattice *lattice, const lattice_spec *sp
     if (!ring)
         return ffd_fail_memory(error);
     double radius[2] = {0, 0};
-    const ffd_status status = place_ring(lattice, spec, ring, radius, error);
-    if (!status)
-        fill_cylinder(lattice, spec, ring, radius, points);
+    ffd_status status;
+    TRY_END(place_ring(lattice, spec, ring, radius, error));
+    fill_cylinder(lattice, spec, ring, radius, points);
+end:
     ffd_free(ring);
     return status;
 }

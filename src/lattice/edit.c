@@ -124,14 +124,12 @@ static ffd_status set_or_restore(ffd_lattice *lattice, point_edit *edit, ffd_err
 static ffd_status apply(ffd_lattice *lattice, point_edit *edit, ffd_error *error)
 {
     const bool had_weights = lattice->rest_weights;
-    ffd_status status = check(lattice, edit, error);
-    if (status || edit->count == 0)
-        return status;
+    TRY(check(lattice, edit, error));
+    if (edit->count == 0)
+        return FFD_OK;
     if (edit->kind == EDIT_WEIGHTS)
-        status = make_weights(lattice, error);
-    if (status)
-        return status;
-    status = set_or_restore(lattice, edit, error);
+        TRY(make_weights(lattice, error));
+    const ffd_status status = set_or_restore(lattice, edit, error);
     if (status) {
         if (!had_weights)
             drop_weights(lattice);

@@ -183,12 +183,11 @@ static ffd_status check_arcs(const arcs *a)
 
 static ffd_status check(arcs *a)
 {
-    ffd_status status = FFD_OK;
     find_layers(a);
-    for (size_t i = 0; i < a->bend->lattice->count && !status; i++)
+    for (size_t i = 0; i < a->bend->lattice->count; i++)
         if (a->bend->selected[i])
-            status = check_place(a, i);
-    return status ? status : check_arcs(a);
+            TRY(check_place(a, i));
+    return check_arcs(a);
 }
 
 static ffd_status make_weights(ffd_lattice *lattice, ffd_error *error)
@@ -239,15 +238,16 @@ static ffd_status bend_arcs(arcs *a)
     const ready_move *const ready = a->bend->ready;
     ffd_lattice *const lattice = a->bend->lattice;
     a->along = ffd_alloc(lattice->size[a->direction], sizeof *a->along);
-    ffd_status status = a->along ? FFD_OK : ffd_fail_memory(a->error);
-    if (!status)
-        status = check(a);
-    if (!status && ready->move.amount != 0) {
-        status = make_weights(lattice, a->error);
-        for (size_t i = 0; i < lattice->count && !status; i++)
+    ffd_status status;
+    TRY_END(a->along ? FFD_OK : ffd_fail_memory(a->error));
+    TRY_END(check(a));
+    if (ready->move.amount != 0) {
+        TRY_END(make_weights(lattice, a->error));
+        for (size_t i = 0; i < lattice->count; i++)
             if (a->bend->selected[i])
                 bend_point(a, i);
     }
+end:
     ffd_free(a->along);
     return status;
 }

@@ -299,10 +299,7 @@ static ffd_status move_images(move_work *work, size_t index, const lattice_move 
     const size_t *const size = work->lattice->size, count = work->lattice->count;
     const mirror_plane plane = ffd_mirror_plane(work->lattice, move->mirror);
     size_t missing;
-    const ffd_status status =
-        ffd_mirror_select(work->lattice, &plane, &work->rest, work->selected, &missing, work->error);
-    if (status)
-        return status;
+    TRY(ffd_mirror_select(work->lattice, &plane, &work->rest, work->selected, &missing, work->error));
     if (missing == count)
         return move_points(work, index, move, ready, &plane);
     return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->pointer,
@@ -325,8 +322,8 @@ static ffd_status apply_move(move_work *work, const lattice_spec *spec, size_t i
         find_centroid(work, count, ready.move.about);
     if (ffd_move_has_extent(move->action))
         find_extent(work, &ready);
-    const ffd_status status = move_points(work, index, move, &ready, NULL);
-    return status || !move->has_mirror ? status : move_images(work, index, move, &ready);
+    TRY(move_points(work, index, move, &ready, NULL));
+    return move->has_mirror ? move_images(work, index, move, &ready) : FFD_OK;
 }
 
 ffd_status ffd_moves_apply(const lattice_spec *spec, const rest_region *region, ffd_lattice *lattice,
@@ -348,8 +345,9 @@ ffd_status ffd_moves_apply(const lattice_spec *spec, const rest_region *region, 
     if (!work.selected)
         return ffd_fail_memory(error);
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < spec->move_count && !status; i++)
-        status = apply_move(&work, spec, i);
+    for (size_t i = 0; i < spec->move_count; i++)
+        TRY_END(apply_move(&work, spec, i));
+end:
     ffd_mirror_tree_free(&work.rest);
     ffd_free(work.selected);
     return status;

@@ -20,12 +20,8 @@ ffd_status ffd_listing_begin(const mesh_document *document, mesh_listing *listin
     memory_budget budget = document->budget;
     const uint64_t count = ffd_mesh_vertex_count(document);
     *listing = (mesh_listing){0};
-    ffd_status status =
-        ffd_budget_take(&budget, count, 3 * sizeof *listing->xyz + sizeof *listing->seen, error);
-    if (!status)
-        status = ffd_first_vertices(document, &listing->first, error);
-    if (status)
-        return status;
+    TRY(ffd_budget_take(&budget, count, 3 * sizeof *listing->xyz + sizeof *listing->seen, error));
+    TRY(ffd_first_vertices(document, &listing->first, error));
     listing->xyz = ffd_alloc((size_t)count, 3 * sizeof *listing->xyz);
     listing->seen = ffd_alloc_zero((size_t)count, sizeof *listing->seen);
     if (!listing->xyz || !listing->seen)

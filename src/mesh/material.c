@@ -4,19 +4,18 @@
 
 ffd_status ffd_materials_add(mesh_materials *materials, char *name, memory_budget *budget, ffd_error *error)
 {
-    ffd_status status = name ? FFD_OK : ffd_fail_memory(error);
-    if (!status)
-        status = ffd_budget_take(budget, 1, sizeof *materials->list + strlen(name) + 1, error);
-    if (!status && !ffd_grow((void **)&materials->list, &materials->capacity, materials->count + 1,
-                             sizeof *materials->list))
-        status = ffd_fail_memory(error);
-    if (status) {
-        ffd_free(name);
-        return status;
-    }
+    ffd_status status;
+    TRY_END(name ? FFD_OK : ffd_fail_memory(error));
+    TRY_END(ffd_budget_take(budget, 1, sizeof *materials->list + strlen(name) + 1, error));
+    if (!ffd_grow((void **)&materials->list, &materials->capacity, materials->count + 1,
+                  sizeof *materials->list))
+        TRY_END(ffd_fail_memory(error));
     materials->list[materials->count++] =
         (mesh_material){.name = name, .color = {1, 1, 1, 1}, .image = MATERIAL_NONE};
-    return FFD_OK;
+end:
+    if (status)
+        ffd_free(name);
+    return status;
 }
 
 void ffd_materials_free(mesh_materials *materials)

@@ -61,10 +61,9 @@ ffd_status ffd_budget_check(const memory_budget *budget, uint64_t count, uint64_
 
 ffd_status ffd_budget_take(memory_budget *budget, uint64_t count, uint64_t size, ffd_error *error)
 {
-    const ffd_status status = ffd_budget_check(budget, count, size, error);
-    if (!status)
-        budget->taken += count * size; /* at most what was left */
-    return status;
+    TRY(ffd_budget_check(budget, count, size, error));
+    budget->taken += count * size; /* at most what was left */
+    return FFD_OK;
 }
 
 void ffd_budget_return(memory_budget *budget, uint64_t count, uint64_t size)

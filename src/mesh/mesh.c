@@ -66,9 +66,9 @@ ffd_status ffd_mesh_mark_used(mesh_document *document, ffd_error *error)
 {
     if (document->used_is_marked || !document->format->mark_used)
         return FFD_OK;
-    const ffd_status status = document->format->mark_used(document, error);
-    document->used_is_marked = status == FFD_OK;
-    return status;
+    TRY(document->format->mark_used(document, error));
+    document->used_is_marked = true;
+    return FFD_OK;
 }
 
 ffd_status ffd_used_make(mesh_document *document, size_t count, uint8_t **used, ffd_error *error)
@@ -114,26 +114,24 @@ ffd_status ffd_mesh_faces_take(const mesh_faces *faces, uint64_t corners, memory
                                ffd_error *error)
 {
     const size_t index = faces->vertices ? sizeof *faces->vertices : 0;
-    ffd_status status =
-        ffd_budget_take(budget, faces->vertex_count, 3 * sizeof *faces->positions + index, error);
-    if (!status)
-        status = ffd_budget_take(budget, faces->face_count, sizeof *faces->start, error);
-    return status ? status : ffd_budget_take(budget, corners, sizeof *faces->corners, error);
+    TRY(ffd_budget_take(budget, faces->vertex_count, 3 * sizeof *faces->positions + index, error));
+    TRY(ffd_budget_take(budget, faces->face_count, sizeof *faces->start, error));
+    return ffd_budget_take(budget, corners, sizeof *faces->corners, error);
 }
 
 ffd_status ffd_mesh_faces_make(const mesh_document *document, mesh_faces *faces, size_t corners,
                                ffd_error *error)
 {
     memory_budget budget = document->budget;
-    ffd_status status = ffd_mesh_faces_take(faces, corners, &budget, error);
-    if (!status) {
-        faces->positions = ffd_alloc(faces->vertex_count, 3 * sizeof *faces->positions);
-        faces->start = ffd_alloc(faces->face_count + 1, sizeof *faces->start);
-        faces->corners = ffd_alloc(corners, sizeof *faces->corners);
-        if (faces->positions && faces->start && faces->corners)
-            return FFD_OK;
-        status = ffd_fail_memory(error);
-    }
+    ffd_status status;
+    TRY_END(ffd_mesh_faces_take(faces, corners, &budget, error));
+    faces->positions = ffd_alloc(faces->vertex_count, 3 * sizeof *faces->positions);
+    faces->start = ffd_alloc(faces->face_count + 1, sizeof *faces->start);
+    faces->corners = ffd_alloc(corners, sizeof *faces->corners);
+    if (faces->positions && faces->start && faces->corners)
+        return FFD_OK;
+    TRY_END(ffd_fail_memory(error));
+end:
     ffd_mesh_faces_free(faces);
     return status;
 }

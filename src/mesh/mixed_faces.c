@@ -87,8 +87,7 @@ static ffd_status make_set(const mesh_document *document, const face_list *lists
         ffd_budget_check(&document->budget, words, sizeof *set->words + sizeof *set->before, error);
     *set = (vertex_set){.word_count = words};
     *count = 0;
-    if (status)
-        return status;
+    TRY(status);
     set->words = ffd_alloc_zero(words, sizeof *set->words);
     set->before = ffd_alloc(words, sizeof *set->before);
     if (!set->words || !set->before)
@@ -147,16 +146,16 @@ ffd_status ffd_face_lists_narrow(const mesh_document *document, const face_list 
                                  mesh_faces *faces, ffd_error *error)
 {
     vertex_set set;
-    ffd_status status =
-        make_set(document, lists, count, faces->vertex_count, &set, &faces->vertex_count, error);
-    faces->vertices = status ? NULL : ffd_alloc(faces->vertex_count, sizeof *faces->vertices);
-    if (!status && !faces->vertices)
-        status = ffd_fail_memory(error);
-    if (!status)
-        status = ffd_face_lists_join(document, lists, count, faces, error);
-    if (!status)
-        index_corners(&set, faces);
-    else
+    ffd_status status;
+    faces->vertices = NULL;
+    TRY_END(make_set(document, lists, count, faces->vertex_count, &set, &faces->vertex_count, error));
+    faces->vertices = ffd_alloc(faces->vertex_count, sizeof *faces->vertices);
+    if (!faces->vertices)
+        TRY_END(ffd_fail_memory(error));
+    TRY_END(ffd_face_lists_join(document, lists, count, faces, error));
+    index_corners(&set, faces);
+end:
+    if (status)
         ffd_mesh_faces_free(faces);
     free_set(&set);
     return status;

@@ -81,15 +81,12 @@ static bool find_name(mesh_model *model, const char *text, uint32_t *name)
 static ffd_status add_run(mesh_model *model, model_run run, ffd_error *error)
 {
     const model_run *const last = model->run_count ? &model->runs[model->run_count - 1] : NULL;
-    ffd_status status = FFD_OK;
     for (int k = 0; k < MODEL_KINDS; k++)
         run.first[k] = model->lists[k].count;
     if (last && memcmp(last->first, run.first, sizeof run.first) == 0)
         model->run_count--; /* the last run is empty */
     else
-        status = ffd_model_take(model, 1, RUN_BYTES, error);
-    if (status)
-        return status;
+        TRY(ffd_model_take(model, 1, RUN_BYTES, error));
     if (!ffd_grow((void **)&model->runs, &model->run_capacity, model->run_count + 1, sizeof *model->runs))
         return ffd_fail_memory(error);
     model->runs[model->run_count++] = run;
@@ -135,15 +132,14 @@ static ffd_status append(model_list *list, const model_corner *corners, size_t c
 ffd_status ffd_model_add(mesh_model *model, model_kind kind, const model_corner *corners, size_t count,
                          ffd_error *error)
 {
-    ffd_status status = ffd_model_take(model, count, CORNER_BYTES, error);
+    TRY(ffd_model_take(model, count, CORNER_BYTES, error));
     if (kind == MODEL_POINTS || count == 1) {
-        for (size_t i = 0; i < count && !status; i++)
-            status = append(&model->lists[MODEL_POINTS], corners + i, 1, error);
-        return status;
+        for (size_t i = 0; i < count; i++)
+            TRY(append(&model->lists[MODEL_POINTS], corners + i, 1, error));
+        return FFD_OK;
     }
-    if (count == 0 || status)
-        return status;
-    return append(&model->lists[count == 2 ? MODEL_LINES : kind], corners, count, error);
+    return count == 0 ? FFD_OK
+                      : append(&model->lists[count == 2 ? MODEL_LINES : kind], corners, count, error);
 }
 
 /* The colour of a face without one (Geomview's manual, OFF). */
@@ -166,10 +162,10 @@ static ffd_status colour_up_to(mesh_model *model, size_t count, ffd_error *error
 ffd_status ffd_model_colour_face(mesh_model *model, const double colour[4], ffd_error *error)
 {
     const size_t count = model->lists[MODEL_FACES].count;
-    const ffd_status status = colour_up_to(model, count, error);
-    if (!status && count > 0)
+    TRY(colour_up_to(model, count, error));
+    if (count > 0)
         memcpy(model->face_colours + 4 * (count - 1), colour, 4 * sizeof *colour);
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_model_colour_rest(mesh_model *model, ffd_error *error)

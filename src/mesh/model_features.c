@@ -118,20 +118,19 @@ static ffd_status make_cloud(mesh_model *model, ffd_error *error)
 {
     const bool normals = model->normal_count == model->position_count,
                texcoords = model->texcoord_count == model->position_count;
-    ffd_status status = FFD_OK;
     for (int k = 0; k < MODEL_KINDS; k++)
         if (model->lists[k].count > 0)
             return FFD_OK;
     if (model->features & MODEL_HAS_FREE_FORM)
         return FFD_OK;
     if (model->position_count > 0 && model->run_count == 0)
-        status = ffd_model_begin_run(model, NULL, NULL, NULL, error);
-    for (size_t i = 0; i < model->position_count && !status; i++) {
+        TRY(ffd_model_begin_run(model, NULL, NULL, NULL, error));
+    for (size_t i = 0; i < model->position_count; i++) {
         const uint32_t index = (uint32_t)i;
         const model_corner corner = {index, texcoords ? index : MODEL_NONE, normals ? index : MODEL_NONE};
-        status = ffd_model_add(model, MODEL_POINTS, &corner, 1, error);
+        TRY(ffd_model_add(model, MODEL_POINTS, &corner, 1, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 static uint32_t features_of_corners(const mesh_model *model)
@@ -223,23 +222,23 @@ static ffd_status find_lost_parts(const mesh_model *model, bool *lost, ffd_error
 {
     intern_table names = {0};
     part_error *const parts = ffd_alloc(model->run_count, sizeof *parts);
-    ffd_status status = parts ? FFD_OK : ffd_fail_memory(error);
-    for (size_t r = 0; r < model->run_count && !status; r++) {
+    ffd_status status;
+    TRY_END(parts ? FFD_OK : ffd_fail_memory(error));
+    for (size_t r = 0; r < model->run_count; r++) {
         const uint32_t key[2] = {model->runs[r].object, model->runs[r].group};
         const size_t known = names.count;
         uint32_t index;
-        if (!ffd_intern(&names, key, sizeof key, &index)) {
-            status = ffd_fail_memory(error);
-            break;
-        }
+        if (!ffd_intern(&names, key, sizeof key, &index))
+            TRY_END(ffd_fail_memory(error));
         if (index == known)
             parts[index] = (part_error){.box = ffd_bounds_empty()};
         measure_run(model, r, &parts[index]);
     }
-    for (size_t p = 0; p < names.count && !status; p++) {
+    for (size_t p = 0; p < names.count; p++) {
         const double side = ffd_bounds_side(&parts[p].box);
         *lost = *lost || (side > 0 && parts[p].error > PART_TOLERANCE * side);
     }
+end:
     ffd_intern_free(&names);
     ffd_free(parts);
     return status;
@@ -255,15 +254,11 @@ static ffd_status find_fine_positions(mesh_model *model, ffd_error *error)
 
 ffd_status ffd_model_finish(mesh_model *model, ffd_error *error)
 {
-    ffd_status status = make_cloud(model, error);
+    TRY(make_cloud(model, error));
     scale_colours(model->colours, model->position_count);
     scale_colours(model->face_colours, model->coloured_faces);
-    if (!status)
-        status = ffd_model_colour_rest(model, error);
-    if (!status)
-        status = find_fine_positions(model, error);
-    if (status)
-        return status;
+    TRY(ffd_model_colour_rest(model, error));
+    TRY(find_fine_positions(model, error));
     uint32_t *indices = ffd_alloc(model->position_count, sizeof *indices);
     if (!indices)
         return ffd_fail_memory(error);

@@ -55,11 +55,11 @@ bool ffd_positions_find(const position_table *table, uint32_t vertex, uint32_t *
 ffd_status ffd_positions_twins(const double *positions, size_t count, uint32_t *twins, ffd_error *error)
 {
     position_table table;
-    const ffd_status status = ffd_positions_begin(&table, positions, count, error);
-    for (size_t v = 0; !status && v < count; v++)
+    TRY(ffd_positions_begin(&table, positions, count, error));
+    for (size_t v = 0; v < count; v++)
         twins[v] = ffd_positions_add(&table, (uint32_t)v);
     ffd_positions_end(&table);
-    return status;
+    return FFD_OK;
 }
 
 void ffd_positions_end(position_table *table)

@@ -73,10 +73,7 @@ static ffd_status fill(band_work *work, size_t count, size_t share, const band_m
 {
     ffd_parallel_tiles(count, share, means->threads, count_items, work);
     const size_t total = place(work, count / share + 1);
-    const ffd_status status =
-        means->budget ? ffd_budget_take(means->budget, total, sizeof *work->result->items, error) : FFD_OK;
-    if (status)
-        return status;
+    TRY(means->budget ? ffd_budget_take(means->budget, total, sizeof *work->result->items, error) : FFD_OK);
     work->result->items = ffd_alloc(total, sizeof *work->result->items);
     if (!work->result->items)
         return ffd_fail_memory(error);

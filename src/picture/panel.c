@@ -38,10 +38,9 @@ static bool disc_rows(const void *context, size_t item, int64_t *first, int64_t 
 static ffd_status make_mesh(const picture_mesh *mesh, const projection *by, const picture *of,
                             const band_means *means, panel_mesh *result, ffd_error *error)
 {
-    const ffd_status status = ffd_surface_make(mesh, by, means, &result->surface, error);
-    return status ? status
-                  : ffd_bands_make(0, of->height, mesh->triangle_count, ffd_raster_rows, &result->surface,
-                                   means, &result->triangles, error);
+    TRY(ffd_surface_make(mesh, by, means, &result->surface, error));
+    return ffd_bands_make(0, of->height, mesh->triangle_count, ffd_raster_rows, &result->surface, means,
+                          &result->triangles, error);
 }
 
 static ffd_status make_cage(const picture_cage *cage, const projection *by, const layout *in,
@@ -57,11 +56,10 @@ static ffd_status make_cage(const picture_cage *cage, const projection *by, cons
         return ffd_fail_memory(error);
     for (size_t i = 0; i < cage->point_count; i++)
         projection_apply(by, cage->points + 3 * i, result->points + 3 * i);
-    const ffd_status status = ffd_bands_make(0, in->of->height, cage->segment_count, segment_rows, result,
-                                             means, &result->segments, error);
-    return status ? status
-                  : ffd_bands_make(0, in->of->height, result->radius > 0 ? cage->point_count : 0, disc_rows,
-                                   result, means, &result->discs, error);
+    TRY(ffd_bands_make(0, in->of->height, cage->segment_count, segment_rows, result, means, &result->segments,
+                       error));
+    return ffd_bands_make(0, in->of->height, result->radius > 0 ? cage->point_count : 0, disc_rows, result,
+                          means, &result->discs, error);
 }
 
 ffd_status ffd_panel_make(const layout *by, size_t index, const ffd_bounds *seen, const band_means *means,
@@ -81,11 +79,13 @@ ffd_status ffd_panel_make(const layout *by, size_t index, const ffd_bounds *seen
     const projection to =
         ffd_camera_fit(&by->of->camera, seen, floor((result->left + result->right) / 2.0),
                        result->top + (by->top + by->bottom) / 2, width, by->bottom - by->top);
-    ffd_status status = result->meshes && result->cages ? FFD_OK : ffd_fail_memory(error);
-    for (size_t i = 0; !status && i < of->mesh_count; i++)
-        status = make_mesh(&of->meshes[i], &to, by->of, means, &result->meshes[i], error);
-    for (size_t i = 0; !status && i < of->cage_count; i++)
-        status = make_cage(&of->cages[i], &to, by, means, &result->cages[i], error);
+    ffd_status status;
+    TRY_END(result->meshes && result->cages ? FFD_OK : ffd_fail_memory(error));
+    for (size_t i = 0; i < of->mesh_count; i++)
+        TRY_END(make_mesh(&of->meshes[i], &to, by->of, means, &result->meshes[i], error));
+    for (size_t i = 0; i < of->cage_count; i++)
+        TRY_END(make_cage(&of->cages[i], &to, by, means, &result->cages[i], error));
+end:
     if (status)
         ffd_panel_free(result);
     return status;

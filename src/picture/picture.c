@@ -218,9 +218,11 @@ ffd_status ffd_picture_draw(const picture *of, const memory_budget *budget, uint
     d.means.threads = thread_count(of, d.means.budget);
     ffd_linear_fill(&d.tables);
     d.seen = find_bounds(of);
-    ffd_status status = make(&d, error);
-    for (size_t p = 0; p < of->panel_count && !status; p++)
-        status = draw_panel(&d, p, error);
+    ffd_status status;
+    TRY_END(make(&d, error));
+    for (size_t p = 0; p < of->panel_count; p++)
+        TRY_END(draw_panel(&d, p, error));
+end:
     free_scratch(&d);
     if (status)
         ffd_free(d.pixels);

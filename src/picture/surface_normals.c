@@ -226,22 +226,23 @@ ffd_status ffd_surface_normals(const picture_mesh *mesh, double scale, const mem
                         .normal_capacity = mesh->vertex_count,
                         .faces = ffd_alloc_whole(mesh->triangle_count, 3 * sizeof(float)),
                         .has_crease = ffd_alloc_zero(mesh->vertex_count, 1)};
-    ffd_status status = result->normals && work.has_crease && work.faces ? FFD_OK : ffd_fail_memory(error);
-    if (!status) {
-        add_faces(&work);
-        const bool any = find_creases(&work);
-        spread(mesh, result->normals);
-        status = any ? split_places(&work, budget, error) : FFD_OK;
-    }
+    ffd_status status;
+    TRY_END(result->normals && work.has_crease && work.faces ? FFD_OK : ffd_fail_memory(error));
+    add_faces(&work);
+    const bool any = find_creases(&work);
+    spread(mesh, result->normals);
+    if (any)
+        TRY_END(split_places(&work, budget, error));
+end:
     ffd_free(work.has_crease);
     ffd_free(work.faces);
     ffd_free(work.first);
     ffd_free(work.corners);
-    if (!status)
-        return FFD_OK;
-    ffd_free(result->normals);
-    ffd_free(result->origins);
-    ffd_free(result->triangles);
-    *result = (surface_normals){.normals = NULL};
+    if (status) {
+        ffd_free(result->normals);
+        ffd_free(result->origins);
+        ffd_free(result->triangles);
+        *result = (surface_normals){.normals = NULL};
+    }
     return status;
 }

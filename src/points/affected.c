@@ -183,11 +183,12 @@ ffd_status ffd_embedding_affected(const ffd_embedding *embedding, const size_t *
     const cell_lists *const lists = lists_of(embedding);
     uint8_t *const spans = ffd_alloc(knots[0].span_count + knots[1].span_count + knots[2].span_count, 1);
     uint8_t *const cells = lists ? ffd_alloc_zero(lists->cells, 1) : NULL;
-    ffd_status status = spans && cells ? FFD_OK : ffd_fail_memory(error);
-    for (size_t i = 0; i < count && !status; i++)
+    ffd_status status;
+    TRY_END(spans && cells ? FFD_OK : ffd_fail_memory(error));
+    for (size_t i = 0; i < count; i++)
         mark_cells(lattice, control_points[i], spans, cells);
-    if (!status)
-        status = join(lists, cells, vertices, vertex_count, error);
+    TRY_END(join(lists, cells, vertices, vertex_count, error));
+end:
     ffd_free(spans);
     ffd_free(cells);
     return status;

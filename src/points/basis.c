@@ -103,18 +103,15 @@ ffd_status ffd_embedding_basis(const ffd_embedding *embedding, const double *wei
     point_run run = {.total = 0};
     basis_work work;
     *matrix = (ffd_csr){.rows = embedding->count, .columns = embedding->rest->count};
-    ffd_status status = begin(embedding, weights, options, &run, &work, error);
+    ffd_status status;
+    TRY_END(begin(embedding, weights, options, &run, &work, error));
     work.matrix = matrix;
     run.passes = 2;
-    if (!status) {
-        matrix->starts = ffd_alloc_zero(matrix->rows + 1, sizeof *matrix->starts);
-        status =
-            matrix->starts ? ffd_point_run_tiles(&run, count_tile, &work, error) : ffd_fail_memory(error);
-    }
-    if (!status)
-        status = make_entries(matrix, error);
-    if (!status)
-        status = ffd_point_run_tiles(&run, fill_tile, &work, error);
+    matrix->starts = ffd_alloc_zero(matrix->rows + 1, sizeof *matrix->starts);
+    TRY_END(matrix->starts ? ffd_point_run_tiles(&run, count_tile, &work, error) : ffd_fail_memory(error));
+    TRY_END(make_entries(matrix, error));
+    TRY_END(ffd_point_run_tiles(&run, fill_tile, &work, error));
+end:
     end(&run, &work);
     if (status)
         ffd_csr_free(matrix);
@@ -126,11 +123,12 @@ ffd_status ffd_embedding_basis_times(const ffd_embedding *embedding, const doubl
 {
     point_run run = {.total = 0};
     basis_work work;
-    ffd_status status = begin(embedding, weights, options, &run, &work, error);
+    ffd_status status;
+    TRY_END(begin(embedding, weights, options, &run, &work, error));
     work.dq = dq;
     work.dx = dx;
-    if (!status)
-        status = ffd_point_run_tiles(&run, multiply_tile, &work, error);
+    TRY_END(ffd_point_run_tiles(&run, multiply_tile, &work, error));
+end:
     end(&run, &work);
     return status;
 }

@@ -77,11 +77,11 @@ ffd_status ffd_embedding_basis_transposed(const ffd_embedding *embedding, const 
     point_run run = {.total = 0};
     transposed_work work = {
         .embedding = embedding, .weights = weights, .dfdx = dfdx, .width = 3 * embedding->rest->count};
-    ffd_status status = ffd_basis_weights(embedding, &work.weights, error);
-    if (!status)
-        status = ffd_point_run_begin(options, embedding->count, &run, error);
-    if (!status)
-        status = add_all(&work, &run.options, dfdq, error);
+    ffd_status status;
+    TRY_END(ffd_basis_weights(embedding, &work.weights, error));
+    TRY_END(ffd_point_run_begin(options, embedding->count, &run, error));
+    TRY_END(add_all(&work, &run.options, dfdq, error));
+end:
     ffd_free(work.sums);
     ffd_free(work.rows);
     ffd_point_run_end(&run);

@@ -66,14 +66,13 @@ static ffd_status carry(direction_work *work, size_t *collapsed, const ffd_run_o
 {
     point_run run = {.total = 0};
     atomic_init(&work->collapsed, 0);
-    ffd_status status = check(work, error);
-    if (!status)
-        status = ffd_point_run_begin(options, work->in.count, &run, error);
-    if (!status) {
-        work->isa = run.options.isa;
-        work->scratch = ffd_alloc((size_t)run.options.threads, sizeof *work->scratch);
-        status = work->scratch ? ffd_point_run_tiles(&run, carry_tile, work, error) : ffd_fail_memory(error);
-    }
+    ffd_status status;
+    TRY_END(check(work, error));
+    TRY_END(ffd_point_run_begin(options, work->in.count, &run, error));
+    work->isa = run.options.isa;
+    work->scratch = ffd_alloc((size_t)run.options.threads, sizeof *work->scratch);
+    TRY_END(work->scratch ? ffd_point_run_tiles(&run, carry_tile, work, error) : ffd_fail_memory(error));
+end:
     if (collapsed)
         *collapsed = atomic_load(&work->collapsed);
     ffd_free(work->scratch);

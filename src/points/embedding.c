@@ -144,18 +144,18 @@ static ffd_status find_all(const ffd_embedding_desc *desc, point_run *run, ffd_e
 {
     const size_t threads = (size_t)run->options.threads, tiles = desc->points.count / POINT_TILE + 1;
     embed_work work = {.desc = desc, .embedding = embedding};
-    ffd_status status = ffd_locator_create_for(embedding->rest, run->options.isa, &work.locator, error);
-    if (!status && desc->outside == FFD_OUTSIDE_EXTEND)
-        status = ffd_locator_border(work.locator, &work.border, error);
+    ffd_status status;
+    TRY_END(ffd_locator_create_for(embedding->rest, run->options.isa, &work.locator, error));
+    if (desc->outside == FFD_OUTSIDE_EXTEND)
+        TRY_END(ffd_locator_border(work.locator, &work.border, error));
     work.locations = ffd_alloc(threads * POINT_TILE, sizeof *work.locations);
     work.positions = ffd_alloc(threads * POINT_TILE, 3 * sizeof *work.positions);
     work.outside = ffd_alloc_zero(tiles, sizeof *work.outside);
-    if (!status && !(work.locations && work.positions && work.outside))
-        status = ffd_fail_memory(error);
-    if (!status)
-        status = ffd_point_run_tiles(run, embed_tile, &work, error);
-    if (!status)
-        status = join_extended(&work, tiles, error);
+    if (!(work.locations && work.positions && work.outside))
+        TRY_END(ffd_fail_memory(error));
+    TRY_END(ffd_point_run_tiles(run, embed_tile, &work, error));
+    TRY_END(join_extended(&work, tiles, error));
+end:
     free_work(&work, tiles);
     return status;
 }
@@ -171,8 +171,7 @@ ffd_status ffd_embedding_make(const ffd_lattice *lattice, size_t count, ffd_embe
     made->uvw = ffd_alloc_whole(count, 3 * sizeof *made->uvw);
     made->status = ffd_alloc(count, sizeof *made->status);
     made->index = ffd_cell_index_create();
-    const ffd_status status = ffd_lattice_copy(lattice, &made->rest, error);
-    if (!status && made->uvw && made->status && made->index) {
+    if (made->uvw && made->status && made->index && ffd_lattice_copy(lattice, &made->rest, NULL) == FFD_OK) {
         made->rest_hash = ffd_rest_hash(made->rest);
         return FFD_OK;
     }
@@ -187,17 +186,14 @@ ffd_status ffd_embedding_create(const ffd_embedding_desc *callers, const ffd_run
     point_run run = {.total = 0};
     *embedding = NULL;
     ffd_embedding_desc_init(&desc, sizeof desc);
-    ffd_status status = ffd_struct_take(&desc, sizeof desc, callers, "ffd_embedding_desc", error);
-    if (!status)
-        status = check(&desc, error);
-    if (!status)
-        status = ffd_point_run_begin(options, desc.points.count, &run, error);
-    if (!status)
-        status = ffd_embedding_make(desc.lattice, desc.points.count, embedding, error);
-    if (!status) {
-        (*embedding)->falloff = desc.falloff;
-        status = find_all(&desc, &run, *embedding, error);
-    }
+    ffd_status status;
+    TRY_END(ffd_struct_take(&desc, sizeof desc, callers, "ffd_embedding_desc", error));
+    TRY_END(check(&desc, error));
+    TRY_END(ffd_point_run_begin(options, desc.points.count, &run, error));
+    TRY_END(ffd_embedding_make(desc.lattice, desc.points.count, embedding, error));
+    (*embedding)->falloff = desc.falloff;
+    TRY_END(find_all(&desc, &run, *embedding, error));
+end:
     ffd_point_run_end(&run);
     if (status)
         ffd_embedding_destroy(embedding);

@@ -167,14 +167,14 @@ ffd_status ffd_embedding_load(const void *bytes, size_t size, const ffd_lattice 
     *embedding = NULL;
     if (!lattice || !lattice->rest)
         return ffd_fail(error, FFD_E_ARGUMENT, "there is no lattice, or it has no control points yet");
-    ffd_status status = read_head(bytes, size, &head, error);
-    if (!status)
-        status = ffd_embedding_make(lattice, (size_t)head.count, embedding, error);
-    if (!status && !ffd_hash_equal(&head.rest, &(*embedding)->rest_hash))
-        status = ffd_fail(error, FFD_E_INVALID,
-                          "the embedding is of another lattice: rest points, knots or weights differ");
-    if (!status)
-        status = fill(bytes, &head, *embedding, error);
+    ffd_status status;
+    TRY_END(read_head(bytes, size, &head, error));
+    TRY_END(ffd_embedding_make(lattice, (size_t)head.count, embedding, error));
+    if (!ffd_hash_equal(&head.rest, &(*embedding)->rest_hash))
+        TRY_END(ffd_fail(error, FFD_E_INVALID,
+                         "the embedding is of another lattice: rest points, knots or weights differ"));
+    TRY_END(fill(bytes, &head, *embedding, error));
+end:
     if (status)
         ffd_embedding_destroy(embedding);
     return status;

@@ -205,13 +205,12 @@ static ffd_status deform_elements(deform_work *work, size_t count, const ffd_run
                                   ffd_error *error)
 {
     point_run run = {.total = 0};
-    ffd_status status = check(work, count, error);
-    if (!status)
-        status = ffd_point_run_begin(options, count, &run, error);
-    if (!status)
-        status = make_scratch(&run, work, error);
-    if (!status)
-        status = ffd_point_run_tiles(&run, deform_tile, work, error);
+    ffd_status status;
+    TRY_END(check(work, count, error));
+    TRY_END(ffd_point_run_begin(options, count, &run, error));
+    TRY_END(make_scratch(&run, work, error));
+    TRY_END(ffd_point_run_tiles(&run, deform_tile, work, error));
+end:
     free_scratch(&run, work->scratch);
     ffd_point_run_end(&run);
     return status;

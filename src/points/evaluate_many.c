@@ -29,9 +29,10 @@ ffd_status ffd_lattice_evaluate_many(const ffd_lattice *lattice, ffd_volume volu
     if (!lattice->rest)
         return ffd_fail(error, FFD_E_ARGUMENT,
                         "the lattice has no control points yet: its box is that of a mesh");
-    ffd_status status = ffd_point_run_begin(options, count, &run, error);
-    if (!status)
-        status = ffd_point_run_tiles(&run, evaluate_tile, &work, error);
+    ffd_status status;
+    TRY_END(ffd_point_run_begin(options, count, &run, error));
+    TRY_END(ffd_point_run_tiles(&run, evaluate_tile, &work, error));
+end:
     ffd_point_run_end(&run);
     return status;
 }

@@ -14,13 +14,9 @@ ffd_status ffd_point_run_begin(const ffd_run_options *options, size_t total, poi
     *run = (point_run){.total = total, .passes = 1};
     ffd_run_options_init(&run->options, sizeof run->options);
     const size_t tiles = total / POINT_TILE + 1;
-    ffd_status status =
-        options ? ffd_struct_take(&run->options, sizeof run->options, options, "ffd_run_options", error)
-                : FFD_OK;
-    if (!status)
-        status = ffd_threads_choose(run->options.threads, &run->options.threads, error);
-    if (status)
-        return status;
+    TRY(options ? ffd_struct_take(&run->options, sizeof run->options, options, "ffd_run_options", error)
+                : FFD_OK);
+    TRY(ffd_threads_choose(run->options.threads, &run->options.threads, error));
     if (run->options.isa != FFD_ISA_AUTO && !ffd_isa_available(run->options.isa))
         return ffd_fail(error, FFD_E_ARGUMENT, "instruction set %d is not available here",
                         (int)run->options.isa);

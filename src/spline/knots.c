@@ -229,36 +229,28 @@ ffd_status ffd_knots_make(knot_kind kind, int degree, size_t points, const doubl
                           char direction, knot_vector *knots, ffd_error *error)
 {
     *knots = (knot_vector){.kind = kind, .degree = degree, .points = points};
-    ffd_status status = check_shape(degree, points, direction, error);
-    if (status)
-        goto fail;
+    ffd_status status;
+    TRY_END(check_shape(degree, points, direction, error));
     const bool closed = ffd_knots_closed(knots);
     if (kind == KNOTS_LIST || kind == KNOTS_CLOSED_LIST) {
         const knot_list given = {list, list_count, degree, closed, direction, error};
-        status = check_list(&given, points);
-        if (status)
-            goto fail;
+        TRY_END(check_list(&given, points));
     }
     knots->functions = closed ? points + (size_t)degree : points;
     knots->t = ffd_alloc(knots->functions + (size_t)degree + 1, sizeof *knots->t);
     knots->spans = ffd_alloc(knots->functions - (size_t)degree, sizeof *knots->spans);
-    if (!knots->t || !knots->spans) {
-        status = ffd_fail_memory(error);
-        goto fail;
-    }
+    if (!knots->t || !knots->spans)
+        TRY_END(ffd_fail_memory(error));
     fill_knots(knots, list);
     find_spans(knots);
-    status = check_widths(knots, direction, error);
-    if (status)
-        goto fail;
+    TRY_END(check_widths(knots, direction, error));
     knots->extractions = ffd_bezier_extractions(knots);
-    if (knots->extractions) {
-        ffd_bezier_weigh(knots, knots->extractions);
-        return FFD_OK;
-    }
-    status = ffd_fail_memory(error);
-fail:
-    ffd_knots_free(knots);
+    if (!knots->extractions)
+        TRY_END(ffd_fail_memory(error));
+    ffd_bezier_weigh(knots, knots->extractions);
+end:
+    if (status)
+        ffd_knots_free(knots);
     return status;
 }
 

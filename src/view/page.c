@@ -100,16 +100,11 @@ static ffd_status make_rig(page_work *work, ffd_error *error)
 
 static ffd_status prepare(page_work *work, ffd_error *error)
 {
-    ffd_status status = ffd_page_mesh_take(work->scene, &work->mesh, error);
-    if (status)
-        return status;
+    TRY(ffd_page_mesh_take(work->scene, &work->mesh, error));
     const size_t used = ffd_page_mesh_mark(&work->mesh);
     if (!work->options->full)
-        status = ffd_page_reduce(&work->mesh, VIEW_PAGE_VERTICES, error);
-    if (!status)
-        status = ffd_page_mesh_index(&work->mesh, error);
-    if (status)
-        return status;
+        TRY(ffd_page_reduce(&work->mesh, VIEW_PAGE_VERTICES, error));
+    TRY(ffd_page_mesh_index(&work->mesh, error));
     ffd_page_data_measure(&work->mesh, &work->data);
     log_omissions(work, used);
     TRY(make_rig(work, error));
@@ -165,16 +160,17 @@ ffd_status ffd_view_page_write(const view_scene *scene, const view_page_options 
     work.description.data = &work.data;
     work.description.rig = &work.rig;
     work.description.options = options;
-    ffd_status status = prepare(&work, error);
-    if (!status && !ffd_page_writer_begin(&work.writer, output, error)) {
+    ffd_status status;
+    TRY_END(prepare(&work, error));
+    if (!ffd_page_writer_begin(&work.writer, output, error)) {
         ffd_page_write(&work.writer, ffd_page_start, ffd_page_start_size);
         write_title(&work);
         ffd_page_write(&work.writer, ffd_page_middle, ffd_page_middle_size);
         write_data(&work);
         ffd_page_write(&work.writer, ffd_page_end, ffd_page_end_size);
     }
-    if (!status)
-        status = ffd_page_writer_end(&work.writer);
+    TRY_END(ffd_page_writer_end(&work.writer));
+end:
     ffd_page_mesh_free(&work.mesh);
     ffd_page_rig_free(&work.rig);
     ffd_free(work.has_cage);

@@ -193,10 +193,11 @@ static ffd_status reduce_part(reducer *r, double ratio, bool is_rough, page_part
     part->first_triangle = r->mesh->triangle_count;
     uint32_t *corners = r->kept;
     ffd_status status = FFD_OK;
-    for (int kind = PLAIN; kind < TORN && !status; kind++) {
-        status = reduce_class(r, ratio, is_rough, kind, corners, counts[kind], error);
+    for (int kind = PLAIN; kind < TORN; kind++) {
+        TRY_END(reduce_class(r, ratio, is_rough, kind, corners, counts[kind], error));
         corners += 3 * counts[kind];
     }
+end:
     put_torn(r->mesh, marks, corners, counts[TORN]);
     part->triangle_count = r->mesh->triangle_count - part->first_triangle;
     ffd_free(marks);
@@ -216,7 +217,6 @@ static size_t thin_out(uint32_t *indices, size_t count, size_t corners, double r
 static ffd_status reduce_once(reducer *r, double ratio, bool is_rough, ffd_error *error)
 {
     page_mesh *const mesh = r->mesh;
-    ffd_status status = FFD_OK;
     mesh->segment_count = thin_out(mesh->segments, mesh->segment_count, 2, ratio);
     mesh->point_count = thin_out(mesh->points, mesh->point_count, 1, ratio);
     ffd_free(r->kept);
@@ -228,9 +228,9 @@ static ffd_status reduce_once(reducer *r, double ratio, bool is_rough, ffd_error
         return ffd_fail_memory(error);
     /* Triangles are written back in place: no part grows, so none is overwritten before it is read. */
     mesh->triangle_count = 0;
-    for (size_t i = 0; i < mesh->part_count && !status; i++)
-        status = reduce_part(r, ratio, is_rough, &mesh->parts[i], error);
-    return status;
+    for (size_t i = 0; i < mesh->part_count; i++)
+        TRY(reduce_part(r, ratio, is_rough, &mesh->parts[i], error));
+    return FFD_OK;
 }
 
 /* The last resort, for meshes that simplification cannot reduce, such as unconnected triangles: drops
@@ -271,23 +271,23 @@ ffd_status ffd_page_reduce(page_mesh *mesh, size_t limit, ffd_error *error)
     size_t used = ffd_page_mesh_mark(mesh);
     if (used <= limit)
         return FFD_OK;
-    ffd_status status = allocate(&r) ? FFD_OK : ffd_fail_memory(error);
-    if (!status) {
-        memset(r.local, 0xff, mesh->scene->vertex_count * sizeof *r.local);
-        measure(&r);
-        mark_torn(&r, (double)limit / (double)used);
-    }
+    ffd_status status;
+    TRY_END(allocate(&r) ? FFD_OK : ffd_fail_memory(error));
+    memset(r.local, 0xff, mesh->scene->vertex_count * sizeof *r.local);
+    measure(&r);
+    mark_torn(&r, (double)limit / (double)used);
     bool is_rough = false;
-    for (int pass = 0; pass < PASSES && used > limit && !status; pass++) {
+    for (int pass = 0; pass < PASSES && used > limit; pass++) {
         const size_t before = used;
-        status = reduce_once(&r, choose_ratio(mesh, limit, used), is_rough, error);
+        TRY_END(reduce_once(&r, choose_ratio(mesh, limit, used), is_rough, error));
         used = ffd_page_mesh_mark(mesh);
         is_rough = (double)used > STUCK * (double)before;
     }
-    while (used > limit && !status) {
+    while (used > limit) {
         drop_triangles(mesh, AIM * (double)limit / (double)used);
         used = ffd_page_mesh_mark(mesh);
     }
+end:
     free_reducer(&r);
     return status;
 }

@@ -76,18 +76,19 @@ static ffd_status put_keys(page_rig_side *side, ffd_error *error)
     time_table table = {0};
     size_t count = 0;
     side->first_channel = ffd_alloc(skeleton->animation_count + 1, sizeof *side->first_channel);
-    ffd_status status = side->first_channel ? make_table(skeleton, &table, error) : ffd_fail_memory(error);
-    for (size_t a = 0; a < skeleton->animation_count && !status; a++) {
+    ffd_status status;
+    TRY_END(side->first_channel ? make_table(skeleton, &table, error) : ffd_fail_memory(error));
+    for (size_t a = 0; a < skeleton->animation_count; a++) {
         const rig_animation *const animation = &skeleton->animations[a];
         side->first_channel[a] = count;
         for (size_t c = 0; c < animation->channel_count; c++)
             put_channel(side, &animation->channels[c], &table);
         count += animation->channel_count;
     }
-    if (!status)
-        side->first_channel[skeleton->animation_count] = count;
-    if (!status && (side->blocks[PAGE_VALUES].size > UINT32_MAX || count > UINT32_MAX))
-        status = ffd_fail(error, FFD_E_LIMIT, "a page with so many keys of animations is not possible");
+    side->first_channel[skeleton->animation_count] = count;
+    if (side->blocks[PAGE_VALUES].size > UINT32_MAX || count > UINT32_MAX)
+        TRY_END(ffd_fail(error, FFD_E_LIMIT, "a page with so many keys of animations is not possible"));
+end:
     ffd_free(table.places);
     return status;
 }
@@ -239,17 +240,15 @@ static ffd_status make_side(page_rig *rig, int index, ffd_error *error)
     if (from->skeleton->bone_count > UINT16_MAX)
         return ffd_fail(error, FFD_E_LIMIT, "a page with %zu bones is not possible, only %d",
                         from->skeleton->bone_count, UINT16_MAX);
-    ffd_status status = FFD_OK;
     if (!is_lent) {
         put_skeleton(side);
-        status = put_keys(side, error);
+        TRY(put_keys(side, error));
     }
-    if (!status)
-        status = put_vertices(rig, side, !is_lent, error);
-    for (int b = 0; b < PAGE_RIG_BLOCKS && !status; b++)
+    TRY(put_vertices(rig, side, !is_lent, error));
+    for (int b = 0; b < PAGE_RIG_BLOCKS; b++)
         if (side->blocks[b].failed)
-            status = ffd_fail_memory(error);
-    return status;
+            return ffd_fail_memory(error);
+    return FFD_OK;
 }
 
 ffd_status ffd_page_rig_make(const page_mesh *mesh, page_rig *rig, ffd_error *error)

@@ -135,27 +135,25 @@ static ffd_status add_marks(const view_scene *scene, double share, const double 
 ffd_status ffd_view_cages_make(const view_scene *scene, double share, const double *positions,
                                uint32_t height, size_t most, view_cages *c, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     size_t left = most;
     c->list = ffd_alloc(scene->cage_count + OTHERS, sizeof *c->list);
     c->owned = ffd_alloc(ARRAYS * (scene->cage_count + OTHERS), sizeof *c->owned);
     if (!c->list || !c->owned)
         return ffd_fail_memory(error);
-    for (size_t i = 0; i < scene->cage_count && !status; i++) {
+    for (size_t i = 0; i < scene->cage_count; i++) {
         size_t points;
         const bool fits = ffd_view_cage_fits(&scene->cages[i], left, &points);
         if (fits)
-            status = add_lattice(&scene->cages[i], share, c, error);
+            TRY(add_lattice(&scene->cages[i], share, c, error));
         left -= points;
         c->left_out += !fits;
     }
-    if (!status && scene->segment_count)
+    if (scene->segment_count)
         add_lines(scene, positions, height, c);
-    if (!status)
-        status = add_points(scene, positions, height, c, error);
-    if (!status && share > 0)
-        status = add_marks(scene, share, positions, height, c, error);
-    return status;
+    TRY(add_points(scene, positions, height, c, error));
+    if (share > 0)
+        TRY(add_marks(scene, share, positions, height, c, error));
+    return FFD_OK;
 }
 
 void ffd_view_cages_free(view_cages *c)

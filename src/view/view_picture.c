@@ -295,15 +295,15 @@ static ffd_status make_step(void *context, size_t index, ffd_error *error)
     TRY(place(w, index, s));
     TRY(paint(w, s, &own));
     make_meshes(w, s, own.color == FFD_VIEW_PLAIN);
-    ffd_status status = make_cages(w, s, error);
-    if (!status && index == 0)
+    TRY(make_cages(w, s, error));
+    if (index == 0)
         log_omitted_lattices(w);
     picture_panel *const panel = &w->panels[index];
     panel->meshes = s->meshes;
     panel->mesh_count = !w->scene->vertex_count ? 0 : s->meshes[1].triangle_count ? MESHES : 1;
     panel->cages = s->cages.list;
     panel->cage_count = s->cages.count;
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status name_panels(picture_work *w)
@@ -322,15 +322,13 @@ static ffd_status name_panels(picture_work *w)
 /* Finds the bounds of all poses. */
 static ffd_status find_posed(picture_work *w)
 {
-    ffd_status status = FFD_OK;
     w->seen = ffd_bounds_empty();
-    for (size_t i = 0; i < w->step_count && !status; i++) {
+    for (size_t i = 0; i < w->step_count; i++) {
         free_step(w);
-        status = pose(w, i, &w->step);
-        if (!status)
-            ffd_camera_widen(&w->camera, w->step.positions, w->scene->vertex_count, &w->seen);
+        TRY(pose(w, i, &w->step));
+        ffd_camera_widen(&w->camera, w->step.positions, w->scene->vertex_count, &w->seen);
     }
-    return status;
+    return FFD_OK;
 }
 
 static void find_seen(picture_work *w)
@@ -415,8 +413,8 @@ static ffd_status draw(picture_work *w, file_output *output)
     uint8_t *pixels = NULL;
     ffd_status status = ffd_picture_draw(&of, &w->budget, &pixels, w->error);
     free_step(w);
-    if (!status)
-        status = ffd_png_write(pixels, of.width, of.height, append, output, w->error);
+    TRY(status);
+    status = ffd_png_write(pixels, of.width, of.height, append, output, w->error);
     ffd_free(pixels);
     return status;
 }
@@ -425,11 +423,11 @@ ffd_status ffd_view_picture_write(const view_scene *scene, const view_picture_op
                                   file_output *output, ffd_error *error)
 {
     picture_work w = {.scene = scene, .options = options, .error = error};
-    ffd_status status = ffd_view_picture_check(options, error);
-    if (!status)
-        status = prepare(&w);
-    if (!status)
-        status = draw(&w, output);
+    TRY(ffd_view_picture_check(options, error));
+    ffd_status status;
+    TRY_END(prepare(&w));
+    TRY_END(draw(&w, output));
+end:
     free_picture(&w);
     return status;
 }

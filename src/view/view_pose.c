@@ -83,14 +83,14 @@ ffd_status ffd_view_pose(const view_scene *scene, int side, size_t animation, do
             memcpy(points, side ? scene->after : scene->before, 3 * scene->vertex_count * sizeof *points);
         return FFD_OK;
     }
-    const ffd_status status = allocate(rig, &w, error);
-    if (!status) {
-        rig->skeleton->pose(rig->skeleton, of, time, w.worlds, w.weights);
-        join_bones(&w);
-        add_targets(rig, &w);
-        for (size_t v = 0; v < scene->vertex_count; v++)
-            place(&w, ffd_view_vertex_of(scene, side, v), points + 3 * v);
-    }
+    ffd_status status;
+    TRY_END(allocate(rig, &w, error));
+    rig->skeleton->pose(rig->skeleton, of, time, w.worlds, w.weights);
+    join_bones(&w);
+    add_targets(rig, &w);
+    for (size_t v = 0; v < scene->vertex_count; v++)
+        place(&w, ffd_view_vertex_of(scene, side, v), points + 3 * v);
+end:
     free_work(&w);
     return status;
 }

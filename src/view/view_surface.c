@@ -17,11 +17,11 @@ static const double grey[3] = {0.47, 0.49, 0.52}, paper[3] = {0.72, 0.72, 0.73};
 static ffd_status decode(const mesh_image *from, memory_budget *budget, texture *to, ffd_error *error)
 {
     image decoded = {0};
-    ffd_status status = ffd_image_decode(from->bytes, from->size, budget, &decoded, error);
-    if (!status)
-        status = ffd_budget_take(budget, ffd_texture_size(decoded.width, decoded.height), 1, error);
-    if (!status)
-        status = ffd_texture_make(&decoded, to, error);
+    ffd_status status;
+    TRY_END(ffd_image_decode(from->bytes, from->size, budget, &decoded, error));
+    TRY_END(ffd_budget_take(budget, ffd_texture_size(decoded.width, decoded.height), 1, error));
+    TRY_END(ffd_texture_make(&decoded, to, error));
+end:
     if (status)
         ffd_free(decoded.pixels);
     return status;
@@ -119,10 +119,7 @@ ffd_status ffd_view_surface_make(const view_scene *scene, bool textured, memory_
     const size_t count = scene->triangle_count;
     const bool has_texcoords = textured && scene->texcoords;
     *s = (view_surface){0};
-    ffd_status status =
-        ffd_budget_take(budget, count, TRIANGLE_BYTES + (has_texcoords ? TEXCOORD_BYTES : 0), error);
-    if (status)
-        return status;
+    TRY(ffd_budget_take(budget, count, TRIANGLE_BYTES + (has_texcoords ? TEXCOORD_BYTES : 0), error));
     count_triangles(scene, s);
     s->triangles = ffd_alloc(count, 3 * sizeof *s->triangles);
     s->materials = ffd_alloc(count, sizeof *s->materials);
@@ -133,10 +130,10 @@ ffd_status ffd_view_surface_make(const view_scene *scene, bool textured, memory_
     if (textured) {
         memory_budget rest = *budget;
         rest.taken += reserve; /* more than there is: then no texture fits */
-        status = decode_all(&scene->materials, &rest, log, s, error);
+        TRY(decode_all(&scene->materials, &rest, log, s, error));
         budget->taken = rest.taken - reserve;
     }
-    return status ? status : fill_materials(scene, s, error);
+    return fill_materials(scene, s, error);
 }
 
 void ffd_view_surface_free(view_surface *s)

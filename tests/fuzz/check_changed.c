@@ -80,7 +80,7 @@ static void take_normals(const mesh_document *document, const mesh_faces *faces)
     const size_t count = faces->start ? faces->start[faces->face_count] : 0;
     uint32_t *const normals = malloc(count * sizeof *normals + 1);
     PROMISE(normals, "no memory");
-    if (document->format->corner_normals && document->parts->normal_count > 0)
+    if (document->format->corner_normals && document->part_count > 0 && document->parts->normal_count > 0)
         allow_refusal(document->format->corner_normals(document, faces, normals, &error), &error);
     free(normals);
 }

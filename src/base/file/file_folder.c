@@ -35,20 +35,17 @@ static ffd_status load_given(const file_folder *folder, const char *name, const 
 {
     ffd_bytes bytes = {0};
     bool leads_out;
-    ffd_status status = check(name, &leads_out, error);
-    if (!status && leads_out)
+    TRY(check(name, &leads_out, error));
+    if (leads_out)
         return ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" is outside the model's folder",
                              name);
-    if (!status) {
-        status = folder->resolve(folder->user, name, &bytes);
-        if (status)
-            return ffd_fail_file(error, status, named_by, "the file \"%s\" was not given by the caller",
-                                 name);
-    }
-    if (!status && !bytes.data)
+    const ffd_status status = folder->resolve(folder->user, name, &bytes);
+    if (status)
+        return ffd_fail_file(error, status, named_by, "the file \"%s\" was not given by the caller", name);
+    if (!bytes.data)
         return ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" cannot be opened: %s", name,
                              strerror(ENOENT));
-    return status ? status : ffd_file_lend(bytes, named_by, input, error);
+    return ffd_file_lend(bytes, named_by, input, error);
 }
 
 ffd_status ffd_folder_load(const file_folder *folder, const char *name, const char *named_by, size_t *most,

@@ -64,8 +64,8 @@ static ffd_status check_places(const set_record *record, ffd_error *error)
 /* Rolls back: removes the new files and restores those that were set aside, the head last. */
 static ffd_status undo(const set_record *record, ffd_error *error)
 {
-    ffd_status status = check_places(record, error);
-    for (size_t i = 0; i < record->count && !status; i++) {
+    TRY(check_places(record, error));
+    for (size_t i = 0; i < record->count; i++) {
         const set_entry *const entry = &record->entries[i];
         int failed = 0;
         if (entry->was_there && ffd_file_same(entry->aside, entry->target)) /* two hard links to one file */
@@ -75,9 +75,9 @@ static ffd_status undo(const set_record *record, ffd_error *error)
         else if (!entry->was_there && is_placed(entry))
             failed = unlink(entry->target);
         if (failed)
-            status = ffd_fail_errno(error, entry->target, "what was there before cannot be brought back");
+            return ffd_fail_errno(error, entry->target, "what was there before cannot be brought back");
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Completes the new files or restores the old ones, then removes the record. */
@@ -119,23 +119,23 @@ static ffd_status place_all(set_file *files, size_t count, ffd_error *error)
 /* Records the files to be placed, and which targets exist. */
 static ffd_status survey(const set_file *files, size_t count, set_record *record, ffd_error *error)
 {
-    ffd_status status = ffd_record_begin(record, files[count - 1].target, error);
-    for (size_t i = 0; i < count && !status; i++) {
+    TRY(ffd_record_begin(record, files[count - 1].target, error));
+    for (size_t i = 0; i < count; i++) {
         struct stat there;
         file_stamp made;
         const bool is_there = lstat(files[i].target, &there) == 0;
         if (is_there && !files[i].replace) {
             errno = EEXIST;
-            status = fail_place(files[i].target, error);
+            return fail_place(files[i].target, error);
         } else if (is_there && !S_ISREG(there.st_mode)) {
-            status = ffd_fail_file(error, FFD_E_IO, files[i].target, "is not a file");
+            return ffd_fail_file(error, FFD_E_IO, files[i].target, "is not a file");
         } else if (!ffd_file_stamp(files[i].temporary, &made)) {
-            status = ffd_fail_errno(error, files[i].target, "cannot be written");
+            return ffd_fail_errno(error, files[i].target, "cannot be written");
         } else {
-            status = ffd_record_add(record, files[i].target, is_there, made.size, made.written, error);
+            TRY(ffd_record_add(record, files[i].target, is_there, made.size, made.written, error));
         }
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Adds to the error that the old files could not be restored either. */
@@ -149,12 +149,12 @@ static void mention_record(const set_record *record, ffd_error *error)
 
 static ffd_status place_set(set_file *files, size_t count, const set_record *record, ffd_error *error)
 {
-    ffd_status status = set_aside(record, error);
-    if (!status)
-        status = place_all(files, count, error);
+    ffd_status status;
+    TRY_END(set_aside(record, error));
+    TRY_END(place_all(files, count, error));
     /* This run knows what it has placed: looking at the head could fail, or somebody could have moved it. */
-    if (!status)
-        return settle(record, true, error);
+    return settle(record, true, error);
+end:
     if (settle(record, false, NULL))
         mention_record(record, error);
     return status;
@@ -170,11 +170,11 @@ ffd_status ffd_set_place(set_file *files, size_t count, ffd_error *error)
             files[i].is_gone = true;
         return FFD_OK;
     }
-    ffd_status status = survey(files, count, &record, error);
-    if (!status)
-        status = ffd_record_write(&record, error);
-    if (!status)
-        status = place_set(files, count, &record, error);
+    ffd_status status;
+    TRY_END(survey(files, count, &record, error));
+    TRY_END(ffd_record_write(&record, error));
+    TRY_END(place_set(files, count, &record, error));
+end:
     ffd_record_free(&record);
     return status;
 }
@@ -183,11 +183,13 @@ ffd_status ffd_restore_output(const char *path, ffd_error *error)
 {
     set_record record = {.fd = -1};
     char *const head = ffd_path_follow(path);
-    ffd_status status = head ? ffd_record_open(&record, head, error) : ffd_fail_memory(error);
-    if (!status && record.fd >= 0)
-        status = settle(&record, has_head(&record), error);
-    for (size_t i = 0; i < record.count && !status; i++)
+    ffd_status status;
+    TRY_END(head ? ffd_record_open(&record, head, error) : ffd_fail_memory(error));
+    if (record.fd >= 0)
+        TRY_END(settle(&record, has_head(&record), error));
+    for (size_t i = 0; i < record.count; i++)
         ffd_temporary_remove(record.entries[i].target);
+end:
     ffd_record_free(&record);
     ffd_free(head);
     return status;

@@ -86,12 +86,11 @@ static ffd_status put_entry(const set_record *record, const set_entry *entry, by
 
 static ffd_status make_text(const set_record *record, byte_buffer *text, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     ffd_buffer_append(text, first_line, sizeof first_line);
-    for (size_t i = 0; i < record->count && !status; i++)
-        status = put_entry(record, &record->entries[i], text, error);
+    for (size_t i = 0; i < record->count; i++)
+        TRY(put_entry(record, &record->entries[i], text, error));
     ffd_buffer_append(text, last_line, sizeof last_line);
-    return status || !text->failed ? status : ffd_fail_memory(error);
+    return !text->failed ? FFD_OK : ffd_fail_memory(error);
 }
 
 static ffd_status write_text(const set_record *record, const byte_buffer *text, ffd_error *error)
@@ -141,14 +140,13 @@ static ffd_status make_file(set_record *record, ffd_error *error)
 ffd_status ffd_record_write(set_record *record, ffd_error *error)
 {
     byte_buffer text = {0};
-    ffd_status status = make_text(record, &text, error);
-    if (!status)
-        status = make_file(record, error);
-    if (!status) {
-        status = write_text(record, &text, error);
-        if (status)
-            ffd_record_remove(record);
-    }
+    ffd_status status;
+    TRY_END(make_text(record, &text, error));
+    TRY_END(make_file(record, error));
+    status = write_text(record, &text, error);
+    if (status)
+        ffd_record_remove(record);
+end:
     ffd_buffer_free(&text);
     return status;
 }
@@ -228,8 +226,7 @@ static ffd_status parse(set_record *record, const char *bytes, size_t size, bool
             target ? ffd_record_add(record, target, entry.was_there, entry.size, entry.time, error)
                    : ffd_fail_memory(error);
         ffd_free(target);
-        if (status)
-            return status;
+        TRY(status);
     }
     return FFD_OK;
 }
@@ -262,9 +259,10 @@ static ffd_status read_entries(set_record *record, ffd_error *error)
     bool whole = false;
     TRY(check_record(record, &size, error));
     char *const bytes = ffd_alloc(size, 1);
-    ffd_status status = bytes ? read_bytes(record, bytes, size, error) : ffd_fail_memory(error);
-    if (!status)
-        status = parse(record, bytes, size, &whole, error);
+    ffd_status status;
+    TRY_END(bytes ? read_bytes(record, bytes, size, error) : ffd_fail_memory(error));
+    TRY_END(parse(record, bytes, size, &whole, error));
+end:
     ffd_free(bytes);
     if (!whole)
         drop_entries(record);

@@ -44,7 +44,6 @@ ffd_status ffd_users_find(file_users *users, const char *file, const char *excep
                           path_list *names, ffd_error *error)
 {
     uint32_t index;
-    ffd_status status = FFD_OK;
     *count = 0;
     *by_it = false;
     if (users->known.count == 0)
@@ -57,11 +56,11 @@ ffd_status ffd_users_find(file_users *users, const char *file, const char *excep
     *count = known->count - *by_it;
     for (size_t i = 0, named = 0; names && i < USERS_NAMED && i < known->count && named + 1 < USERS_NAMED;
          i++)
-        if (!ffd_hash_equal(&known->places[i], &pair.user) && !status) {
-            status = ffd_paths_add(names, known->names[i], error);
+        if (!ffd_hash_equal(&known->places[i], &pair.user)) {
+            TRY(ffd_paths_add(names, known->names[i], error));
             named++;
         }
-    return status;
+    return FFD_OK;
 }
 
 void ffd_users_free(file_users *users)

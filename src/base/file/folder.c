@@ -30,15 +30,16 @@ ffd_status ffd_folder_make(const char *path, size_t *made, ffd_error *error)
     if (!partial)
         return ffd_fail_memory(error);
     ffd_status status = FFD_OK;
-    for (size_t end = next_folder(path, 0); end && !status; end = next_folder(path, end)) {
+    for (size_t end = next_folder(path, 0); end; end = next_folder(path, end)) {
         partial[end] = 0;
         if (mkdir(partial, 0777) == 0)
             *made = *made ? *made : end;
         else if (errno != EEXIST && !ffd_file_exists(partial))
-            status =
-                ffd_fail_file(error, FFD_E_IO, partial, "the folder cannot be made: %s", strerror(errno));
+            TRY_END(
+                ffd_fail_file(error, FFD_E_IO, partial, "the folder cannot be made: %s", strerror(errno)));
         partial[end] = path[end];
     }
+end:
     ffd_free(partial);
     return status;
 }
@@ -64,8 +65,9 @@ ffd_status ffd_folder_list(const char *path, path_list *names, ffd_error *error)
     const struct dirent *entry;
     const size_t before = names->count;
     ffd_status status = FFD_OK;
-    while (folder && !status && (entry = readdir(folder)) != NULL)
-        status = ffd_paths_add(names, entry->d_name, error);
+    while (folder && (entry = readdir(folder)) != NULL)
+        TRY_END(ffd_paths_add(names, entry->d_name, error));
+end:
     if (folder)
         closedir(folder);
     if (names->count > before)

@@ -39,19 +39,15 @@ ffd_status ffd_growing_create(const char *path, const void *bytes, size_t size, 
     *file = NULL;
     if (made)
         made->path = ffd_text_copy(path);
-    ffd_status status = made && made->path ? refuse_locked(path, error) : ffd_fail_memory(error);
-    if (!status)
-        status = ffd_output_create(&made->output, error);
-    if (!status) {
-        ffd_output_record(made->output, written);
-        status = ffd_output_begin(made->output, path, true, error);
-    }
-    if (!status)
-        status = ffd_output_write(made->output, bytes, size, error);
-    if (!status) {
-        made->fd = ffd_output_keep_open(made->output);
-        status = ffd_output_commit(made->output, error);
-    }
+    ffd_status status;
+    TRY_END(made && made->path ? refuse_locked(path, error) : ffd_fail_memory(error));
+    TRY_END(ffd_output_create(&made->output, error));
+    ffd_output_record(made->output, written);
+    TRY_END(ffd_output_begin(made->output, path, true, error));
+    TRY_END(ffd_output_write(made->output, bytes, size, error));
+    made->fd = ffd_output_keep_open(made->output);
+    TRY_END(ffd_output_commit(made->output, error));
+end:
     if (status)
         ffd_growing_close(&made);
     *file = made;

@@ -42,10 +42,9 @@ static const unsigned char nothing[1] = {0};
 static ffd_status wait_for_bytes(int fd, ffd_error *error)
 {
     struct pollfd ready = {.fd = fd, .events = POLLIN};
-    ffd_status status = FFD_OK;
-    while (!status && poll(&ready, 1, ffd_deadline_left()) <= 0)
-        status = ffd_deadline_check(error);
-    return status;
+    while (poll(&ready, 1, ffd_deadline_left()) <= 0)
+        TRY(ffd_deadline_check(error));
+    return FFD_OK;
 }
 
 /* Reads as many bytes as a single call returns; waits for them where the descriptor does not. *got is 0 at
@@ -54,14 +53,11 @@ static ffd_status read_piece(int fd, const char *name, off_t offset, void *to, s
                              ffd_error *error)
 {
     ssize_t count;
-    ffd_status status = FFD_OK;
     do {
         count = offset == FROM_HERE ? read(fd, to, size) : pread(fd, to, size, offset);
         if (count < 0 && errno == EAGAIN)
-            status = wait_for_bytes(fd, error);
-    } while (!status && count < 0 && (errno == EINTR || errno == EAGAIN));
-    if (status)
-        return status;
+            TRY(wait_for_bytes(fd, error));
+    } while (count < 0 && (errno == EINTR || errno == EAGAIN));
     if (count < 0)
         return ffd_fail_file(error, FFD_E_IO, name, "cannot be read: %s", strerror(errno));
     *got = (size_t)count;
@@ -81,19 +77,19 @@ static ffd_status read_stream(int fd, const char *name, file_input *input, ffd_e
 {
     unsigned char *block = NULL;
     size_t capacity = 0, size = 0, got = 0;
-    ffd_status status;
+    ffd_status status = FFD_OK;
     do {
         size += got;
         if (size >= LONGEST_STREAM)
-            status = ffd_fail_file(error, FFD_E_LIMIT, name,
-                                   "has more than %zu bytes, the most that is read from a stream", size);
+            TRY_END(ffd_fail_file(error, FFD_E_LIMIT, name,
+                                  "has more than %zu bytes, the most that is read from a stream", size));
         else if (!ffd_grow((void **)&block, &capacity, size + 65536, 1))
-            status = ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory after %zu bytes", size);
+            TRY_END(ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory after %zu bytes", size));
         else
-            status = waits_first(fd, size > 0) ? wait_for_bytes(fd, error) : FFD_OK;
-        if (!status)
-            status = read_piece(fd, name, FROM_HERE, block + size, capacity - size, &got, error);
-    } while (!status && got > 0);
+            TRY_END(waits_first(fd, size > 0) ? wait_for_bytes(fd, error) : FFD_OK);
+        TRY_END(read_piece(fd, name, FROM_HERE, block + size, capacity - size, &got, error));
+    } while (got > 0);
+end:
     if (status)
         ffd_free(block);
     else
@@ -114,13 +110,14 @@ static ffd_status read_file(int fd, const char *name, size_t size, file_input *i
     if (!block)
         return fail_memory(name, size, error);
     size_t done = 0, got = 0;
-    ffd_status status;
+    ffd_status status = FFD_OK;
     do {
-        status = read_piece(fd, name, (off_t)done, block + done, size - done, &got, error);
+        TRY_END(read_piece(fd, name, (off_t)done, block + done, size - done, &got, error));
         done += got;
-    } while (!status && got > 0 && done < size);
-    if (!status && done < size)
-        status = ffd_fail_file(error, FFD_E_IO, name, "became shorter while it was read");
+    } while (got > 0 && done < size);
+    if (done < size)
+        TRY_END(ffd_fail_file(error, FFD_E_IO, name, "became shorter while it was read"));
+end:
     if (status)
         ffd_free(block);
     else
@@ -328,25 +325,26 @@ ffd_status ffd_file_load_within(const char *folder, const char *relative, const 
     char *joined = ffd_path_join(folder, relative);
     char *root = realpath(folder, NULL), *path = joined ? realpath(joined, NULL) : NULL;
     const int reason = errno;
-    ffd_status status;
     struct stat info;
+    ffd_status status = FFD_OK;
     if (!joined)
-        status = ffd_fail_memory(error);
+        TRY_END(ffd_fail_memory(error));
     else if (relative[0] == '/')
-        status = ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" is outside the model's folder",
-                               relative);
+        TRY_END(ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" is outside the model's folder",
+                              relative));
     else if (!root || !path)
-        status = ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" cannot be opened: %s", relative,
-                               strerror(reason));
+        TRY_END(ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" cannot be opened: %s", relative,
+                              strerror(reason)));
     else if (!is_inside(root, path))
-        status = ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" is outside the model's folder",
-                               relative);
+        TRY_END(ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" is outside the model's folder",
+                              relative));
     else if (stat(path, &info) != 0 || !S_ISREG(info.st_mode))
-        status = ffd_fail_file(error, FFD_E_IO, named_by, "\"%s\" is not a file", relative);
+        TRY_END(ffd_fail_file(error, FFD_E_IO, named_by, "\"%s\" is not a file", relative));
     else
-        status = load(path, *most < SMALL ? *most + 1 : SMALL, input, error);
-    if (!status && !input->mapped)
+        TRY_END(load(path, *most < SMALL ? *most + 1 : SMALL, input, error));
+    if (!input->mapped)
         *most -= input->size < *most ? input->size : *most;
+end:
     free(root);
     free(path);
     ffd_free(joined);

@@ -374,12 +374,14 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
     TRY(exists ? refuse_written(output, path, error) : FFD_OK);
     if (exists && !S_ISREG(info.st_mode))
         return open_device(file, path, error);
-    ffd_status status = open_temporary(file, path, exists ? &info : NULL, &output->was_busy, error);
+    ffd_status status;
+    TRY_END(open_temporary(file, path, exists ? &info : NULL, &output->was_busy, error));
     /* Another run may have created the target before this one got the lock. */
-    if (!status && !force && lstat(file->target, &info) == 0) {
-        status = fail_exists(path, error);
+    if (!force && lstat(file->target, &info) == 0) {
         drop_temporary(file);
+        TRY_END(fail_exists(path, error));
     }
+end:
     if (status && file->fd < 0) { /* the set is as before the call */
         ffd_free(file->target);
         output->count--;
@@ -400,14 +402,11 @@ ffd_status ffd_output_folder(file_output *output, const char *path, ffd_error *e
         return ffd_fail_memory(error);
     output->folder_count++;
     ffd_cleanup_hold();
-    ffd_status status = ffd_folder_make(path, &folder->made, error);
-    if (folder->made) {
-        folder->noted = ffd_cleanup_note_folder(path, folder->made);
-        if (!folder->noted && !status)
-            status = ffd_fail_memory(error);
-    }
+    const ffd_status status = ffd_folder_make(path, &folder->made, error);
+    folder->noted = folder->made ? ffd_cleanup_note_folder(path, folder->made) : NULL;
     ffd_cleanup_release();
-    return status;
+    TRY(status);
+    return folder->made && !folder->noted ? ffd_fail_memory(error) : FFD_OK;
 }
 
 /* Empties the block, in time: a file that is complete or absent is not written on after the deadline. */
@@ -550,19 +549,14 @@ static ffd_status settle_all(file_output *output, bool stays, ffd_error *error)
 
 ffd_status ffd_output_commit(file_output *output, ffd_error *error)
 {
-    ffd_status status = flush(output, error);
-    if (!status)
-        status = refuse_recorded(output, error);
-    if (!status)
-        status = check_written(output, error);
-    const bool stays = !status && output->keeps_equal && is_to_stay(output);
-    if (!status)
-        status = record_files(output, stays, error);
-    if (status)
-        return status;
+    TRY(flush(output, error));
+    TRY(refuse_recorded(output, error));
+    TRY(check_written(output, error));
+    const bool stays = output->keeps_equal && is_to_stay(output);
+    TRY(record_files(output, stays, error));
     /* Signals are blocked during the renames, so that they cannot interrupt a set. */
     ffd_cleanup_hold();
-    status = settle_all(output, stays, error);
+    const ffd_status status = settle_all(output, stays, error);
     ffd_cleanup_release();
     /* Without the lock, because the callback may do anything. */
     return status ? status : give_all(output, error);

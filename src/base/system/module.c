@@ -111,13 +111,13 @@ static bool prepare_thread(const module_head *head)
 static ffd_status load_once(module *of, const module_head **head, ffd_error *error)
 {
     static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-    ffd_status status = FFD_OK;
     pthread_mutex_lock(&lock);
     *head = atomic_load(&of->head);
+    ffd_status status = FFD_OK;
     if (!*head)
-        status = open_module(of, head, error);
-    if (!status)
-        atomic_store(&of->head, *head);
+        TRY_END(open_module(of, head, error));
+    atomic_store(&of->head, *head);
+end:
     pthread_mutex_unlock(&lock);
     return status;
 }

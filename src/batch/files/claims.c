@@ -170,16 +170,18 @@ static ffd_status find_others(run_files *files, const batch_job *job, sidecar_na
 {
     path_list names = {0};
     uint64_t line;
-    ffd_status status =
-        ffd_users_find(&files->users, name->path, job->target, &name->others, &name->is_own, &names, error);
+    ffd_status status;
+    TRY_END(
+        ffd_users_find(&files->users, name->path, job->target, &name->others, &name->is_own, &names, error));
     for (size_t i = 0; i < names.count; i++)
         ffd_buffer_format(&name->users, "%s%s", i ? ", " : "", names.paths[i]);
     if (name->others > names.count)
         ffd_buffer_format(&name->users, " and %zu more", name->others - names.count);
-    if (!status && !name->others && is_read(files, job, &name->place, &line)) {
+    if (!name->others && is_read(files, job, &name->place, &line)) {
         name->others = 1;
         ffd_buffer_format(&name->users, "the job of line %" PRIu64, line);
     }
+end:
     ffd_paths_free(&names);
     return status;
 }
@@ -234,11 +236,12 @@ static ffd_status claim_name(sidecar_claim *claim, size_t index, ffd_error *erro
         return ffd_fail_memory(error);
     name.place = ffd_run_place(claim->files, name.path);
     name.exists = ffd_file_exists(name.path);
-    ffd_status status = find_others(claim->files, claim->job, &name, error);
-    if (!status)
-        status = judge_name(claim, &name, error);
-    if (!status && (name.users.failed || claim->passed->failed))
-        status = ffd_fail_memory(error);
+    ffd_status status;
+    TRY_END(find_others(claim->files, claim->job, &name, error));
+    TRY_END(judge_name(claim, &name, error));
+    if (name.users.failed || claim->passed->failed)
+        TRY_END(ffd_fail_memory(error));
+end:
     ffd_buffer_free(&name.users);
     ffd_free(name.path);
     return status;
@@ -250,10 +253,11 @@ static ffd_status claim_sidecar(run_files *files, batch_job *job, const job_kind
 {
     sidecar_claim claim = {.files = files, .job = job, .kind = kind, .passed = passed};
     ffd_status status = FFD_OK;
-    for (size_t index = 0; claim.fresh < count && !status && !job->error.status; index++)
-        status = claim_name(&claim, index, error);
-    for (size_t i = 0; i < claim.count && !status && !job->error.status; i++)
-        status = ffd_files_put(&files->writes, &claim.places[i], job->line, error);
+    for (size_t index = 0; claim.fresh < count && !job->error.status; index++)
+        TRY_END(claim_name(&claim, index, error));
+    for (size_t i = 0; i < claim.count && !job->error.status; i++)
+        TRY_END(ffd_files_put(&files->writes, &claim.places[i], job->line, error));
+end:
     ffd_free(claim.places);
     return status;
 }
@@ -263,13 +267,12 @@ ffd_status ffd_claims_others(run_files *files, batch_job *job, const job_kind *k
 {
     const size_t sidecars = count_sidecars(files, kind);
     const size_t copies = kind->is_scanned && ffd_job_has_copies(job, kind) ? files->scan.copies.count : 0;
-    ffd_status status = FFD_OK;
     ffd_reads_check_boxes(files, job);
     if (kind->is_scanned && !job->error.status)
         ffd_reads_check_named(files, job);
     if (sidecars > 0 && !job->error.status)
-        status = claim_sidecar(files, job, kind, sidecars, passed, error);
-    for (size_t i = 0; i < copies && !status && !job->error.status; i++)
-        status = claim_copy(files, job, files->scan.copies.paths[i], error);
-    return status;
+        TRY(claim_sidecar(files, job, kind, sidecars, passed, error));
+    for (size_t i = 0; i < copies && !job->error.status; i++)
+        TRY(claim_copy(files, job, files->scan.copies.paths[i], error));
+    return FFD_OK;
 }

@@ -17,19 +17,18 @@ static ffd_status note(run_files *files, const hash128 *file, uint64_t line, ffd
 static ffd_status note_all(run_files *files, const path_list *list, uint64_t line, read_conflicts *conflicts,
                            ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     *conflicts = (read_conflicts){0};
-    for (size_t i = 0; i < list->count && !status; i++) {
+    for (size_t i = 0; i < list->count; i++) {
         const hash128 place = ffd_run_place(files, list->paths[i]);
         uint64_t writer;
-        status = note(files, &place, line, error);
+        TRY(note(files, &place, line, error));
         if (conflicts->count == 2 || !ffd_run_writer(files, &place, &writer) ||
             (conflicts->count && writer == conflicts->lines[0]))
             continue;
         conflicts->files[conflicts->count] = i;
         conflicts->lines[conflicts->count++] = writer;
     }
-    return status;
+    return FFD_OK;
 }
 
 /* One of the files that a job names. */
@@ -53,18 +52,17 @@ static named_read read_of(const batch_job *job, size_t index)
 
 ffd_status ffd_reads_check(run_files *files, batch_job *job, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     uint64_t line;
     size_t index = 0;
-    for (named_read read = read_of(job, index); read.path && !status && !job->error.status;
+    for (named_read read = read_of(job, index); read.path && !job->error.status;
          read = read_of(job, ++index)) {
         const hash128 place = ffd_run_read_place(files, read.path);
         if (ffd_run_writer(files, &place, &line) && !(read.may_be_own && line == job->line))
             ffd_run_refuse(files, job, read.role, read.path, line);
         else
-            status = note(files, &place, job->line, error);
+            TRY(note(files, &place, job->line, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 void ffd_reads_check_own(run_files *files, batch_job *job)
@@ -212,27 +210,23 @@ ffd_status ffd_reads_learn(run_files *files, const batch_job *job, const job_kin
     finding f = {.files = files, .job = job};
     size_t at = 0;
     scan_kind entry;
-    ffd_status status = FFD_OK;
     if (of_mesh)
         begin_scan(files, kind, sidecars);
-    for (const char *path = ffd_scan_next(found, &at, &entry); path && !status;
-         path = ffd_scan_next(found, &at, &entry))
-        status = take(&f, entry, path, error);
-    if (!status)
-        status = end_lattice(files, f.lattice, job->line, error);
-    return status || !of_mesh ? status : end_scan(files, kind, job->line, error);
+    for (const char *path = ffd_scan_next(found, &at, &entry); path; path = ffd_scan_next(found, &at, &entry))
+        TRY(take(&f, entry, path, error));
+    TRY(end_lattice(files, f.lattice, job->line, error));
+    return of_mesh ? end_scan(files, kind, job->line, error) : FFD_OK;
 }
 
 ffd_status ffd_reads_learn_nothing(run_files *files, const batch_job *job, bool of_mesh, ffd_error *error)
 {
     const job_kind kind = ffd_job_kind(job);
     known_lattice *added;
-    ffd_status status = FFD_OK;
     if (of_mesh)
         begin_scan(files, &kind, 0);
     size_t index = 0;
-    for (named_read read = read_of(job, index); read.path && !status; read = read_of(job, ++index))
+    for (named_read read = read_of(job, index); read.path; read = read_of(job, ++index))
         if (read.is_lattice)
-            status = add_lattice(files, read.path, &added, error);
-    return status;
+            TRY(add_lattice(files, read.path, &added, error));
+    return FFD_OK;
 }

@@ -425,11 +425,12 @@ static bool check_settings(const job_maker *maker)
     const ffd_deform_desc *const desc = &maker->job->desc;
     char what[sizeof maker->job->error.message];
     ffd_error error;
-    ffd_status status = ffd_deform_desc_check(desc, &error);
-    if (!status && !desc->input.format && ffd_format_from_name(desc->input.path) == FFD_FORMAT_AUTO)
-        status = ffd_format_refuse_name(desc->input.path, &error);
-    if (!status)
-        return true;
+    ffd_status status;
+    TRY_END(ffd_deform_desc_check(desc, &error));
+    if (!desc->input.format && ffd_format_from_name(desc->input.path) == FFD_FORMAT_AUTO)
+        TRY_END(ffd_format_refuse_name(desc->input.path, &error));
+    return true;
+end:
     ffd_error_format(&error, what, sizeof what);
     return refuse(maker, "%s", what);
 }

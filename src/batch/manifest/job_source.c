@@ -146,17 +146,18 @@ static ffd_status refuse_equal_names(const job_source *source, ffd_error *error)
     const file_list *const files = &source->files;
     const job_commons commons = list_commons(source);
     named_file *const sorted = ffd_alloc_zero(files->count, sizeof *sorted);
-    ffd_status status = sorted ? FFD_OK : ffd_fail_memory(error);
-    for (size_t i = 0; i < files->count && !status; i++) {
+    ffd_status status;
+    TRY_END(sorted ? FFD_OK : ffd_fail_memory(error));
+    for (size_t i = 0; i < files->count; i++) {
         sorted[i] = (named_file){files->paths[i], ffd_output_name(&commons, files->paths[i], 0)};
-        status = sorted[i].name ? FFD_OK : ffd_fail_memory(error);
+        TRY_END(sorted[i].name ? FFD_OK : ffd_fail_memory(error));
     }
-    if (!status)
-        qsort(sorted, files->count, sizeof *sorted, compare_names);
-    for (size_t i = 1; i < files->count && !status; i++)
+    qsort(sorted, files->count, sizeof *sorted, compare_names);
+    for (size_t i = 1; i < files->count; i++)
         if (compare_names(&sorted[i - 1], &sorted[i]) == 0)
-            status = ffd_fail(error, FFD_E_ARGUMENT, "%s and %s would both be written as \"%s\"",
-                              sorted[i - 1].path, sorted[i].path, sorted[i].name);
+            TRY_END(ffd_fail(error, FFD_E_ARGUMENT, "%s and %s would both be written as \"%s\"",
+                             sorted[i - 1].path, sorted[i].path, sorted[i].name));
+end:
     for (size_t i = 0; sorted && i < files->count; i++)
         ffd_free(sorted[i].name);
     ffd_free(sorted);
@@ -223,12 +224,14 @@ static ffd_status count_meshes(job_source *source, ffd_error *error)
     job_source other = {.desc = source->desc, .frame = source->frame};
     line_state state = LINE_READ;
     bool valid;
-    ffd_status status = open_table(&other, error);
-    while (!status && state == LINE_READ) {
-        status = ffd_table_next(&other.table, &state, &valid, error);
-        if (!status && state == LINE_READ && ffd_table_check(&other.table, valid, NULL))
-            status = count_row(&other, &source->meshes, error);
+    ffd_status status;
+    TRY_END(open_table(&other, error));
+    while (state == LINE_READ) {
+        TRY_END(ffd_table_next(&other.table, &state, &valid, error));
+        if (state == LINE_READ && ffd_table_check(&other.table, valid, NULL))
+            TRY_END(count_row(&other, &source->meshes, error));
     }
+end:
     free_source(&other);
     return status;
 }
@@ -248,18 +251,14 @@ ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_e
                                      desc->pictures,
                                      desc->positions};
     ffd_status status;
-    if (desc->next)
-        status = FFD_OK;
-    else if (desc->manifest)
-        status = open_text(*source, desc->manifest, error);
-    else if (desc->table)
-        status = open_table(*source, error);
-    else
-        status = find_files(*source, error);
-    (*source)->numbers_outputs =
-        !status && desc->table && desc->out_dir && !ffd_table_has(&(*source)->table, "out");
-    if (!status && (*source)->numbers_outputs && !ffd_file_reads_once(desc->table))
-        status = count_meshes(*source, error);
+    TRY_END(desc->next       ? FFD_OK
+            : desc->manifest ? open_text(*source, desc->manifest, error)
+            : desc->table    ? open_table(*source, error)
+                             : find_files(*source, error));
+    (*source)->numbers_outputs = desc->table && desc->out_dir && !ffd_table_has(&(*source)->table, "out");
+    if ((*source)->numbers_outputs && !ffd_file_reads_once(desc->table))
+        TRY_END(count_meshes(*source, error));
+end:
     if (status)
         ffd_jobs_close(source);
     return status;
@@ -326,8 +325,8 @@ static ffd_status check_first(const job_source *source, ffd_error *error)
 /* Likewise; checks the first line. */
 static ffd_status advance(job_source *source, line_state *state, bool *valid, ffd_error *error)
 {
-    const ffd_status status = find_next(source, state, valid, error);
-    return status || *state != LINE_READ || source->count > 0 ? status : check_first(source, error);
+    TRY(find_next(source, state, valid, error));
+    return *state != LINE_READ || source->count > 0 ? FFD_OK : check_first(source, error);
 }
 
 ffd_status ffd_jobs_next(job_source *source, batch_job *job, line_state *state, ffd_error *error)
@@ -362,15 +361,16 @@ ffd_status ffd_jobs_total(const job_source_desc *desc, uint64_t *total, ffd_erro
     line_state state = LINE_READ;
     bool valid;
     *total = 0;
-    ffd_status status = ffd_jobs_open(desc, &source, error);
-    while (!status && state != LINE_NONE && !ffd_interrupt_requested()) {
+    TRY(ffd_jobs_open(desc, &source, error));
+    ffd_status status = FFD_OK;
+    while (state != LINE_NONE && !ffd_interrupt_requested()) {
         if (source->reader.stream)
             ffd_stream_wait(source->reader.stream);
-        status = advance(source, &state, &valid, error);
-        source->count += !status && state == LINE_READ;
+        TRY_END(advance(source, &state, &valid, error));
+        source->count += state == LINE_READ;
     }
-    if (source)
-        *total = source->count;
+    *total = source->count;
+end:
     ffd_jobs_close(&source);
     return status;
 }

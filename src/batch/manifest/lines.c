@@ -117,13 +117,12 @@ static ffd_status check_first(line_reader *reader, ffd_error *error)
 
 ffd_status ffd_lines_next_filled(line_reader *reader, line_state *state, ffd_error *error)
 {
-    ffd_status status;
     do {
-        status = ffd_lines_next(reader, false, state, error);
-        if (!status && *state == LINE_READ && reader->count == 1)
-            status = check_mark(reader, error);
-    } while (!status && *state == LINE_READ && is_blank(&reader->line));
-    return status || *state != LINE_READ ? status : check_first(reader, error);
+        TRY(ffd_lines_next(reader, false, state, error));
+        if (*state == LINE_READ && reader->count == 1)
+            TRY(check_mark(reader, error));
+    } while (*state == LINE_READ && is_blank(&reader->line));
+    return *state != LINE_READ ? FFD_OK : check_first(reader, error);
 }
 
 void ffd_lines_close(line_reader *reader)

@@ -10,24 +10,23 @@
 static ffd_status next_row(csv_table *table, csv_row *row, line_state *state, bool *valid, ffd_error *error)
 {
     line_reader *const reader = table->reader;
-    ffd_status status = FFD_OK;
     *state = table->is_lost ? LINE_NONE : LINE_READ;
     if (table->is_lost)
         return FFD_OK;
     if (!table->row_goes_on) {
-        status = ffd_lines_next_filled(reader, state, error);
+        TRY(ffd_lines_next_filled(reader, state, error));
         table->line = reader->count;
         table->scan = (csv_scan){0};
     }
     const char only[] = {table->separator, 0}, *const separators = table->separator ? only : CSV_SEPARATORS;
-    while (!status && *state == LINE_READ && !reader->too_long &&
+    while (*state == LINE_READ && !reader->too_long &&
            ffd_csv_is_open(&table->scan, separators, reader->line.data, reader->line.size))
-        status = ffd_lines_next(reader, true, state, error);
+        TRY(ffd_lines_next(reader, true, state, error));
     table->row_goes_on = *state == LINE_LATER && table->scan.at > 0;
     if (*state == LINE_NONE && table->scan.at > 0)
         *state = LINE_READ; /* the text ended inside quotes */
-    if (status || *state != LINE_READ)
-        return status;
+    if (*state != LINE_READ)
+        return FFD_OK;
     table->is_lost = reader->too_long;
     if (!table->separator)
         table->separator = ffd_csv_separator(reader->line.data, reader->line.size);
@@ -58,14 +57,13 @@ static bool refuse_row(const csv_table *table, ffd_error *error, const char *for
 static ffd_status note_blanks(csv_table *table, const csv_row *row, ffd_error *error)
 {
     const char *cell = NULL;
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < row->count && !status; i++) {
+    for (size_t i = 0; i < row->count; i++) {
         cell = ffd_csv_next(row, cell);
         if (row->ways.data[i] & CSV_HAD_BLANKS && *cell && !strchr("+-.0123456789", *cell))
-            status = ffd_flaw_line(&table->flaws, table->name, (size_t)table->line, error,
-                                   "blanks beside \"%.60s\" are left out", cell);
+            TRY(ffd_flaw_line(&table->flaws, table->name, (size_t)table->line, error,
+                              "blanks beside \"%.60s\" are left out", cell));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Tells of a row without a value, as spreadsheet programs leave them. */
@@ -207,13 +205,14 @@ static ffd_status check_columns(csv_table *table, ffd_error *error)
     table->skipped = ffd_alloc_zero(columns->count, sizeof *table->skipped);
     size_t *const indices = ffd_alloc(columns->count, sizeof *indices);
     table->points = ffd_alloc_zero(columns->count, sizeof *table->points);
-    ffd_status status = table->skipped && table->points && indices ? FFD_OK : ffd_fail_memory(error);
-    for (size_t i = 0; i < columns->count && !status; i++) {
+    ffd_status status;
+    TRY_END(table->skipped && table->points && indices ? FFD_OK : ffd_fail_memory(error));
+    for (size_t i = 0; i < columns->count; i++) {
         name = ffd_csv_next(columns, name);
-        status = check_name(table, name, i, &names, indices, error);
+        TRY_END(check_name(table, name, i, &names, indices, error));
     }
-    if (!status)
-        status = skip_ignored(table, &names, indices, error);
+    TRY_END(skip_ignored(table, &names, indices, error));
+end:
     ffd_intern_free(&names);
     ffd_free(indices);
     return status ? status : note_blanks(table, columns, error);
@@ -233,12 +232,11 @@ static ffd_status note_separator(csv_table *table, ffd_error *error)
 /* Waits for a row in front of the jobs. */
 static ffd_status first_row(csv_table *table, line_state *state, bool *valid, ffd_error *error)
 {
-    ffd_status status;
     do {
         ffd_stream_wait(table->reader->stream);
-        status = next_row(table, &table->columns, state, valid, error);
-    } while (!status && *state == LINE_LATER && !ffd_interrupt_requested());
-    return status;
+        TRY(next_row(table, &table->columns, state, valid, error));
+    } while (*state == LINE_LATER && !ffd_interrupt_requested());
+    return FFD_OK;
 }
 
 /* Takes the separator from a line that is there for a spreadsheet program, and reads the next row instead. */
@@ -249,10 +247,9 @@ static ffd_status pass_separator(csv_table *table, line_state *state, bool *vali
     if (!named)
         return FFD_OK;
     table->separator = named;
-    const ffd_status status =
-        ffd_flaw_line(&table->flaws, table->name, (size_t)table->line, error,
-                      "the line names the separator: the columns are named in the next one");
-    return status ? status : first_row(table, state, valid, error);
+    TRY(ffd_flaw_line(&table->flaws, table->name, (size_t)table->line, error,
+                      "the line names the separator: the columns are named in the next one"));
+    return first_row(table, state, valid, error);
 }
 
 ffd_status ffd_table_begin(csv_table *table, ffd_error *error)

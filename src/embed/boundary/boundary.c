@@ -141,10 +141,7 @@ ffd_status ffd_boundary_find(const boundary *border, const double p[3], double r
         ffd_boundary_box_find(border, &query, &foot);
     } else {
         found = false;
-        const ffd_status status =
-            ffd_boundary_search(border, &query, reach / query.unit, &found, &foot, error);
-        if (status)
-            return status;
+        TRY(ffd_boundary_search(border, &query, reach / query.unit, &found, &foot, error));
     }
     nearest->cut_short = foot.cut_short;
     if (!found)

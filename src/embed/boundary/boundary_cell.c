@@ -26,14 +26,14 @@ static ffd_status visit_halves(cell_visit *visit, const face_patch *patch, int f
 {
     face_patch *half[2] = {ffd_patch_create(patch->order, patch->rational),
                            ffd_patch_create(patch->order, patch->rational)};
-    ffd_status status = half[0] && half[1] ? FFD_OK : ffd_fail_memory(visit->error);
-    if (!status)
-        ffd_patch_split(patch, f, half[0], half[1]);
-    for (int i = 0; i < 2; i++) {
-        if (!status && !visit->meets)
-            status = visit_patch(visit, half[i]);
-        ffd_free(half[i]);
-    }
+    ffd_status status;
+    TRY_END(half[0] && half[1] ? FFD_OK : ffd_fail_memory(visit->error));
+    ffd_patch_split(patch, f, half[0], half[1]);
+    for (int i = 0; i < 2 && !visit->meets; i++)
+        TRY_END(visit_patch(visit, half[i]));
+end:
+    ffd_free(half[0]);
+    ffd_free(half[1]);
     return status;
 }
 
@@ -65,14 +65,14 @@ static ffd_status make_scratch(cell_visit *visit)
 /* Examines the patches of a leaf whose patches are not stored. */
 static ffd_status visit_cells(cell_visit *visit, const boundary_node *leaf)
 {
-    ffd_status status = make_scratch(visit);
-    for (size_t j = 0; j < leaf->cells[1] && !status; j++)
-        for (size_t i = 0; i < leaf->cells[0] && !status && !visit->meets; i++) {
+    TRY(make_scratch(visit));
+    for (size_t j = 0; j < leaf->cells[1]; j++)
+        for (size_t i = 0; i < leaf->cells[0] && !visit->meets; i++) {
             const size_t cell[2] = {leaf->cell[0] + i, leaf->cell[1] + j};
             ffd_boundary_patch(visit->border, leaf->face, cell, visit->scratch);
-            status = visit_patch(visit, visit->scratch);
+            TRY(visit_patch(visit, visit->scratch));
         }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status visit_node(cell_visit *visit, uint32_t index)
@@ -111,12 +111,12 @@ static void make_box_face(const boundary *border, int direction, int end, face_p
 
 static ffd_status visit_box(cell_visit *visit)
 {
-    ffd_status status = make_scratch(visit);
-    for (int face = 0; face < MOST_FACES && !status && !visit->meets; face++) {
+    TRY(make_scratch(visit));
+    for (int face = 0; face < MOST_FACES && !visit->meets; face++) {
         make_box_face(visit->border, face / 2, face % 2, visit->scratch);
-        status = visit_patch(visit, visit->scratch);
+        TRY(visit_patch(visit, visit->scratch));
     }
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_boundary_view_cell(const boundary *border, const patch_cell *cell, patch_view *view,
@@ -125,9 +125,10 @@ ffd_status ffd_boundary_view_cell(const boundary *border, const patch_cell *cell
     cell_visit visit = {.border = border, .cell = *cell, .budget = BUDGET, .error = error};
     ffd_status status = FFD_OK;
     if (border->lattice->form == REST_BOX_AFFINE)
-        status = visit_box(&visit);
-    for (int i = 0; i < border->face_count && !status; i++)
-        status = visit_node(&visit, border->faces[i].root);
+        TRY_END(visit_box(&visit));
+    for (int i = 0; i < border->face_count; i++)
+        TRY_END(visit_node(&visit, border->faces[i].root));
+end:
     ffd_free(visit.scratch);
     *view = visit.meets ? PATCH_MEETS : visit.undecided ? PATCH_UNKNOWN : PATCH_MISSES;
     return status;

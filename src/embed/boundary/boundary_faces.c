@@ -178,17 +178,21 @@ static ffd_status keep(builder *build, uint32_t node, face_patch *patch, int cut
     face_patch *half[2] = {ffd_patch_create(patch->order, patch->rational),
                            ffd_patch_create(patch->order, patch->rational)};
     uint32_t child = 0;
-    ffd_status status = half[0] && half[1] ? add_children(build, &child) : ffd_fail_memory(build->error);
-    if (!status)
-        ffd_patch_halve(patch, ffd_patch_direction(patch), half[0], half[1]);
+    ffd_status status;
+    TRY_END(half[0] && half[1] ? add_children(build, &child) : ffd_fail_memory(build->error));
+    ffd_patch_halve(patch, ffd_patch_direction(patch), half[0], half[1]);
     ffd_free(patch);
-    for (int i = 0; i < 2; i++)
-        if (!status)
-            status = keep(build, child + (uint32_t)i, half[i], cuts - 1);
-        else
-            ffd_free(half[i]);
-    if (!status)
-        close_inner_node(border, node, child);
+    patch = NULL;
+    for (uint32_t i = 0; i < 2; i++) {
+        face_patch *const kept = half[i];
+        half[i] = NULL;
+        TRY_END(keep(build, child + i, kept, cuts - 1));
+    }
+    close_inner_node(border, node, child);
+end:
+    ffd_free(patch);
+    ffd_free(half[0]);
+    ffd_free(half[1]);
     return status;
 }
 
@@ -238,9 +242,7 @@ static ffd_status divide(builder *build, uint32_t node)
         return make_leaf(build, node);
     const int f = whole.cells[1] > whole.cells[0];
     uint32_t child = 0;
-    ffd_status status = add_children(build, &child);
-    if (status)
-        return status;
+    TRY(add_children(build, &child));
     boundary_node *half = border->nodes + child;
     for (int i = 0; i < 2; i++) {
         half[i].face = whole.face;
@@ -250,11 +252,10 @@ static ffd_status divide(builder *build, uint32_t node)
     half[0].cells[f] = whole.cells[f] / 2;
     half[1].cell[f] += half[0].cells[f];
     half[1].cells[f] -= half[0].cells[f];
-    for (uint32_t i = 0; i < 2 && !status; i++)
-        status = divide(build, child + i);
-    if (!status)
-        close_inner_node(border, node, child);
-    return status;
+    for (uint32_t i = 0; i < 2; i++)
+        TRY(divide(build, child + i));
+    close_inner_node(border, node, child);
+    return FFD_OK;
 }
 
 /* Lists the faces in the order of directions, the first face before the last. */
@@ -315,21 +316,23 @@ ffd_status ffd_boundary_build(boundary *border, ffd_error *error)
     while (build.cuts < MOST_CUTS && cells << (build.cuts + 1) <= MOST_PARTS)
         build.cuts++;
     build.scratch = ffd_patch_create(largest, true);
-    ffd_status status = build.scratch ? keep_points(border, error) : ffd_fail_memory(error);
-    for (int i = 0; i < border->face_count && !status; i += 2) {
+    ffd_status status;
+    TRY_END(build.scratch ? keep_points(border, error) : ffd_fail_memory(error));
+    for (int i = 0; i < border->face_count; i += 2) {
         /* The two faces of a direction use a pair of nodes. */
         uint32_t root = 0;
-        status = add_children(&build, &root);
-        for (int end = 0; end < 2 && !status; end++) {
+        TRY_END(add_children(&build, &root));
+        for (int end = 0; end < 2; end++) {
             boundary_face *face = &border->faces[i + end];
             boundary_node *node = &border->nodes[root + (uint32_t)end];
             face->root = root + (uint32_t)end;
             node->face = i + end;
             for (int f = 0; f < 2; f++)
                 node->cells[f] = (uint32_t)face->cells[f];
-            status = divide(&build, face->root);
+            TRY_END(divide(&build, face->root));
         }
     }
+end:
     ffd_free(build.scratch);
     return status;
 }

@@ -259,14 +259,13 @@ static ffd_status halve(border_search *search, const face_patch *patch, double k
         search->parts = half[i];
     }
     ffd_patch_halve(patch, ffd_patch_direction(patch), half[0], half[1]);
-    ffd_status status = FFD_OK;
-    for (int i = 0; i < 2 && !status; i++) {
+    for (int i = 0; i < 2; i++) {
         const bounds residual = ffd_patch_residual(half[i], search->x);
         const double bound = fmax(key, patch_bound(search, half[i], &residual));
         if (bound <= threshold(search))
-            status = push(search, bound, 0, half[i]);
+            TRY(push(search, bound, 0, half[i]));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Searches the nearest point of a patch. If the distance may have several minima, queues its halves. */
@@ -301,9 +300,9 @@ static ffd_status make_scratch(border_search *search)
    Which patches are made must not depend on the reach, because that would change the search. */
 static ffd_status search_cells(border_search *search, const boundary_node *leaf)
 {
-    ffd_status status = make_scratch(search);
-    for (size_t j = 0; j < leaf->cells[1] && !status; j++)
-        for (size_t i = 0; i < leaf->cells[0] && !status; i++) {
+    TRY(make_scratch(search));
+    for (size_t j = 0; j < leaf->cells[1]; j++)
+        for (size_t i = 0; i < leaf->cells[0]; i++) {
             if (search->budget <= 0) {
                 search->cut_short = true;
                 return FFD_OK;
@@ -314,9 +313,9 @@ static ffd_status search_cells(border_search *search, const boundary_node *leaf)
             const bounds residual = ffd_patch_residual(search->scratch, search->x);
             const double bound = patch_bound(search, search->scratch, &residual);
             if (bound <= search->least + TIE)
-                status = search_patch(search, search->scratch, bound);
+                TRY(search_patch(search, search->scratch, bound));
         }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status push_node(border_search *search, uint32_t index)
@@ -345,20 +344,19 @@ static ffd_status expand(border_search *search, const waiting *next)
 
 static ffd_status search_border(border_search *search)
 {
-    ffd_status status = FFD_OK;
-    for (int i = 0; i < search->border->face_count && !status; i++)
-        status = push_node(search, search->border->faces[i].root);
-    while (!status && search->heap_count > 0 && search->budget > 0) {
+    for (int i = 0; i < search->border->face_count; i++)
+        TRY(push_node(search, search->border->faces[i].root));
+    while (search->heap_count > 0 && search->budget > 0) {
         const waiting next = pop(search);
         if (next.key > threshold(search))
             break;
-        status = expand(search, &next);
+        TRY(expand(search, &next));
     }
     /* The remaining queue may contain a nearer point. */
     if (search->budget <= 0 && search->heap_count > 0)
         search->cut_short |=
             search->heap[0].key < search->least - GAP && search->heap[0].key <= threshold(search);
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_boundary_search(const boundary *border, const boundary_query *query, double reach, bool *found,
@@ -374,14 +372,15 @@ ffd_status ffd_boundary_search(const boundary *border, const boundary_query *que
     for (int c = 0; c < 3; c++)
         search.inward[c] = query->length > 0 ? -query->x[c] / query->length : 0;
     *found = false;
-    ffd_status status = search_border(&search);
-    const candidate *best = status ? NULL : choose(&search);
-    if (best)
-        status = make_scratch(&search);
-    if (best && !status) {
+    ffd_status status;
+    TRY_END(search_border(&search));
+    const candidate *const best = choose(&search);
+    if (best) {
+        TRY_END(make_scratch(&search));
         ffd_boundary_settle(border, query->x, &best->location, search.scratch, foot);
         *found = true;
     }
+end:
     foot->cut_short = search.cut_short;
     ffd_boundary_free_patches(search.parts);
     ffd_free(search.scratch);

@@ -134,7 +134,7 @@ static bool cut_brick(const ffd_locator *locator, uint32_t index, cell_brick *br
     cutter.slots = ffd_alloc(LEAF_DEPTH + 2, ffd_bezier_size(cells->order) * sizeof(double));
     cutter.columns = ffd_alloc(3 * ffd_bezier_size(cells->order), sizeof(double));
     if (!cutter.slots || !cutter.columns)
-        goto out;
+        goto end;
     brick_cells(cells, index, first, last);
     for (cell[2] = first[2]; cell[2] <= last[2]; cell[2]++)
         for (cell[1] = first[1]; cell[1] <= last[1]; cell[1]++)
@@ -144,10 +144,10 @@ static bool cut_brick(const ffd_locator *locator, uint32_t index, cell_brick *br
                 ffd_cell_spans(locator->lattice, cell, cutter.span);
                 cutter.budget = LEAF_BUDGET;
                 if (!cut(&cutter, &box, 0))
-                    goto out;
+                    goto end;
             }
     done = true;
-out:
+end:
     ffd_free(cutter.slots);
     ffd_free(cutter.columns);
     return done;
@@ -233,9 +233,7 @@ ffd_status ffd_cells_brick(const ffd_locator *locator, uint32_t index, own_brick
         *brick = own->brick[slot];
     if (*brick)
         return FFD_OK;
-    const ffd_status status = check_heavy(cells, error); /* once the limit is exceeded, no more are made */
-    if (status)
-        return status;
+    TRY(check_heavy(cells, error)); /* once the limit is exceeded, no more are made */
     cell_brick *mine = ffd_alloc_zero(1, sizeof *mine);
     if (!mine || !cut_brick(locator, index, mine) || !index_leaves(mine)) {
         brick_free(mine);

@@ -118,18 +118,12 @@ ffd_status ffd_cells_create(ffd_locator *locator, ffd_error *error)
     for (int a = 0; a < 3; a++)
         cells->is_seam[a] = ffd_lattice_is_seam(lattice, a);
     find_scale(locator, cells);
-    ffd_status status = make_points(locator, cells, error);
-    if (!status)
-        status = make_extractions(locator, cells, error);
-    if (!status)
-        status = make_schemes(locator, cells, error);
-    if (!status)
-        status = ffd_cells_check_volume(locator, error);
-    if (!status)
-        status = ffd_collapses_find(locator, &cells->collapses, error);
-    if (!status)
-        status = ffd_bricks_create(locator, error);
-    return status; /* ffd_locator_destroy frees what was made */
+    TRY(make_points(locator, cells, error));
+    TRY(make_extractions(locator, cells, error));
+    TRY(make_schemes(locator, cells, error));
+    TRY(ffd_cells_check_volume(locator, error));
+    TRY(ffd_collapses_find(locator, &cells->collapses, error));
+    return ffd_bricks_create(locator, error); /* ffd_locator_destroy frees what was made */
 }
 
 bool ffd_cells_have_seam(const cell_search *cells, int direction)

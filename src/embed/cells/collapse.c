@@ -151,11 +151,10 @@ static ffd_status visit_face(const ffd_locator *locator, int direction, int end,
 
 ffd_status ffd_collapses_find(const ffd_locator *locator, collapse_list *list, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     for (int direction = 0; direction < 3; direction++)
-        for (int end = 0; end < 2 && !status && !ffd_knots_closed(&locator->knots[direction]); end++)
-            status = visit_face(locator, direction, end, list, error);
-    return status;
+        for (int end = 0; end < 2 && !ffd_knots_closed(&locator->knots[direction]); end++)
+            TRY(visit_face(locator, direction, end, list, error));
+    return FFD_OK;
 }
 
 void ffd_collapses_free(collapse_list *list)

@@ -167,40 +167,38 @@ static ffd_status find_in_cell(const ffd_locator *locator, const double *p, cons
     const size_t width = (size_t)locator->cells->lanes;
     region_lanes *const lanes = &(*scratch)->many->lanes;
     const placed_point *const placed = (*scratch)->many->placed;
-    ffd_status status = FFD_OK;
     load_cell(locator, waiting->leaf->region.span, (*scratch)->many->own, &(*scratch)->many->cell);
-    for (size_t first = 0; first < count && !status; first += width) {
+    for (size_t first = 0; first < count; first += width) {
         const size_t filled = count - first < width ? count - first : width;
         for (size_t l = 0; l < width; l++) {
             const waiting_point *const point = &waiting[first + (l < filled ? l : filled - 1)];
             load_point(&placed[point->index], point->leaf, (int)l, lanes);
         }
         locator->cells->region_kernel(&(*scratch)->many->cell, lanes);
-        for (size_t l = 0; l < filled && !status; l++) {
+        for (size_t l = 0; l < filled; l++) {
             const waiting_point *const point = &waiting[first + l];
             leaf_result own, *const result = point->result ? point->result : &own;
             take_result(point->leaf, lanes, (int)l, result);
             if (point->result)
                 continue;
             if (result->outcome == REGION_UNCERTAIN)
-                status = find_alone(locator, p, point->index, scratch, locations, error);
+                TRY(find_alone(locator, p, point->index, scratch, locations, error));
             else
                 judge(locator, &placed[point->index], result, 1, &locations[point->index]);
         }
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status find_waiting(const ffd_locator *locator, const double *p, size_t count,
                                search_scratch **scratch, ffd_location *locations, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     struct many_scratch *const many = (*scratch)->many;
     const size_t groups = group_waiting(many, count);
-    for (size_t g = 0; g < groups && !status; g++)
-        status = find_in_cell(locator, p, many->grouped + many->groups[g].first, many->groups[g].count,
-                              scratch, locations, error);
-    return status;
+    for (size_t g = 0; g < groups; g++)
+        TRY(find_in_cell(locator, p, many->grouped + many->groups[g].first, many->groups[g].count, scratch,
+                         locations, error));
+    return FFD_OK;
 }
 
 /* The kernel needs a lattice without weights, and without collapses, which are examined first for each
@@ -247,8 +245,7 @@ static bool wait_in_leaves(many_search *many, const packet_point *point)
 static ffd_status judge_shared(const many_search *many)
 {
     const struct many_scratch *const scratch = (*many->scratch)->many;
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < many->shared && !status; i++) {
+    for (size_t i = 0; i < many->shared; i++) {
         const shared_point *const point = &scratch->shared[i];
         bool certain = true;
         for (uint32_t l = 0; l < point->count; l++)
@@ -257,42 +254,40 @@ static ffd_status judge_shared(const many_search *many)
             judge(many->locator, &scratch->placed[point->index], point->results, point->count,
                   &many->locations[point->index]);
         else
-            status =
-                find_alone(many->locator, many->p, point->index, many->scratch, many->locations, many->error);
+            TRY(find_alone(many->locator, many->p, point->index, many->scratch, many->locations,
+                           many->error));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Finds the leaves of the points of the packet, queues the points, and empties the packet. */
 static ffd_status settle_packet(many_search *many)
 {
     point_packet *const p = &many->packet;
-    ffd_status status = FFD_OK;
     ffd_packet_find_leaves(p);
-    for (int i = 0; i < p->count && !status; i++) {
+    for (int i = 0; i < p->count; i++) {
         packet_point *const point = &p->points[i];
         if (point->alone || !wait_in_leaves(many, point))
-            status =
-                find_alone(many->locator, many->p, point->index, many->scratch, many->locations, many->error);
+            TRY(find_alone(many->locator, many->p, point->index, many->scratch, many->locations,
+                           many->error));
         else if (point->count == 0)
             ffd_search_judge(&point->search, &many->locations[point->index]);
     }
     p->count = 0;
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status find_leaves(many_search *many, size_t count)
 {
-    ffd_status status = FFD_OK;
     ffd_packet_begin(&many->packet, many->locator);
-    for (uint32_t i = 0; i < count && !status; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         const double *const p = many->p + 3 * (size_t)i;
         if (isnan(p[0]) || ffd_packet_add(&many->packet, p, i))
             continue;
-        status = settle_packet(many);
+        TRY(settle_packet(many));
         ffd_packet_add(&many->packet, p, i);
     }
-    return status ? status : settle_packet(many);
+    return settle_packet(many);
 }
 
 static ffd_status find_each(const ffd_locator *locator, const double *p, size_t count,

@@ -344,18 +344,18 @@ static void add_face(integration *all, int end, integral *total)
 static ffd_status add_direction(integration *all, const ffd_lattice *lattice, int a, const face_scale *scale,
                                 integral *total, ffd_error *error)
 {
-    ffd_status status = ffd_face_net_create(lattice, a, &all->net, error);
-    if (status)
-        return status;
+    TRY(ffd_face_net_create(lattice, a, &all->net, error));
     const size_t order_b = (size_t)lattice->knots[all->net.b].degree + 1,
                  order_c = (size_t)lattice->knots[all->net.c].degree + 1;
     all->slots = ffd_alloc(MOST_HALVINGS + 1, N * order_b * order_c * sizeof(double));
+    ffd_status status = FFD_OK;
     if (!all->slots)
-        status = ffd_fail_memory(error);
-    for (int end = 0; end < 2 && !status; end++) {
+        TRY_END(ffd_fail_memory(error));
+    for (int end = 0; end < 2; end++) {
         ffd_face_net_fill(&all->net, scale, end);
         add_face(all, end, total);
     }
+end:
     ffd_face_net_free(&all->net);
     ffd_free(all->slots);
     return status;
@@ -379,11 +379,13 @@ ffd_status ffd_rational_volume(const ffd_lattice *lattice, rational_volume *volu
     integration all = {.parts = MOST_PARTS};
     integral total = {0, 0};
     face_scale scale;
-    ffd_status status = prepare(&all, lattice, error);
+    ffd_status status;
     ffd_face_scale_find(lattice, &scale);
-    for (int a = 0; a < 3 && !status; a++)
+    TRY_END(prepare(&all, lattice, error));
+    for (int a = 0; a < 3; a++)
         if (!ffd_knots_closed(&lattice->knots[a]))
-            status = add_direction(&all, lattice, a, &scale, &total, error);
+            TRY_END(add_direction(&all, lattice, a, &scale, &total, error));
+end:
     for (int a = 0; a < 3; a++)
         ffd_free(all.extraction[a]);
     ffd_free(all.rules);

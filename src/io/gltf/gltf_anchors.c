@@ -106,18 +106,17 @@ typedef ffd_status target_visit(anchor_work *w, size_t part, size_t target, size
 static ffd_status visit_targets(anchor_work *w, target_visit *visit)
 {
     const gltf_document *const d = w->rig->document;
-    ffd_status status = FFD_OK;
     memset(w->is_done, 0, d->base.part_count * sizeof *w->is_done);
     for (size_t i = 0; i < d->instance_count; i++) {
         const gltf_instance *const instance = &d->instances[i];
         const size_t part = take_part(w, instance);
-        for (size_t t = 0; part != GLTF_NONE && t < instance->primitive->target_count && !status; t++) {
+        for (size_t t = 0; part != GLTF_NONE && t < instance->primitive->target_count; t++) {
             const size_t target = d->targets[instance->first_target + t];
             if (has_positions(d, target))
-                status = visit(w, part, target, w->rig->pose.first_weight[instance->node] + t);
+                TRY(visit(w, part, target, w->rig->pose.first_weight[instance->node] + t));
         }
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Counts a target and takes its memory. */

@@ -195,18 +195,18 @@ static ffd_status save_as_morph(mesh_document *document, const mesh_save_options
                                 file_output *output, const mesh_log *log, ffd_error *error)
 {
     gltf_document *const d = (gltf_document *)document;
-    ffd_status status = finish_target(d, error);
+    ffd_status status;
+    TRY_END(finish_target(d, error));
     d->edit->log = log;
-    if (!status)
-        status = fill_edit(d->edit, log, error);
+    status = fill_edit(d->edit, log, error);
     if (options->bytes_left)
         *options->bytes_left = d->edit->bytes_left;
-    if (!status) {
-        for (size_t k = 0; k < d->morph_count; k++)
-            lend_results(d, &d->morphs[k]);
-        status = ffd_gltf_save_results(document, options, output, log, error);
-        take_results(d);
-    }
+    TRY_END(status);
+    for (size_t k = 0; k < d->morph_count; k++)
+        lend_results(d, &d->morphs[k]);
+    status = ffd_gltf_save_results(document, options, output, log, error);
+    take_results(d);
+end:
     ffd_gltf_clear_edit(d);
     return status;
 }

@@ -204,14 +204,13 @@ static ffd_status compare_arrays(gltf_comparer *c, uint32_t x, uint32_t y)
         differ_at(c, x, what);
         return FFD_OK;
     }
-    ffd_status status = FFD_OK;
     uint32_t w = ffd_json_tree_first(&c->b->tree, y);
-    for (uint32_t v = ffd_json_tree_first(&c->a->tree, x); v != JSON_NONE && !status;
+    for (uint32_t v = ffd_json_tree_first(&c->a->tree, x); v != JSON_NONE;
          v = ffd_json_tree_after(&c->a->tree, v)) {
-        status = compare_values(c, v, w);
+        TRY(compare_values(c, v, w));
         w = ffd_json_tree_after(&c->b->tree, w);
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Adds the difference that only the second file has y, a member of object x. */
@@ -232,9 +231,8 @@ static ffd_status differ_in_second(gltf_comparer *c, uint32_t x, uint32_t y)
 static ffd_status compare_members(gltf_comparer *c, uint32_t x, const json_member *first, size_t first_count,
                                   const json_member *second, size_t second_count)
 {
-    ffd_status status = FFD_OK;
     size_t i = 0, j = 0;
-    while ((i < first_count || j < second_count) && !status) {
+    while (i < first_count || j < second_count) {
         const int order = i == first_count    ? 1
                           : j == second_count ? -1
                                               : ffd_json_tree_compare_keys(first[i].tree, first[i].value,
@@ -242,13 +240,13 @@ static ffd_status compare_members(gltf_comparer *c, uint32_t x, const json_membe
         if (order < 0 && !is_storage(first[i].tree, first[i].value))
             differ_at(c, first[i].value, "only the first file has it");
         if (order > 0 && !is_storage(second[j].tree, second[j].value))
-            status = differ_in_second(c, x, second[j].value);
+            TRY(differ_in_second(c, x, second[j].value));
         if (order == 0 && !is_storage(first[i].tree, first[i].value))
-            status = compare_values(c, first[i].value, second[j].value);
+            TRY(compare_values(c, first[i].value, second[j].value));
         i += order <= 0;
         j += order >= 0;
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status compare_objects(gltf_comparer *c, uint32_t x, uint32_t y)
@@ -573,16 +571,15 @@ static void leave_problems(const gltf_document *d, bool *is_unpacked)
 /* Compares the contents of two files whose JSON agrees in accessors and bufferViews. */
 static ffd_status compare_contents(gltf_comparer *c)
 {
-    ffd_status status = FFD_OK;
     find_unpacked(c->a, c->is_unpacked);
     leave_problems(c->a, c->is_unpacked);
     leave_problems(c->b, c->is_unpacked);
     find_same_views(c);
     compare_accessors(c);
-    for (size_t i = 0; i < c->a->model.view_count && !status; i++)
+    for (size_t i = 0; i < c->a->model.view_count; i++)
         if (!c->is_unpacked[i] && !c->is_same[i])
-            status = compare_view(c, i);
-    return status;
+            TRY(compare_view(c, i));
+    return FFD_OK;
 }
 
 static bool make_tables(gltf_comparer *c)
@@ -605,16 +602,15 @@ ffd_status ffd_gltf_compare(const mesh_document *first, const mesh_document *sec
                        .budget = first->budget,
                        .error = error};
     ffd_status status = FFD_OK;
-    if (make_tables(&c)) {
-        note_kinds(&c);
-        status = compare_json(&c);
-    } else {
-        status = ffd_fail_memory(error);
-    }
-    if (!status && c.other_storage)
+    if (!make_tables(&c))
+        TRY_END(ffd_fail_memory(error));
+    note_kinds(&c);
+    TRY_END(compare_json(&c));
+    if (c.other_storage)
         comparison->complete = false;
-    else if (!status)
-        status = compare_contents(&c);
+    else
+        TRY_END(compare_contents(&c));
+end:
     ffd_free(c.kinds);
     ffd_free(c.states);
     ffd_free(c.bounds);

@@ -120,18 +120,17 @@ static ffd_status describe_attributes(const gltf_document *d, json_text *json, f
     ffd_json_tree_sort_keys(members, count);
     ffd_status status = FFD_OK;
     ffd_json_array(json, "attributes", true);
-    for (size_t i = 0; i < count && !status; i++) {
+    for (size_t i = 0; i < count; i++) {
         if (i > 0 &&
             ffd_json_tree_compare_keys(&d->tree, members[i - 1].value, &d->tree, members[i].value) == 0)
             continue;
         char *name = ffd_json_tree_key(&d->tree, members[i].value);
-        if (name)
-            ffd_json_string(json, NULL, name);
-        else
-            status = ffd_fail_memory(error);
+        TRY_END(name ? FFD_OK : ffd_fail_memory(error));
+        ffd_json_string(json, NULL, name);
         ffd_free(name);
     }
     ffd_json_end(json, ']');
+end:
     ffd_free(members);
     return status;
 }

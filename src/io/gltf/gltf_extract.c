@@ -353,11 +353,13 @@ static ffd_status begin_run(extractor *e, const gltf_primitive *primitive, size_
         ffd_json_tree_number(&d->tree, ffd_json_tree_member(&d->tree, primitive->value, "material"), &number);
     char *object = object_name(d, primitive->mesh, node);
     char *material = has_material ? name_of(d, &d->material_values, (size_t)number, "material") : NULL;
-    ffd_status status = object && (material || !has_material)
-                            ? ffd_model_begin_run(e->model, object, NULL, material, e->error)
-                            : ffd_fail_memory(e->error);
-    if (!status && e->model->wants_details && has_material && number >= 0 && number < MODEL_NONE)
-        status = ffd_model_set_material(e->model, (uint32_t)number, e->error);
+    ffd_status status;
+    TRY_END(object && (material || !has_material)
+                ? ffd_model_begin_run(e->model, object, NULL, material, e->error)
+                : ffd_fail_memory(e->error));
+    if (e->model->wants_details && has_material && number >= 0 && number < MODEL_NONE)
+        TRY_END(ffd_model_set_material(e->model, (uint32_t)number, e->error));
+end:
     ffd_free(object);
     ffd_free(material);
     return status;
@@ -390,15 +392,14 @@ static ffd_status add_instance(extractor *e, const gltf_instance *instance)
                      .normal = normals == GLTF_NONE ? GLTF_NONE : e->first_normal[normals],
                      .texcoord = find_texcoords(e, instance),
                      .mirrored = is_mirrored(d, part)};
-    ffd_status status = ffd_gltf_read_corners(d, primitive, &drawing.corners, &drawing.count, e->error);
-    if (!status)
-        status = begin_run(e, primitive, instance->node);
-    if (!status)
-        status = take_colours(e, instance, &drawing);
-    if (!status)
-        status = drawing.primitive->mode == MODE_POINTS     ? add_points(e, &drawing)
-                 : drawing.primitive->mode < MODE_TRIANGLES ? add_lines(e, &drawing)
-                                                            : add_triangles(e, &drawing);
+    ffd_status status;
+    TRY_END(ffd_gltf_read_corners(d, primitive, &drawing.corners, &drawing.count, e->error));
+    TRY_END(begin_run(e, primitive, instance->node));
+    TRY_END(take_colours(e, instance, &drawing));
+    TRY_END(drawing.primitive->mode == MODE_POINTS     ? add_points(e, &drawing)
+            : drawing.primitive->mode < MODE_TRIANGLES ? add_lines(e, &drawing)
+                                                       : add_triangles(e, &drawing));
+end:
     ffd_free(drawing.corners);
     return status;
 }
@@ -467,10 +468,7 @@ static ffd_status index_positions(extractor *e)
 {
     const gltf_document *d = e->document;
     uint64_t index = 0;
-    const ffd_status status =
-        ffd_model_take(e->model, e->model->position_count, sizeof *e->model->indices, e->error);
-    if (status)
-        return status;
+    TRY(ffd_model_take(e->model, e->model->position_count, sizeof *e->model->indices, e->error));
     e->model->indices = ffd_alloc(e->model->position_count, sizeof *e->model->indices);
     if (!e->model->indices)
         return ffd_fail_memory(e->error);
@@ -494,19 +492,15 @@ static ffd_status extract(extractor *e)
     if (!e->first_position || !e->first_normal || !e->colours)
         return ffd_fail_memory(e->error);
     /* For the corners of one primitive at a time. */
-    ffd_status status = ffd_model_take(e->model, ffd_gltf_most_corners(d), sizeof(uint32_t), e->error);
-    if (!status)
-        status = count_values(e);
-    if (status)
-        return status;
+    TRY(ffd_model_take(e->model, ffd_gltf_most_corners(d), sizeof(uint32_t), e->error));
+    TRY(count_values(e));
     fill_values(e);
     if (e->model->wants_details)
-        status = index_positions(e);
+        TRY(index_positions(e));
     e->model->nodes_left = d->instanced_node_count;
-    if (!status)
-        status = visit_drawn(e, add_instance);
+    TRY(visit_drawn(e, add_instance));
     e->model->features = features_of(e);
-    return status;
+    return FFD_OK;
 }
 
 /* A model has no instances, and the node's own matrix places none of them. */
@@ -523,11 +517,11 @@ ffd_status ffd_gltf_extract(const mesh_document *document, mesh_state state, mes
                             ffd_error *error)
 {
     extractor e = {.document = ffd_gltf_of(document), .state = state, .model = model, .error = error};
-    ffd_status status = refuse_instances(e.document, model, error);
-    if (!status)
-        status = extract(&e);
-    if (!status)
-        status = ffd_model_finish(model, error);
+    ffd_status status;
+    TRY_END(refuse_instances(e.document, model, error));
+    TRY_END(extract(&e));
+    TRY_END(ffd_model_finish(model, error));
+end:
     ffd_free(e.first_position);
     ffd_free(e.first_normal);
     ffd_free(e.colours);

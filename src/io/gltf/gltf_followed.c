@@ -80,10 +80,7 @@ static ffd_status copy_sampler(gltf_skeleton *skeleton, const gltf_animation_sam
     to->times = to->values = NULL;
     if (!from->times)
         return FFD_OK;
-    const ffd_status status =
-        ffd_gltf_skeleton_take(skeleton, count + from->key_count, sizeof(double), error);
-    if (status)
-        return status;
+    TRY(ffd_gltf_skeleton_take(skeleton, count + from->key_count, sizeof(double), error));
     to->times = ffd_alloc(from->key_count, sizeof *to->times);
     to->values = ffd_alloc(count, sizeof *to->values);
     if (!to->times || !to->values)
@@ -97,20 +94,17 @@ static ffd_status add_copies(gltf_skeleton *skeleton, const gltf_rig_animation *
                              gltf_animation *animation, ffd_error *error)
 {
     const size_t own = animation->sampler_count;
-    ffd_status status =
-        ffd_gltf_skeleton_take(skeleton, change->copy_count, sizeof *animation->samplers, error);
-    if (status)
-        return status;
+    TRY(ffd_gltf_skeleton_take(skeleton, change->copy_count, sizeof *animation->samplers, error));
     gltf_animation_sampler *const samplers =
         ffd_realloc(animation->samplers, own + change->copy_count, sizeof *samplers);
     if (!samplers)
         return ffd_fail_memory(error);
     animation->samplers = samplers;
-    for (size_t i = 0; i < change->copy_count && !status; i++) {
-        status = copy_sampler(skeleton, &samplers[change->copies[i].sampler], &samplers[own + i], error);
-        animation->sampler_count++;
+    for (size_t i = 0; i < change->copy_count; i++) {
+        animation->sampler_count++; /* a copy that fails is freed too */
+        TRY(copy_sampler(skeleton, &samplers[change->copies[i].sampler], &samplers[own + i], error));
     }
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_gltf_follow_keys(gltf_skeleton *skeleton, size_t index, ffd_error *error)

@@ -59,8 +59,9 @@ static ffd_status add_data_uri(const inner_image *i, uint32_t uri)
         ffd_left_add(&i->images->left, i->name, "is not valid base64");
         return FFD_OK;
     }
-    if (!status)
-        status = ffd_images_add(i->images, i->name, buffer.data, buffer.size, i->index, i->error);
+    TRY_END(status);
+    TRY_END(ffd_images_add(i->images, i->name, buffer.data, buffer.size, i->index, i->error));
+end:
     ffd_gltf_free_buffer(&buffer);
     return status;
 }
@@ -85,9 +86,10 @@ static ffd_status load_inner(const gltf_document *d, material_images *images, si
     char key[40]; /* cannot be the path of a file: these are relative */
     bool is_known;
     snprintf(key, sizeof key, v == GLTF_NONE ? "/image %zu" : "/bufferView %zu", v == GLTF_NONE ? image : v);
-    ffd_status status = ffd_images_find(images, key, &is_known, index, error);
-    if (status || is_known)
-        return status;
+    TRY(ffd_images_find(images, key, &is_known, index, error));
+    if (is_known)
+        return FFD_OK;
+    ffd_status status = FFD_OK;
     const inner_image inner = {d, images, image_name(d, image), index, error};
     if (!inner.name)
         return ffd_fail_memory(error);
@@ -112,10 +114,9 @@ static ffd_status load_image(const gltf_document *d, material_images *images, si
     char *path = NULL;
     ffd_status status = FFD_OK;
     if (ffd_json_tree_member(&d->tree, value, "bufferView") == JSON_NONE)
-        status = ffd_gltf_file_path(&d->tree, value, &d->base.folder, &path, error);
-    if (!status)
-        status =
-            path ? ffd_images_load(images, path, index, error) : load_inner(d, images, image, index, error);
+        TRY_END(ffd_gltf_file_path(&d->tree, value, &d->base.folder, &path, error));
+    TRY_END(path ? ffd_images_load(images, path, index, error) : load_inner(d, images, image, index, error));
+end:
     ffd_free(path);
     return status;
 }
@@ -208,10 +209,10 @@ static ffd_status leave_texture(reader *r, size_t index, const char *why, uint32
     if (index != GLTF_NONE)
         snprintf(name, sizeof name, "texture %zu", index);
     snprintf(key, sizeof key, "/%s", name); /* cannot be the path of a file: these are relative */
-    const ffd_status status = ffd_images_find(&r->images, key, &is_known, image, r->error);
-    if (!status && !is_known)
+    TRY(ffd_images_find(&r->images, key, &is_known, image, r->error));
+    if (!is_known)
         ffd_left_add(&r->images.left, name, why);
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status read_texture(reader *r, uint32_t info, mesh_material *material)
@@ -266,8 +267,9 @@ ffd_status ffd_gltf_list_materials(mesh_document *document, const mesh_log *log,
                            .has_folder = !ffd_file_is_stream(d->path)},
                 .error = error};
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < d->material_values.count && !status; i++)
-        status = read_material(&r, d->material_values.values[i]);
+    for (size_t i = 0; i < d->material_values.count; i++)
+        TRY_END(read_material(&r, d->material_values.values[i]));
+end:
     ffd_images_end(&r.images, log);
     return status;
 }

@@ -52,20 +52,18 @@ static ffd_status find_json(gltf_document *d, ffd_format format, ffd_error *erro
     size_t size = d->input.size;
     const bool is_glb = ffd_glb_is(d->input.data, d->input.size);
     if (format == FFD_FORMAT_GLB || (format == FFD_FORMAT_AUTO && is_glb)) {
-        const ffd_status status = ffd_glb_parse(d->input.data, d->input.size, d->name, &d->glb, error);
-        if (status)
-            return status;
+        TRY(ffd_glb_parse(d->input.data, d->input.size, d->name, &d->glb, error));
         d->binary = true;
         text += d->glb.json_begin;
         size = d->glb.json_size;
     } else if (is_glb) {
         return ffd_fail_file(error, FFD_E_INVALID, d->name, "is a GLB file: its name must end in .glb");
     }
-    ffd_status status = d->input.mapped ? copy_json(d, &text, size, error) : FFD_OK;
+    if (d->input.mapped)
+        TRY(copy_json(d, &text, size, error));
     const json_input json = {.text = text, .size = size, .name = d->name, .rules = JSON_ALLOW_MARK};
-    if (!status)
-        status = ffd_json_parse(&json, &d->tree, error);
-    return status ? status : ffd_budget_take(&d->base.budget, d->tree.count, sizeof *d->tree.values, error);
+    TRY(ffd_json_parse(&json, &d->tree, error));
+    return ffd_budget_take(&d->base.budget, d->tree.count, sizeof *d->tree.values, error);
 }
 
 static ffd_status list_values(const gltf_document *d, const char *key, gltf_values *list, ffd_error *error)
@@ -126,22 +124,21 @@ static ffd_status note_buffer(gltf_document *d, size_t i, ffd_error *error)
 {
     const gltf_buffer *const buffer = &d->buffers[i];
     const uint32_t value = d->buffer_values.values[i], uri = ffd_json_tree_member(&d->tree, value, "uri");
-    ffd_status status = FFD_OK;
     if (buffer->flaws & BUFFER_ODD_MARKER)
-        status = ffd_gltf_flaw(d, uri, error,
-                               "the head of the data URI does not end with \";base64\" in small letters");
-    if (!status && buffer->flaws & BUFFER_BLANKS)
-        status = ffd_gltf_flaw(d, uri, error, "there are blanks in the base64 of the data URI");
-    if (!status && buffer->flaws & BUFFER_BACKSLASH)
-        status =
-            ffd_gltf_flaw(d, uri, error, "the URI has backslashes for slashes: \"%s\" is read", buffer->path);
-    if (!status && buffer->flaws & BUFFER_SHORT)
-        status = ffd_gltf_flaw(d, value, error, "the buffer has %zu bytes, less than its byteLength %zu",
-                               buffer->size, buffer->stated);
-    if (!status && buffer->flaws & BUFFER_LONG)
-        status = ffd_gltf_flaw(d, value, error, "the buffer has %zu bytes, more than its byteLength %zu",
-                               buffer->size, buffer->stated);
-    return status;
+        TRY(ffd_gltf_flaw(d, uri, error,
+                          "the head of the data URI does not end with \";base64\" in small letters"));
+    if (buffer->flaws & BUFFER_BLANKS)
+        TRY(ffd_gltf_flaw(d, uri, error, "there are blanks in the base64 of the data URI"));
+    if (buffer->flaws & BUFFER_BACKSLASH)
+        TRY(ffd_gltf_flaw(d, uri, error, "the URI has backslashes for slashes: \"%s\" is read",
+                          buffer->path));
+    if (buffer->flaws & BUFFER_SHORT)
+        TRY(ffd_gltf_flaw(d, value, error, "the buffer has %zu bytes, less than its byteLength %zu",
+                          buffer->size, buffer->stated));
+    if (buffer->flaws & BUFFER_LONG)
+        TRY(ffd_gltf_flaw(d, value, error, "the buffer has %zu bytes, more than its byteLength %zu",
+                          buffer->size, buffer->stated));
+    return FFD_OK;
 }
 
 static ffd_status load_buffers(gltf_document *d, ffd_error *error)
@@ -150,18 +147,16 @@ static ffd_status load_buffers(gltf_document *d, ffd_error *error)
     d->buffers = ffd_alloc_zero(d->buffer_values.count, sizeof *d->buffers);
     if (!d->buffers)
         return ffd_fail_memory(error);
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < d->buffer_values.count && !status; i++) {
+    for (size_t i = 0; i < d->buffer_values.count; i++) {
         const bool bin = i == 0 && d->binary && d->glb.has_bin;
-        status = ffd_gltf_load_buffer(&d->tree, d->buffer_values.values[i],
-                                      bin ? d->input.data + d->glb.bin_begin : NULL, d->glb.bin_size,
-                                      &d->base.folder, d->name, &most_read, &d->buffers[i], error);
-        if (d->buffers[i].kind == BUFFER_DATA && !status)
-            status = ffd_budget_take(&d->base.budget, d->buffers[i].size, 1, error);
-        if (!status)
-            status = note_buffer(d, i, error);
+        TRY(ffd_gltf_load_buffer(&d->tree, d->buffer_values.values[i],
+                                 bin ? d->input.data + d->glb.bin_begin : NULL, d->glb.bin_size,
+                                 &d->base.folder, d->name, &most_read, &d->buffers[i], error));
+        if (d->buffers[i].kind == BUFFER_DATA)
+            TRY(ffd_budget_take(&d->base.budget, d->buffers[i].size, 1, error));
+        TRY(note_buffer(d, i, error));
     }
-    return status ? status : count_files(d, error);
+    return count_files(d, error);
 }
 
 /* Counts the primitives that the JSON has. */
@@ -210,20 +205,17 @@ static ffd_status parse_model(gltf_document *d, ffd_error *error)
 {
     json_edits integers = {0};
     byte_buffer text = {0};
-    ffd_status status = ffd_gltf_check_schema(&d->tree, d->name, &integers, error);
-    if (!status)
-        status = list_all_values(d, error);
-    if (!status)
-        status = limit_objects(d, error);
-    if (!status)
-        status = ffd_gltf_write_shown(d, &integers, &text)
-                     ? ffd_gltf_parse_model(text.data, text.size, d->name, &d->model, error)
-                     : ffd_fail_memory(error);
+    ffd_status status;
+    TRY_END(ffd_gltf_check_schema(&d->tree, d->name, &integers, error));
+    TRY_END(list_all_values(d, error));
+    TRY_END(limit_objects(d, error));
+    TRY_END(ffd_gltf_write_shown(d, &integers, &text)
+                ? ffd_gltf_parse_model(text.data, text.size, d->name, &d->model, error)
+                : ffd_fail_memory(error));
+end:
     ffd_edits_free(&integers);
     ffd_buffer_free(&text);
-    if (!status)
-        status = join_json(d, error);
-    return status ? status : ffd_gltf_read_drawings(d, error);
+    return status;
 }
 
 static void free_decoded(gltf_document *d)
@@ -302,15 +294,15 @@ static void free_document(gltf_document *d)
 ffd_status ffd_gltf_list_files(const mesh_document *document, path_list *files, ffd_error *error)
 {
     const gltf_document *d = ffd_gltf_of(document);
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < d->buffer_values.count && !status; i++) {
+    for (size_t i = 0; i < d->buffer_values.count; i++) {
         if (d->buffers[i].kind != BUFFER_FILE)
             continue;
         char *path = ffd_path_sibling(d->path, d->buffers[i].path);
-        status = path ? ffd_paths_add(files, path, error) : ffd_fail_memory(error);
+        const ffd_status status = path ? ffd_paths_add(files, path, error) : ffd_fail_memory(error);
         ffd_free(path);
+        TRY(status);
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_error *error)
@@ -323,46 +315,35 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
     d->base.folder = (file_folder){d->path, source->resolve, source->resolve_user};
     TRY(find_json(d, source->format, error));
     TRY(parse_model(d, error));
+    TRY(join_json(d, error));
+    TRY(ffd_gltf_read_drawings(d, error));
     TRY(load_buffers(d, error));
     TRY(ffd_gltf_check_contents(d, error));
     ffd_gltf_choose_pages(d);
     d->layouts = ffd_alloc_zero(d->model.accessor_count, sizeof *d->layouts);
     if (!d->layouts)
         return ffd_fail_memory(error);
-    ffd_status status = ffd_gltf_check(d, error);
-    if (!status)
-        status = ffd_gltf_check_indices(d, error);
-    if (!status)
-        status = ffd_gltf_check_stated(d, error);
-    if (!status)
-        status = ffd_gltf_check_vrm(d, error);
-    if (!status)
-        status = ffd_gltf_find_required(d, source, error);
-    if (!status)
-        ffd_gltf_find_held(d);
-    if (!status)
-        status = ffd_gltf_list_skins(d, error);
-    if (!status)
-        status = ffd_gltf_make_scene(d, error);
-    if (!status)
-        status = ffd_gltf_settle_skins(d, error);
-    if (!status)
-        status = ffd_gltf_make_parts(d, error);
-    if (!status)
-        status = ffd_gltf_make_shapes(d, error);
-    if (!status)
-        status = ffd_gltf_find_splats(d, error);
-    if (!status)
-        d->instancing_status = ffd_gltf_find_instanced_nodes(d, &d->instancing_error);
-    if (!status)
-        d->skins_status = ffd_gltf_prepare_skins(d, &d->skins_error);
-    if (!status && d->skins_status == FFD_OK)
-        status = ffd_gltf_judge_weights(d, error);
+    TRY(ffd_gltf_check(d, error));
+    TRY(ffd_gltf_check_indices(d, error));
+    TRY(ffd_gltf_check_stated(d, error));
+    TRY(ffd_gltf_check_vrm(d, error));
+    TRY(ffd_gltf_find_required(d, source, error));
+    ffd_gltf_find_held(d);
+    TRY(ffd_gltf_list_skins(d, error));
+    TRY(ffd_gltf_make_scene(d, error));
+    TRY(ffd_gltf_settle_skins(d, error));
+    TRY(ffd_gltf_make_parts(d, error));
+    TRY(ffd_gltf_make_shapes(d, error));
+    TRY(ffd_gltf_find_splats(d, error));
+    d->instancing_status = ffd_gltf_find_instanced_nodes(d, &d->instancing_error);
+    d->skins_status = ffd_gltf_prepare_skins(d, &d->skins_error);
+    if (d->skins_status == FFD_OK)
+        TRY(ffd_gltf_judge_weights(d, error));
     ffd_gltf_forget(d);
-    if (!status && d->skins_status == FFD_E_LIMIT)
+    if (d->skins_status == FFD_E_LIMIT)
         return ffd_fail(error, FFD_E_LIMIT, "%s", d->skins_error.message);
     const bool no_memory = d->skins_status == FFD_E_MEMORY || d->instancing_status == FFD_E_MEMORY;
-    return status == FFD_OK && no_memory ? ffd_fail_memory(error) : status;
+    return no_memory ? ffd_fail_memory(error) : FFD_OK;
 }
 
 ffd_status ffd_gltf_open(file_input *input, const ffd_source *source, mesh_document **document,

@@ -209,19 +209,19 @@ static ffd_status fill_skin(gltf_skeleton *rig, size_t s, const double *unmoved,
     const gltf_skin *const skin = &rig->document->skins[s];
     double *const rest = rig->skin_rest + 12 * s;
     double back[12], *const binds = ffd_alloc(skin->joint_count, 12 * sizeof *binds);
-    ffd_status status = binds ? FFD_OK : ffd_fail_memory(error);
-    if (!status)
-        status = ffd_gltf_skeleton_binds(rig, s, unmoved, binds, error);
+    ffd_status status;
+    TRY_END(binds ? ffd_gltf_skeleton_binds(rig, s, unmoved, binds, error) : ffd_fail_memory(error));
     memcpy(rest, identity, sizeof identity);
-    if (!status && skin->joint_count > 0)
+    if (skin->joint_count > 0)
         ffd_gltf_join_matrix(ffd_gltf_skeleton_world(rig, skin->joints[0]), binds, binds + 9, rest);
     if (!invert(rest, back))
         memcpy(rest, identity, sizeof identity);
-    for (size_t j = 0; j < skin->joint_count && !status; j++) {
+    for (size_t j = 0; j < skin->joint_count; j++) {
         rig_bone *const bone = &rig->base.bones[rig->skin_bone[s] + j];
         bone->node = rig->places[skin->joints[j]];
         ffd_gltf_join_matrix(binds + 12 * j, back, back + 9, bone->bind);
     }
+end:
     ffd_free(binds);
     return status;
 }
@@ -229,7 +229,6 @@ static ffd_status fill_skin(gltf_skeleton *rig, size_t s, const double *unmoved,
 static ffd_status fill_bones(gltf_skeleton *rig, ffd_error *error)
 {
     const gltf_document *const d = rig->document;
-    ffd_status status = FFD_OK;
     double *const unmoved = ffd_alloc(d->model.node_count, 12 * sizeof *unmoved);
     if (!unmoved)
         return ffd_fail_memory(error);
@@ -240,19 +239,18 @@ static ffd_status fill_bones(gltf_skeleton *rig, ffd_error *error)
         rig->base.bones[rig->node_bone[n]].node = rig->places[n];
         invert(ffd_gltf_skeleton_world(rig, n), rig->base.bones[rig->node_bone[n]].bind);
     }
-    for (size_t s = 0; s < d->skin_values.count && !status; s++)
+    ffd_status status = FFD_OK;
+    for (size_t s = 0; s < d->skin_values.count; s++)
         if (rig->skin_bone[s] != GLTF_NONE)
-            status = fill_skin(rig, s, unmoved, error);
+            TRY_END(fill_skin(rig, s, unmoved, error));
+end:
     ffd_free(unmoved);
     return status;
 }
 
 static ffd_status make_bones(gltf_skeleton *rig, ffd_error *error)
 {
-    const ffd_status status =
-        ffd_gltf_skeleton_take(rig, rig->base.bone_count, sizeof *rig->base.bones, error);
-    if (status)
-        return status;
+    TRY(ffd_gltf_skeleton_take(rig, rig->base.bone_count, sizeof *rig->base.bones, error));
     rig->base.bones = ffd_alloc(rig->base.bone_count, sizeof *rig->base.bones);
     return rig->base.bones ? fill_bones(rig, error) : ffd_fail_memory(error);
 }
@@ -381,28 +379,19 @@ static ffd_status keep_weights(gltf_skeleton *rig, ffd_error *error)
 static ffd_status make_rig(gltf_skeleton *rig, ffd_error *error)
 {
     const gltf_document *const d = rig->document;
-    ffd_status status = ffd_gltf_skeleton_take(rig, d->model.node_count, NODE_BYTES, error);
-    if (!status)
-        status = ffd_gltf_list_animations(rig->document, &rig->animations, error);
-    if (!status)
-        status = ffd_gltf_make_pose(d, &rig->pose, error);
-    if (!status)
-        status = ffd_gltf_follow_transforms(rig, error);
+    TRY(ffd_gltf_skeleton_take(rig, d->model.node_count, NODE_BYTES, error));
+    TRY(ffd_gltf_list_animations(rig->document, &rig->animations, error));
+    TRY(ffd_gltf_make_pose(d, &rig->pose, error));
+    TRY(ffd_gltf_follow_transforms(rig, error));
     rig->pose.rest = rig->nodes;
-    if (!status)
-        status = make_tables(rig, error);
-    if (status)
-        return status;
+    TRY(make_tables(rig, error));
     count_bones(rig);
     mark_needed(rig);
-    status = make_nodes(rig, error);
-    if (!status)
-        status = make_bones(rig, error);
-    if (!status)
-        status = keep_weights(rig, error);
-    if (!status)
-        status = list_animations(rig, error);
-    return !status && rig->animations.count > 0 ? make_influences(rig, error) : status;
+    TRY(make_nodes(rig, error));
+    TRY(make_bones(rig, error));
+    TRY(keep_weights(rig, error));
+    TRY(list_animations(rig, error));
+    return rig->animations.count > 0 ? make_influences(rig, error) : FFD_OK;
 }
 
 static bool has_any(const gltf_document *d, const char *list)

@@ -150,9 +150,8 @@ static ffd_status write_central(zip_writer *zip, const zip_member *member, ffd_e
 ffd_status ffd_zip_end(zip_writer *zip, ffd_error *error)
 {
     const uint64_t start = zip->offset;
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < zip->count && !status; i++)
-        status = write_central(zip, &zip->members[i], error);
+    for (size_t i = 0; i < zip->count; i++)
+        TRY(write_central(zip, &zip->members[i], error));
     const uint64_t end = zip->offset;
     record r = {.size = 0};
     put32(&r, END_OF_CENTRAL_64);
@@ -177,5 +176,5 @@ ffd_status ffd_zip_end(zip_writer *zip, ffd_error *error)
     put32(&r, FULL_32);
     put32(&r, FULL_32);
     put16(&r, 0);
-    return status ? status : write_record(zip, &r, error);
+    return write_record(zip, &r, error);
 }

@@ -318,11 +318,9 @@ static ffd_status find_mixed(mixed_search *search, mesh_faces *faces, ffd_error 
 {
     const obj_document *const d = search->document;
     ffd_parallel_tiles(d->blocks.count, 1, d->threads, search_tile, search);
-    const ffd_status status =
-        ffd_face_lists_narrow(&d->file.base, search->lists, d->blocks.count, faces, error);
-    if (!status)
-        ffd_obj_read_again(d, faces->vertices, faces->vertex_count, faces->positions);
-    return status;
+    TRY(ffd_face_lists_narrow(&d->file.base, search->lists, d->blocks.count, faces, error));
+    ffd_obj_read_again(d, faces->vertices, faces->vertex_count, faces->positions);
+    return FFD_OK;
 }
 
 ffd_status ffd_obj_mixed_faces(const mesh_document *document, mesh_state state, const vertex_marks *marks,

@@ -195,22 +195,21 @@ ffd_status ffd_obj_model(const mesh_document *document, mesh_state state, mesh_m
 {
     const obj_document *d = ffd_obj_of(document);
     extractor e = {.document = d, .model = model, .error = error};
-    ffd_status status = ffd_model_make_values(model, d->vertices, d->texcoords, count_normals(d), error);
     (void)state;
-    if (!status) {
-        copy_values(&e);
-        status = ffd_model_begin_run(model, NULL, NULL, NULL, error);
-    }
+    TRY(ffd_model_make_values(model, d->vertices, d->texcoords, count_normals(d), error));
+    copy_values(&e);
+    TRY(ffd_model_begin_run(model, NULL, NULL, NULL, error));
     ffd_obj_document_walk(d, &e.walk);
-    while (status == FFD_OK && ffd_obj_walk_next(&e.walk))
-        status = take_statement(&e);
+    ffd_status status = FFD_OK;
+    while (ffd_obj_walk_next(&e.walk))
+        TRY_END(take_statement(&e));
+    TRY_END(ffd_model_finish(model, error));
+    if (model->features & MODEL_HAS_MATERIAL_NAMES && e.has_library)
+        model->features |= MODEL_HAS_MATERIALS;
+end:
     ffd_free(e.object);
     ffd_free(e.group);
     ffd_free(e.material);
     ffd_free(e.corners);
-    if (!status)
-        status = ffd_model_finish(model, error);
-    if (model->features & MODEL_HAS_MATERIAL_NAMES && e.has_library)
-        model->features |= MODEL_HAS_MATERIALS;
     return status;
 }

@@ -51,14 +51,13 @@ static ffd_status check_statements(const obj_document *d, ffd_error *error)
 static ffd_status note_unknown(obj_document *d, ffd_error *error)
 {
     char shown[200] = "";
-    ffd_status status = FFD_OK;
     if (d->unknown.count > 0)
         ffd_bytes_shown(d->unknown.name.first, (size_t)ffd_text_display_size(d->unknown.name), shown,
                         sizeof shown);
-    for (size_t i = 0; i < d->unknown.count && !status; i++)
-        status = ffd_flaw_line(&d->file.base.flaws, d->file.name, d->unknown.line, error,
-                               "\"%s\" is no statement of OBJ: it is left as it is", shown);
-    return status;
+    for (size_t i = 0; i < d->unknown.count; i++)
+        TRY(ffd_flaw_line(&d->file.base.flaws, d->file.name, d->unknown.line, error,
+                          "\"%s\" is no statement of OBJ: it is left as it is", shown));
+    return FFD_OK;
 }
 
 static void describe_part(obj_document *d)
@@ -94,9 +93,10 @@ static void free_document(obj_document *d)
 static ffd_status read_elements(obj_document *d, ffd_error *error)
 {
     obj_users users = {0};
-    ffd_status status = ffd_obj_read_vectors(d, &users, error);
-    if (!status)
-        status = ffd_obj_read_faces(d, &users, error);
+    ffd_status status;
+    TRY_END(ffd_obj_read_vectors(d, &users, error));
+    TRY_END(ffd_obj_read_faces(d, &users, error));
+end:
     ffd_obj_users_free(d, &users);
     return status;
 }
@@ -129,21 +129,18 @@ ffd_status ffd_obj_open(file_input *input, const ffd_source *source, mesh_docume
         return FFD_E_MEMORY;
     d->threads = threads_for(source, input->size);
     d->only_positions = source->only_positions;
-    ffd_status status = check_bytes(d, error);
-    if (!status)
-        status = read_elements(d, error);
-    if (!status)
-        status = check_statements(d, error);
-    if (!status)
-        status = note_unknown(d, error);
-    if (status) {
-        status = lead_to_joined(d, status, error);
-        free_document(d);
-        return status;
-    }
+    ffd_status status;
+    TRY_END(check_bytes(d, error));
+    TRY_END(read_elements(d, error));
+    TRY_END(check_statements(d, error));
+    TRY_END(note_unknown(d, error));
     describe_part(d);
     *document = ffd_file_document_ready(&d->file, true, source);
     return FFD_OK;
+end:
+    status = lead_to_joined(d, status, error);
+    free_document(d);
+    return status;
 }
 
 void ffd_obj_close(mesh_document *document)

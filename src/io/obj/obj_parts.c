@@ -185,16 +185,15 @@ static bool sort_uses(const surveying *s, size_t **start, uint32_t **runs)
 static ffd_status list_kind(const surveying *s, selector_kind kind, const size_t *start, const uint32_t *runs,
                             mesh_listing *listing, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (uint32_t n = 0; n < s->names.count && !status; n++) {
+    for (uint32_t n = 0; n < s->names.count; n++) {
         const char *const key = ffd_intern_key(&s->names, n);
         if (key[0] != (char)kind)
             continue;
-        status = ffd_listing_add(listing, kind, key + 1, strlen(key + 1), 0, error);
-        for (size_t i = start[n]; i < start[n + 1] && !status; i++)
+        TRY(ffd_listing_add(listing, kind, key + 1, strlen(key + 1), 0, error));
+        for (size_t i = start[n]; i < start[n + 1]; i++)
             draw(s->document, &s->runs[runs[i]], listing);
     }
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_obj_list_parts(const mesh_document *document, mesh_listing *listing, ffd_error *error)
@@ -206,9 +205,10 @@ ffd_status ffd_obj_list_parts(const mesh_document *document, mesh_listing *listi
     find_runs(&s);
     ffd_status status = FFD_OK;
     if (s.failed || !sort_uses(&s, &start, &runs))
-        status = ffd_fail_memory(error);
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds && !status; i++)
-        status = list_kind(&s, kinds[i], start, runs, listing, error);
+        TRY_END(ffd_fail_memory(error));
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        TRY_END(list_kind(&s, kinds[i], start, runs, listing, error));
+end:
     ffd_free(start);
     ffd_free(runs);
     ffd_free(s.runs);

@@ -113,9 +113,11 @@ void ffd_obj_free_normals(obj_document *d)
 ffd_status ffd_obj_begin_results(mesh_document *document, const mesh_results *results, ffd_error *error)
 {
     obj_document *d = (obj_document *)document;
-    const ffd_status status = begin_positions(d, results->replace, error);
-    if (!status && results->directions && d->pair_normal)
+    ffd_status status;
+    TRY_END(begin_positions(d, results->replace, error));
+    if (results->directions && d->pair_normal)
         return begin_normals(d, results->replace, error);
+end:
     ffd_obj_free_normals(d);
     return status;
 }

@@ -250,17 +250,17 @@ ffd_status ffd_obj_save(mesh_document *document, const mesh_save_options *option
                                 error));
     if (!output)
         return FFD_OK;
-    ffd_status status = d->file.new_directions ? ffd_obj_split_normals(d, &s.split, error) : FFD_OK;
-    if (!status) {
-        ffd_splice_begin(&splice, &d->file, options, output, error);
-        if (d->file.new_positions && splice.status == FFD_OK)
-            write_blocks(&s);
-        if (d->addition == d->end)
-            add_normals(&s, &splice);
-        status = ffd_splice_end(&splice);
-    }
-    if (!status && atomic_load(&s.is_changed))
-        status = ffd_file_document_changed(&d->file, error);
+    ffd_status status;
+    TRY_END(d->file.new_directions ? ffd_obj_split_normals(d, &s.split, error) : FFD_OK);
+    ffd_splice_begin(&splice, &d->file, options, output, error);
+    if (d->file.new_positions && splice.status == FFD_OK)
+        write_blocks(&s);
+    if (d->addition == d->end)
+        add_normals(&s, &splice);
+    TRY_END(ffd_splice_end(&splice));
+    if (atomic_load(&s.is_changed))
+        TRY_END(ffd_file_document_changed(&d->file, error));
+end:
     ffd_obj_split_free(&s.split);
     return status;
 }

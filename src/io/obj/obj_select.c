@@ -141,12 +141,12 @@ ffd_status ffd_obj_select(mesh_document *document, const mesh_selector *selector
     d->held_normals = ffd_alloc_zero(d->normals, 1);
     ffd_status status = FFD_OK;
     if (!s.found || !d->selected_vertices || !d->selected_faces || !d->selected_pairs || !d->held_normals)
-        status = ffd_fail_memory(error);
-    if (!status)
-        mark_elements(&s);
-    for (size_t i = 0; i < count && !status; i++)
+        TRY_END(ffd_fail_memory(error));
+    mark_elements(&s);
+    for (size_t i = 0; i < count; i++)
         if (!s.found[i])
-            status = refuse_unknown(d, &selectors[i], error);
+            TRY_END(refuse_unknown(d, &selectors[i], error));
+end:
     d->file.part.selected = d->selected_vertices;
     d->file.part.selected_normals = d->selected_pairs;
     ffd_free(s.found);

@@ -127,8 +127,7 @@ static ffd_status check_corners(const block_reader *r, obj_scan *scan, obj_block
     const bool is_face = scan->keyword == OBJ_FACE;
     text_word word;
     obj_corner corner;
-    ffd_status status = FFD_OK;
-    while (status == FFD_OK) {
+    while (true) {
         if (is_face && r->any_normals)
             pass_common_corners(r, scan, block);
         if (ffd_obj_scan_is_over(scan))
@@ -146,9 +145,9 @@ static ffd_status check_corners(const block_reader *r, obj_scan *scan, obj_block
         note_index(r, scan, &corner, block);
         block->corners += is_face;
         if (is_face && r->any_normals && corner.normal.text.first < corner.normal.text.last)
-            status = add_normal(r, scan, vertex, corner.normal, block);
+            TRY(add_normal(r, scan, vertex, corner.normal, block));
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status read_statement(const block_reader *r, obj_scan *scan, obj_block_users *block)
@@ -222,14 +221,13 @@ static ffd_status read_block(const obj_document *d, const obj_users *users, size
 {
     block_reader r = {.document = d, .users = users, .any_normals = d->normals > 0, .error = error};
     obj_walk walk;
-    ffd_status status = FFD_OK;
     ffd_obj_document_walk_block(d, index, &walk);
-    while (status == FFD_OK && ffd_obj_walk_next(&walk)) {
+    while (ffd_obj_walk_next(&walk)) {
         r.vertices = walk.vertices;
         r.normals = walk.normals;
-        status = read_statement(&r, &walk.scan, block);
+        TRY(read_statement(&r, &walk.scan, block));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Whether the block has not been read, or names what is not there. */

@@ -100,7 +100,7 @@ static ffd_status read_block(const reader *r, size_t block, block_content *conte
     ffd_status status = FFD_OK;
     ffd_obj_document_walk_block(d, block, &walk);
     const size_t line = walk.scan.line;
-    while (status == FFD_OK && ffd_obj_scan_next(&walk.scan)) { /* totals are not known yet */
+    while (ffd_obj_scan_next(&walk.scan)) { /* totals are not known yet */
         const obj_keyword keyword = walk.scan.keyword;
         content->faces += keyword == OBJ_FACE;
         content->texcoords += keyword == OBJ_TEXCOORD;
@@ -114,15 +114,16 @@ static ffd_status read_block(const reader *r, size_t block, block_content *conte
             content->names_elements = true;
             ffd_obj_users_scan(d, r->users, &walk.scan, &content->users);
         } else if (keyword == OBJ_VERTEX) {
-            status = read_vector(d, &walk.scan, "vertex", &content->positions, error);
+            TRY_END(read_vector(d, &walk.scan, "vertex", &content->positions, error));
         } else if (keyword == OBJ_NORMAL) {
-            status = read_vector(d, &walk.scan, "normal", &content->normals, error);
+            TRY_END(read_vector(d, &walk.scan, "normal", &content->normals, error));
             ffd_obj_scan_finish(&walk.scan);
             content->addition = (size_t)(walk.scan.at - (const char *)d->file.input.data);
         } else if (keyword == OBJ_GROUP || keyword == OBJ_OBJECT) {
             content->names_groups = true;
         }
     }
+end:
     content->lines = walk.scan.line - line;
     content->loose = (obj_oddity){walk.scan.loose.count, walk.scan.loose.line - line};
     content->joined = (obj_oddity){walk.scan.joined.count, walk.scan.joined.line - line};
@@ -261,16 +262,15 @@ static ffd_status find_failure(const reader *r, ffd_error *error)
 static ffd_status note_flaws(reader *r, ffd_error *error)
 {
     obj_document *const d = r->document;
-    ffd_status status = ffd_file_document_note_mark(&d->file, d->end, error);
-    for (size_t i = 0; i < r->loose.count && !status; i++)
-        status = ffd_flaw_line(&d->file.base.flaws, d->file.name, r->loose.line, error,
-                               "blanks follow the backslash at the end of the line: it goes on in the next");
-    for (size_t i = 0; i < r->joined.count && !status; i++)
-        status =
-            ffd_flaw_line(&d->file.base.flaws, d->file.name, r->joined.line, error,
+    TRY(ffd_file_document_note_mark(&d->file, d->end, error));
+    for (size_t i = 0; i < r->loose.count; i++)
+        TRY(ffd_flaw_line(&d->file.base.flaws, d->file.name, r->loose.line, error,
+                          "blanks follow the backslash at the end of the line: it goes on in the next"));
+    for (size_t i = 0; i < r->joined.count; i++)
+        TRY(ffd_flaw_line(&d->file.base.flaws, d->file.name, r->joined.line, error,
                           "the backslash at the end of the line joins the next one to it, which seems to be "
-                          "a statement of its own");
-    return status;
+                          "a statement of its own"));
+    return FFD_OK;
 }
 
 static ffd_status check_counts(const obj_document *d, ffd_error *error)

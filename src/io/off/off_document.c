@@ -46,34 +46,29 @@ static ffd_status check_rest(const off_document *d, off_walk *walk, ffd_error *e
 
 static ffd_status read_vertices(off_document *d, off_walk *walk, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     d->file.positions = ffd_alloc(d->header.vertices, 3 * sizeof *d->file.positions);
     if (d->header.has_normals)
         d->file.directions = ffd_alloc(d->header.vertices, 3 * sizeof *d->file.directions);
     if (!d->file.positions || (d->header.has_normals && !d->file.directions))
         return ffd_fail_memory(error);
-    for (size_t i = 0; status == FFD_OK && i < d->header.vertices; i++) {
+    for (size_t i = 0; i < d->header.vertices; i++) {
         off_vertex vertex;
         if (!ffd_off_walk_vertex(walk, &vertex))
             return ffd_fail_line(error, FFD_E_INVALID, d->file.name, walk->scan.line,
                                  "the file ends after %zu of %zu vertices", i, d->header.vertices);
-        status = read_numbers(d, &vertex, i, error);
-        if (!status)
-            status = check_rest(d, walk, error);
+        TRY(read_numbers(d, &vertex, i, error));
+        TRY(check_rest(d, walk, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status read_body(off_document *d, ffd_error *error)
 {
     off_walk walk;
     ffd_off_walk_begin(&d->header, &walk);
-    ffd_status status = read_vertices(d, &walk, error);
+    TRY(read_vertices(d, &walk, error));
     d->faces_begin = walk;
-    if (!status)
-        status = ffd_off_read_faces(d, &walk, error);
-    if (status)
-        return status;
+    TRY(ffd_off_read_faces(d, &walk, error));
     ffd_text_next_line(&walk.scan);
     /* So that empty lines and comments do not count as bytes after the last face. */
     ffd_text_find(&walk.scan);
@@ -87,18 +82,16 @@ ffd_status ffd_off_open(file_input *input, const ffd_source *source, mesh_docume
     off_document *d = ffd_file_document_make(sizeof *d, input, source, error);
     if (!d)
         return FFD_E_MEMORY;
-    ffd_status status = ffd_off_header_read(&d->file.input, d->file.name, &d->header, error);
-    if (!status)
-        status = ffd_file_document_note_mark(&d->file, ffd_text_size(d->file.input.data, d->file.input.size),
-                                             error);
-    if (!status)
-        status = read_body(d, error);
-    if (status) {
-        ffd_file_document_free(&d->file);
-        return status;
-    }
+    ffd_status status;
+    TRY_END(ffd_off_header_read(&d->file.input, d->file.name, &d->header, error));
+    TRY_END(
+        ffd_file_document_note_mark(&d->file, ffd_text_size(d->file.input.data, d->file.input.size), error));
+    TRY_END(read_body(d, error));
     d->file.part.vertex_count = d->header.vertices;
     d->file.part.normal_count = d->file.directions ? d->header.vertices : 0;
     *document = ffd_file_document_ready(&d->file, true, source);
     return FFD_OK;
+end:
+    ffd_file_document_free(&d->file);
+    return status;
 }

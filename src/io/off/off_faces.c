@@ -53,18 +53,17 @@ static ffd_status read_face(off_document *d, off_walk *walk, ffd_error *error)
 
 ffd_status ffd_off_read_faces(off_document *d, off_walk *walk, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     /* Fits into memory: a vertex takes more bytes of the file. */
     d->file.used = ffd_alloc_zero(d->header.vertices, 1);
     if (!d->file.used)
         return ffd_fail_memory(error);
-    for (size_t i = 0; status == FFD_OK && i < d->header.faces; i++) {
+    for (size_t i = 0; i < d->header.faces; i++) {
         if (!ffd_off_walk_face(walk))
             return ffd_fail_line(error, FFD_E_INVALID, d->file.name, walk->scan.line,
                                  "the file ends after %zu of %zu faces", i, d->header.faces);
-        status = read_face(d, walk, error);
+        TRY(read_face(d, walk, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status fill_faces(const off_document *d, mesh_faces *faces, ffd_error *error)
@@ -119,10 +118,11 @@ ffd_status ffd_off_mixed_faces(const mesh_document *document, mesh_state state, 
             list.pending = 0;
         ffd_face_list_end(&list, marks);
     }
-    const ffd_status status = has_changed ? ffd_faces_changed(d->file.name, error)
-                                          : ffd_face_lists_narrow(document, &list, 1, faces, error);
-    if (!status)
-        ffd_file_document_fill_positions(&d->file, faces);
+    ffd_status status;
+    TRY_END(has_changed ? ffd_faces_changed(d->file.name, error)
+                        : ffd_face_lists_narrow(document, &list, 1, faces, error));
+    ffd_file_document_fill_positions(&d->file, faces);
+end:
     ffd_free(list.words);
     return status;
 }

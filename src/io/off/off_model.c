@@ -102,16 +102,17 @@ ffd_status ffd_off_model(const mesh_document *document, mesh_state state, mesh_m
 {
     const off_document *d = ffd_off_of(document);
     extractor e = {.document = d, .model = model, .error = error};
-    ffd_status status =
-        ffd_file_document_model(&d->file, d->header.has_texcoords ? d->header.vertices : 0, model, error);
     (void)state;
-    if (!status)
-        status = ffd_model_begin_run(model, NULL, NULL, NULL, error);
+    TRY(ffd_file_document_model(&d->file, d->header.has_texcoords ? d->header.vertices : 0, model, error));
+    TRY(ffd_model_begin_run(model, NULL, NULL, NULL, error));
     ffd_off_walk_begin(&d->header, &e.walk);
-    for (size_t i = 0; i < d->header.vertices && !status; i++)
-        status = take_vertex(&e, i);
-    for (size_t i = 0; i < d->header.faces && !status; i++)
-        status = take_face(&e);
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < d->header.vertices; i++)
+        TRY_END(take_vertex(&e, i));
+    for (size_t i = 0; i < d->header.faces; i++)
+        TRY_END(take_face(&e));
+    TRY_END(ffd_model_finish(model, error));
+end:
     ffd_free(e.corners);
-    return status ? status : ffd_model_finish(model, error);
+    return status;
 }

@@ -23,7 +23,6 @@ ffd_status ffd_normals_of_groups(const mesh_faces *faces, const double *position
                                  ffd_error *error)
 {
     const openmesh_module *functions;
-    const ffd_status status = load(&functions, error);
-    return status ? status
-                  : functions->normals(faces, positions, groups, group_count, mirrored, directions, error);
+    TRY(load(&functions, error));
+    return functions->normals(faces, positions, groups, group_count, mirrored, directions, error);
 }

@@ -56,19 +56,18 @@ static ffd_status read_number(ply_document *d, const ply_walk *walk, const ply_p
 
 static ffd_status read_vertex(ply_document *d, ply_walk *walk, uint64_t row, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     ffd_ply_walk_row(walk);
-    for (size_t i = 0; status == FFD_OK && i < d->vertex->property_count; i++) {
+    for (size_t i = 0; i < d->vertex->property_count; i++) {
         const ply_property *property = &d->vertex->properties[i];
         text_word word;
         if (property->slot == PLY_NO_SLOT)
             ffd_ply_walk_skip(walk, property);
         else {
             ffd_ply_walk_value(walk, property->type, &word);
-            status = read_number(d, walk, property, word, row, error);
+            TRY(read_number(d, walk, property, word, row, error));
         }
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Rows of fixed size that a thread reads at a time. */
@@ -101,7 +100,6 @@ static void read_rows(void *context, size_t tile, size_t first, size_t last, int
 static ffd_status read_vertices(ply_document *d, ffd_error *error)
 {
     const size_t count = (size_t)d->vertex->count;
-    ffd_status status = FFD_OK;
     ply_walk walk;
     d->file.positions = ffd_alloc_whole(count, 3 * sizeof *d->file.positions);
     if (d->has_normals)
@@ -116,9 +114,9 @@ static ffd_status read_vertices(ply_document *d, ffd_error *error)
         return FFD_OK;
     }
     ffd_ply_document_walk(d, d->vertex, &walk);
-    for (uint64_t row = 0; status == FFD_OK && row < count; row++)
-        status = read_vertex(d, &walk, row, error);
-    return status;
+    for (uint64_t row = 0; row < count; row++)
+        TRY(read_vertex(d, &walk, row, error));
+    return FFD_OK;
 }
 
 static void describe_part(ply_document *d)
@@ -149,24 +147,20 @@ ffd_status ffd_ply_open(file_input *input, const ffd_source *source, mesh_docume
     if (!d)
         return FFD_E_MEMORY;
     d->threads = source->threads > 0 ? source->threads : ffd_processor_count();
-    ffd_status status = ffd_ply_header_read(input, d->file.name, &d->header, error);
-    if (!status)
-        status = note_marks(d, error);
-    if (!status)
-        status = ffd_ply_find_roles(d, error);
-    if (!status)
-        status = ffd_ply_walk_check(&d->header, input, d->file.name, &d->behind, error);
-    if (!status)
-        status = read_vertices(d, error);
-    if (status) {
-        ffd_ply_header_free(&d->header);
-        ffd_free(d->splats);
-        ffd_file_document_free(&d->file);
-        return status;
-    }
+    ffd_status status;
+    TRY_END(ffd_ply_header_read(input, d->file.name, &d->header, error));
+    TRY_END(note_marks(d, error));
+    TRY_END(ffd_ply_find_roles(d, error));
+    TRY_END(ffd_ply_walk_check(&d->header, input, d->file.name, &d->behind, error));
+    TRY_END(read_vertices(d, error));
     describe_part(d);
     *document = ffd_file_document_ready(&d->file, d->header.encoding == PLY_ASCII, source);
     return FFD_OK;
+end:
+    ffd_ply_header_free(&d->header);
+    ffd_free(d->splats);
+    ffd_file_document_free(&d->file);
+    return status;
 }
 
 void ffd_ply_close(mesh_document *document)

@@ -45,35 +45,33 @@ static ffd_status read_strip(strip_reader *r, uint64_t row)
     text_word word;
     size_t count, vertex;
     double value;
-    ffd_status status = FFD_OK;
     r->length = 0;
     if (!ffd_ply_walk_list(&r->walk, list, &word, &count))
         return ffd_faces_changed(d->file.name, r->error);
-    for (size_t i = 0; i < count && !status; i++) {
+    for (size_t i = 0; i < count; i++) {
         ffd_ply_walk_value(&r->walk, list->type, &word);
         if (ffd_ply_load_count(d->header.encoding, list->type, word, &vertex) &&
             vertex < d->file.part.vertex_count)
-            status = add_vertex(r, (uint32_t)vertex);
+            TRY(add_vertex(r, (uint32_t)vertex));
         else if (ffd_ply_load(d->header.encoding, list->type, word, &value) && value == -1)
             r->length = 0;
         else
-            status = ffd_ply_refuse_vertex(d, &r->walk, "strip", row, list->type, word, r->error);
+            TRY(ffd_ply_refuse_vertex(d, &r->walk, "strip", row, list->type, word, r->error));
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status read_strip_row(strip_reader *r, uint64_t row)
 {
     const ply_element *const strips = r->document->strips;
-    ffd_status status = FFD_OK;
     ffd_ply_walk_row(&r->walk);
-    for (size_t i = 0; i < strips->property_count && !status; i++) {
+    for (size_t i = 0; i < strips->property_count; i++) {
         if (&strips->properties[i] == r->document->strip_corners)
-            status = read_strip(r, row);
+            TRY(read_strip(r, row));
         else
             ffd_ply_walk_skip(&r->walk, &strips->properties[i]);
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Visits the triangles in the order of the file. Errors: FFD_E_INVALID for a vertex that does not exist,
@@ -82,13 +80,12 @@ static ffd_status visit_strips(const ply_document *d, ply_triangle_visitor *visi
                                ffd_error *error)
 {
     strip_reader r = {.document = d, .visit = visit, .context = context, .error = error};
-    ffd_status status = FFD_OK;
     if (!d->strip_corners)
         return FFD_OK;
     ffd_ply_document_walk(d, d->strips, &r.walk);
-    for (uint64_t row = 0; row < d->strips->count && !status; row++)
-        status = read_strip_row(&r, row);
-    return status;
+    for (uint64_t row = 0; row < d->strips->count; row++)
+        TRY(read_strip_row(&r, row));
+    return FFD_OK;
 }
 
 /* A fast path for the faces of nearly all binary files: rows with one list, whose count is a byte and whose
@@ -248,16 +245,15 @@ static ffd_status read_corners(face_reader *r, uint64_t face)
 static ffd_status read_face(face_reader *r, uint64_t face)
 {
     const ply_element *element = r->document->face;
-    ffd_status status = FFD_OK;
     ffd_ply_walk_row(&r->walk);
-    for (size_t i = 0; status == FFD_OK && i < element->property_count; i++) {
+    for (size_t i = 0; i < element->property_count; i++) {
         const ply_property *property = &element->properties[i];
         if (property == r->document->face_corners)
-            status = read_corners(r, face);
+            TRY(read_corners(r, face));
         else
             ffd_ply_walk_skip(&r->walk, property);
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Reads the rows of element face. A row that is not plain is read value by value, which reports what is wrong
@@ -268,17 +264,16 @@ static ffd_status read_rows(face_reader *r)
     ply_plain_faces plain;
     const bool is_plain =
         find_plain_faces(d->header.encoding, d->face, d->face_corners, d->file.part.vertex_count, &plain);
-    ffd_status status = FFD_OK;
     ffd_ply_document_walk(d, d->face, &r->walk);
-    for (uint64_t face = 0; status == FFD_OK && face < d->face->count; face++) {
+    for (uint64_t face = 0; face < d->face->count; face++) {
         uint32_t corners[PLY_PLAIN_CORNERS];
         size_t count;
         if (!is_plain || !read_plain_face(&plain, &r->walk, corners, &count))
-            status = read_face(r, face);
+            TRY(read_face(r, face));
         else if (!take_plain(r, corners, count))
-            status = ffd_fail_memory(r->error);
+            return ffd_fail_memory(r->error);
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Visits all faces, then the triangles of strips. The members of r say what to do with them. */
@@ -303,9 +298,11 @@ static ffd_status read_faces(const ply_document *d, mesh_faces *faces, ffd_error
     face_reader r = {.document = d, .faces = faces, .capacity = faces->face_count, .error = error};
     TRY(ffd_mesh_faces_make(&d->file.base, faces, faces->face_count, error));
     ffd_vectors_read(d->file.positions, 0, faces->vertex_count, faces->positions);
-    ffd_status status = visit_faces(&r);
-    if (!status && r.face_count != faces->face_count)
-        status = ffd_faces_changed(d->file.name, error);
+    ffd_status status;
+    TRY_END(visit_faces(&r));
+    if (r.face_count != faces->face_count)
+        TRY_END(ffd_faces_changed(d->file.name, error));
+end:
     if (status)
         ffd_mesh_faces_free(faces);
     else
@@ -340,11 +337,11 @@ ffd_status ffd_ply_mixed_faces(const mesh_document *document, mesh_state state, 
     face_reader r = {.document = d, .mixed = &list, .marks = marks, .error = error};
     (void)state;
     *faces = (mesh_faces){.vertex_count = marks->vertices};
-    ffd_status status = visit_faces(&r);
-    if (!status)
-        status = ffd_face_lists_narrow(document, &list, 1, faces, error);
-    if (!status)
-        ffd_file_document_fill_positions(&d->file, faces);
+    ffd_status status;
+    TRY_END(visit_faces(&r));
+    TRY_END(ffd_face_lists_narrow(document, &list, 1, faces, error));
+    ffd_file_document_fill_positions(&d->file, faces);
+end:
     ffd_free(list.words);
     return status;
 }

@@ -179,7 +179,6 @@ static ffd_status read_property(header_reader *r, const header_line *line)
     ply_property property = {.line = r->line, .slot = PLY_NO_SLOT};
     property.is_list = line->count > 1 && ffd_text_is(line->words[1], "list");
     const size_t type = property.is_list ? 3 : 1;
-    ffd_status status = FFD_OK;
     if (r->header->element_count == 0)
         return FAIL(r, r->line, "a property comes before any element");
     if (line->count != type + 2)
@@ -188,14 +187,13 @@ static ffd_status read_property(header_reader *r, const header_line *line)
                     line->text.first);
     property.name = line->words[type + 1];
     if (property.is_list)
-        status = read_type(r, line->words[2], &property.count_type);
-    if (!status && property.is_list && !ply_is_whole(property.count_type))
-        status = FAIL(r, r->line, "the count of list %.*s is a %s: it must be a whole number",
-                      ffd_text_display_size(property.name), property.name.first,
-                      ffd_ply_type_name(property.count_type));
-    if (!status)
-        status = read_type(r, line->words[type], &property.type);
-    return status ? status : add_property(r, &property);
+        TRY(read_type(r, line->words[2], &property.count_type));
+    if (property.is_list && !ply_is_whole(property.count_type))
+        return FAIL(r, r->line, "the count of list %.*s is a %s: it must be a whole number",
+                    ffd_text_display_size(property.name), property.name.first,
+                    ffd_ply_type_name(property.count_type));
+    TRY(read_type(r, line->words[type], &property.type));
+    return add_property(r, &property);
 }
 
 static ffd_status add_note(header_reader *r, const header_line *line)
@@ -229,17 +227,16 @@ static ffd_status read_line(header_reader *r, const header_line *line)
 static ffd_status read_lines(header_reader *r)
 {
     header_line line = {0};
-    ffd_status status = FFD_OK;
-    while (status == FFD_OK) {
+    while (true) {
         if (!next_line(r, &line))
             return FAIL(r, r->line, "the header has no end: \"end_header\" is missing");
         if (line.count == 1 && ffd_text_is(line.words[0], "end_header"))
             break;
-        status = read_line(r, &line);
+        TRY(read_line(r, &line));
     }
-    if (!status && !r->has_format)
+    if (!r->has_format)
         return FAIL(r, r->line, "the header has no format line");
-    return status;
+    return FFD_OK;
 }
 
 static void measure_row(const ply_header *h, ply_element *element)

@@ -62,8 +62,8 @@ static ffd_status make_values(const extractor *e)
     const ply_document *d = e->document;
     const size_t corners = e->faces.start[e->faces.face_count];
     const size_t texcoords = e->face_texcoords ? corners : e->roles[ROLE_U] ? d->file.part.vertex_count : 0;
-    const ffd_status status = ffd_file_document_model(&d->file, texcoords, e->model, e->error);
-    return status || !e->roles[ROLE_RED] ? status : ffd_model_make_colours(e->model, e->error);
+    TRY(ffd_file_document_model(&d->file, texcoords, e->model, e->error));
+    return !e->roles[ROLE_RED] ? FFD_OK : ffd_model_make_colours(e->model, e->error);
 }
 
 /* Returns the value of an integer type that stands for 1: the largest. */
@@ -101,21 +101,20 @@ static ffd_status take_vertices(extractor *e)
 {
     const ply_document *d = e->document;
     ply_walk walk;
-    ffd_status status = FFD_OK;
     ffd_ply_document_walk(d, d->vertex, &walk);
     for (size_t row = 0; row < d->file.part.vertex_count; row++) {
         ffd_ply_walk_row(&walk);
-        for (size_t i = 0; i < d->vertex->property_count && !status; i++) {
+        for (size_t i = 0; i < d->vertex->property_count; i++) {
             const ply_property *property = &d->vertex->properties[i];
             const int role = role_of(e, property);
             text_word word;
             if (role == ROLE_COUNT)
                 ffd_ply_walk_skip(&walk, property);
             else if (ffd_ply_walk_value(&walk, property->type, &word))
-                status = set_value(e, &walk, row, role, word);
+                TRY(set_value(e, &walk, row, role, word));
         }
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Takes the texture coordinates of a face's corners, a list of twice as many numbers. A list of another
@@ -184,11 +183,11 @@ static ffd_status take_faces(extractor *e)
     model_corner *corners = NULL;
     size_t capacity = 0;
     ply_walk walk;
-    ffd_status status = FFD_OK;
     const bool walks = e->face_texcoords || e->face_colours[0];
     if (walks)
         ffd_ply_document_walk(e->document, e->document->face, &walk);
-    for (size_t face = 0; face < e->faces.face_count && !status; face++) {
+    ffd_status status = FFD_OK;
+    for (size_t face = 0; face < e->faces.face_count; face++) {
         const size_t first = e->faces.start[face], count = e->faces.start[face + 1] - first;
         const size_t first_texcoord = e->taken_texcoords;
         const bool is_row = walks && face < e->document->face->count;
@@ -196,18 +195,18 @@ static ffd_status take_faces(extractor *e)
         const bool own = is_row && walk_face(e, &walk, face);
         const bool texcoords = own || (!e->face_texcoords && e->model->texcoord_count > 0);
         if (!ffd_grow((void **)&corners, &capacity, count, sizeof *corners))
-            status = ffd_fail_memory(e->error);
-        for (size_t c = 0; c < count && !status; c++) {
+            TRY_END(ffd_fail_memory(e->error));
+        for (size_t c = 0; c < count; c++) {
             const uint32_t vertex = e->faces.corners[first + c];
             const uint32_t texcoord = own ? (uint32_t)(first_texcoord + c) : vertex;
             corners[c] =
                 (model_corner){vertex, texcoords ? texcoord : MODEL_NONE, normals ? vertex : MODEL_NONE};
         }
-        if (!status)
-            status = ffd_model_add(e->model, MODEL_FACES, corners, count, e->error);
-        if (!status && is_row && e->face_colours[0] && count > 2)
-            status = ffd_model_colour_face(e->model, e->colour, e->error);
+        TRY_END(ffd_model_add(e->model, MODEL_FACES, corners, count, e->error));
+        if (is_row && e->face_colours[0] && count > 2)
+            TRY_END(ffd_model_colour_face(e->model, e->colour, e->error));
     }
+end:
     ffd_free(corners);
     return status;
 }
@@ -243,19 +242,18 @@ static ffd_status take_edges(extractor *e)
     const ply_document *d = e->document;
     const ply_element *edges = ffd_ply_find_edges(d);
     ply_walk walk;
-    ffd_status status = FFD_OK;
     if (!edges)
         return FFD_OK;
     ffd_ply_document_walk(d, edges, &walk);
-    for (uint64_t row = 0; row < edges->count && !status; row++) {
+    for (uint64_t row = 0; row < edges->count; row++) {
         model_corner ends[2] = {{0, 0, 0}, {0, 0, 0}};
         if (!take_ends(e, &walk, edges, ends))
             return ffd_fail_line(
                 e->error, FFD_E_INVALID, d->file.name, d->header.encoding == PLY_ASCII ? walk.line : 0,
                 "edge %llu (counted from 0) names a vertex that does not exist", (unsigned long long)row);
-        status = ffd_model_add(e->model, MODEL_LINES, ends, 2, e->error);
+        TRY(ffd_model_add(e->model, MODEL_LINES, ends, 2, e->error));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Returns the features of the file that the model cannot hold. */
@@ -290,18 +288,17 @@ ffd_status ffd_ply_model(const mesh_document *document, mesh_state state, mesh_m
     extractor e = {.document = ffd_ply_of(document), .model = model, .error = error};
     TRY(ffd_ply_faces(document, state, &e.faces, error));
     find_roles(&e);
-    ffd_status status = make_values(&e);
-    if (!status)
-        status = take_vertices(&e);
-    if (!status)
-        status = ffd_model_begin_run(model, NULL, NULL, NULL, error);
-    if (!status)
-        status = take_faces(&e);
+    ffd_status status;
+    TRY_END(make_values(&e));
+    TRY_END(take_vertices(&e));
+    TRY_END(ffd_model_begin_run(model, NULL, NULL, NULL, error));
+    TRY_END(take_faces(&e));
     if (e.face_texcoords)
         model->texcoord_count = e.taken_texcoords;
-    if (!status)
-        status = take_edges(&e);
+    TRY_END(take_edges(&e));
     model->features |= features_of(&e);
+    TRY_END(ffd_model_finish(model, error));
+end:
     ffd_mesh_faces_free(&e.faces);
-    return status ? status : ffd_model_finish(model, error);
+    return status;
 }

@@ -52,11 +52,12 @@ static ffd_status add(const file_folder *folder, text_word name, resource_list *
 static ffd_status list_all(const ply_header *header, const file_folder *folder, resource_list *list,
                            ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     text_word name;
-    for (size_t i = 0; i < header->note_count && !status; i++)
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < header->note_count; i++)
         if (ffd_ply_texture_name(header->notes[i], &name))
-            status = add(folder, name, list, error);
+            TRY_END(add(folder, name, list, error));
+end:
     ffd_resources_sort(list);
     return status;
 }
@@ -69,12 +70,13 @@ static ffd_status warn_of_stream(const ply_header *header, const mesh_save_optio
     left_out left = {0};
     char *const to = ffd_path_folder(options->path);
     const file_folder there = {.file = options->to_sink ? NULL : options->path};
-    ffd_status status = to ? list_all(header, &there, &list, error) : ffd_fail_memory(error);
-    for (size_t i = 0; i < list.count && !status; i++)
-        status = ffd_left_add_unreached(&left, options->to_sink ? NULL : to, list.resources[i].path,
-                                        "of TextureFile", error);
-    if (!status)
-        ffd_left_out_log_stream(&left, log);
+    ffd_status status;
+    TRY_END(to ? list_all(header, &there, &list, error) : ffd_fail_memory(error));
+    for (size_t i = 0; i < list.count; i++)
+        TRY_END(ffd_left_add_unreached(&left, options->to_sink ? NULL : to, list.resources[i].path,
+                                       "of TextureFile", error));
+    ffd_left_out_log_stream(&left, log);
+end:
     ffd_resources_free(&list);
     ffd_free(to);
     return status;
@@ -95,10 +97,11 @@ ffd_status ffd_ply_bring_textures(const ply_header *header, const file_folder *f
     const resource_copier copier = {
         *folder, from, to, options->to_sink ? options->path : NULL, output, log, options->copied};
     resource_list list = {0};
-    ffd_status status = from && to ? list_all(header, folder, &list, error) : ffd_fail_memory(error);
-    if (!status)
-        status = ffd_resources_bring(&copier, &list, options->resources == FFD_RESOURCES_COPY,
-                                     ffd_save_meets(options, from, to), options->path, error);
+    ffd_status status;
+    TRY_END(from && to ? list_all(header, folder, &list, error) : ffd_fail_memory(error));
+    TRY_END(ffd_resources_bring(&copier, &list, options->resources == FFD_RESOURCES_COPY,
+                                ffd_save_meets(options, from, to), options->path, error));
+end:
     ffd_resources_free(&list);
     ffd_free(from);
     ffd_free(to);
@@ -113,18 +116,13 @@ ffd_status ffd_ply_find_named(const char *path, const file_input *bytes, const m
     resource_list list = {0};
     const ffd_status read = ffd_ply_header_read(bytes, path, &header, NULL);
     const file_folder folder = {.file = path};
-    ffd_status status = read != FFD_E_MEMORY ? FFD_OK : ffd_fail_memory(error);
-    if (!read && !status)
-        status = list_all(&header, &folder, &list, error);
-    for (size_t i = 0; i < list.count && !status; i++) {
-        char *const file = ffd_path_sibling(path, list.resources[i].path);
-        status = file ? FFD_OK : ffd_fail_memory(error);
-        if (!status && named->files)
-            status = ffd_paths_add(named->files, file, error);
-        if (!status && named->copies && !ffd_path_leads_out(list.resources[i].path))
-            status = ffd_paths_add(named->copies, file, error);
-        ffd_free(file);
-    }
+    ffd_status status;
+    TRY_END(read != FFD_E_MEMORY ? FFD_OK : ffd_fail_memory(error));
+    if (!read)
+        TRY_END(list_all(&header, &folder, &list, error));
+    for (size_t i = 0; i < list.count; i++)
+        TRY_END(ffd_resource_add_named(path, list.resources[i].path, named, error));
+end:
     ffd_resources_free(&list);
     ffd_ply_header_free(&header);
     return status;

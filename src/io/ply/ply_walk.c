@@ -162,13 +162,12 @@ static ffd_status check_property(row_checker *c, const ply_property *property)
 static ffd_status check_row(row_checker *c)
 {
     text_word word = {"", ""};
-    ffd_status status = FFD_OK;
     if (!ffd_ply_walk_row(&c->walk))
         return refuse(c, "the file ends before it", NULL, word);
-    for (size_t i = 0; status == FFD_OK && i < c->element->property_count; i++)
-        status = check_property(c, &c->element->properties[i]);
-    if (status || c->walk.header->encoding != PLY_ASCII)
-        return status;
+    for (size_t i = 0; i < c->element->property_count; i++)
+        TRY(check_property(c, &c->element->properties[i]));
+    if (c->walk.header->encoding != PLY_ASCII)
+        return FFD_OK;
     return ffd_ply_walk_value(&c->walk, PLY_INT, &word)
                ? refuse(c, "the line goes on after its last value", NULL, word)
                : FFD_OK;
@@ -185,16 +184,15 @@ static bool is_fixed(const row_checker *c)
 
 static ffd_status check_rows(row_checker *c)
 {
-    ffd_status status = FFD_OK;
     if (c->element->property_count == 0)
         return FFD_OK;
     if (is_fixed(c)) {
         c->walk.at += c->element->count * c->element->least;
         return FFD_OK;
     }
-    for (c->row = 0; status == FFD_OK && c->row < c->element->count; c->row++)
-        status = check_row(c);
-    return status;
+    for (c->row = 0; c->row < c->element->count; c->row++)
+        TRY(check_row(c));
+    return FFD_OK;
 }
 
 ffd_status ffd_ply_walk_check(ply_header *header, const file_input *input, const char *name, size_t *behind,
@@ -202,16 +200,15 @@ ffd_status ffd_ply_walk_check(ply_header *header, const file_input *input, const
 {
     const char *const first = (const char *)input->data;
     row_checker c = {.name = name, .error = error};
-    ffd_status status = FFD_OK;
     c.walk = (ply_walk){
         .header = header, .at = first + header->body, .last = first + header->end, .line = header->body_line};
-    for (size_t i = 0; status == FFD_OK && i < header->element_count; i++) {
+    for (size_t i = 0; i < header->element_count; i++) {
         c.element = &header->elements[i];
         header->elements[i].begin = (size_t)(c.walk.at - first);
         header->elements[i].begin_line = c.walk.line;
-        status = check_rows(&c);
+        TRY(check_rows(&c));
     }
     ffd_ply_walk_row(&c.walk); /* so that empty lines do not count as bytes after the last row */
     *behind = (size_t)(c.walk.at - first);
-    return status;
+    return FFD_OK;
 }

@@ -122,18 +122,17 @@ static ffd_status read_text(stl_document *d, ffd_error *error)
     stl_facet facet;
     size_t capacity = 0;
     bool found = true;
-    ffd_status status =
-        ffd_file_document_note_mark(&d->file, ffd_text_size(d->file.input.data, d->file.input.size), error);
+    TRY(ffd_file_document_note_mark(&d->file, ffd_text_size(d->file.input.data, d->file.input.size), error));
     ffd_stl_text_begin(&text, d->file.input.data, d->file.input.size, &d->file.base.flaws);
-    while (status == FFD_OK && found) {
-        status = ffd_stl_text_next(&text, d->file.name, &facet, &found, error);
-        if (!status && found)
-            status = add_facet(d, &facet, &capacity, error);
+    while (found) {
+        TRY(ffd_stl_text_next(&text, d->file.name, &facet, &found, error));
+        if (found)
+            TRY(add_facet(d, &facet, &capacity, error));
     }
     /* Releases the surplus capacity; if that fails, the larger block stays. */
     double *block = ffd_realloc(d->file.positions, d->facets, 9 * sizeof *d->file.positions);
     d->file.positions = block ? block : d->file.positions;
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_stl_open(file_input *input, const ffd_source *source, mesh_document **document,

@@ -129,8 +129,7 @@ ffd_status ffd_stl_mixed_faces(const mesh_document *document, mesh_state state, 
     }
     ffd_status status = ffd_face_lists_join(document, &list, 1, faces, error);
     ffd_free(list.words);
-    if (status)
-        return status;
+    TRY(status);
     ffd_file_document_fill_positions(&d->file, faces);
     status = join_marked(d, marks, faces, error);
     if (status)

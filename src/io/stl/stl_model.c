@@ -26,13 +26,12 @@ static ffd_status add_facet(extractor *e, size_t facet)
 {
     double positions[9];
     model_corner corners[3];
-    ffd_status status = FFD_OK;
     ffd_stl_read_corners(e->document, 3 * facet, 3, positions);
-    for (size_t c = 0; c < 3 && !status; c++) {
+    for (size_t c = 0; c < 3; c++) {
         corners[c] = (model_corner){0, MODEL_NONE, MODEL_NONE};
-        status = find_vertex(e, positions + 3 * c, &corners[c].position);
+        TRY(find_vertex(e, positions + 3 * c, &corners[c].position));
     }
-    return status ? status : ffd_model_add(e->model, MODEL_FACES, corners, 3, e->error);
+    return ffd_model_add(e->model, MODEL_FACES, corners, 3, e->error);
 }
 
 static ffd_status begin_solid(extractor *e, text_word name)
@@ -51,16 +50,15 @@ static ffd_status take_text(extractor *e)
     stl_facet facet;
     stl_event event = STL_AT_SOLID;
     size_t seen = 0;
-    ffd_status status = FFD_OK;
     ffd_stl_text_begin(&text, d->file.input.data, d->file.input.size, NULL);
-    while (status == FFD_OK && event != STL_AT_END) {
-        status = ffd_stl_text_step(&text, d->file.name, &facet, &event, e->error);
-        if (!status && event == STL_AT_SOLID)
-            status = begin_solid(e, text.name);
-        else if (!status && event == STL_AT_FACET)
-            status = add_facet(e, seen++);
+    while (event != STL_AT_END) {
+        TRY(ffd_stl_text_step(&text, d->file.name, &facet, &event, e->error));
+        if (event == STL_AT_SOLID)
+            TRY(begin_solid(e, text.name));
+        else if (event == STL_AT_FACET)
+            TRY(add_facet(e, seen++));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Reads a facet's colour of 5 bits each. Some programs write it with the highest bit set and red in the
@@ -88,17 +86,17 @@ static bool has_colour_header(const unsigned char *header)
 static ffd_status take_binary(extractor *e)
 {
     const bool reversed = has_colour_header(e->document->file.input.data);
-    ffd_status status = ffd_model_begin_run(e->model, NULL, NULL, NULL, e->error);
-    for (size_t i = 0; i < e->document->facets && !status; i++) {
+    TRY(ffd_model_begin_run(e->model, NULL, NULL, NULL, e->error));
+    for (size_t i = 0; i < e->document->facets; i++) {
         const unsigned char *attribute = ffd_stl_facet(e->document, i) + STL_ATTRIBUTE;
         double colour[4];
-        status = add_facet(e, i);
+        TRY(add_facet(e, i));
         if (read_colour(attribute, reversed, colour))
-            status = status ? status : ffd_model_colour_face(e->model, colour, e->error);
+            TRY(ffd_model_colour_face(e->model, colour, e->error));
         else if (attribute[0] || attribute[1])
             e->model->features |= MODEL_HAS_MORE;
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Gives each vertex the result of its first corner; the results of its other corners are equal. The model's
@@ -116,10 +114,7 @@ static void copy_results(extractor *e)
 static ffd_status index_positions(extractor *e)
 {
     const model_list *const faces = &e->model->lists[MODEL_FACES];
-    const ffd_status status =
-        ffd_model_take(e->model, e->positions.count, sizeof *e->model->indices, e->error);
-    if (status)
-        return status;
+    TRY(ffd_model_take(e->model, e->positions.count, sizeof *e->model->indices, e->error));
     e->model->indices = ffd_alloc(e->positions.count, sizeof *e->model->indices);
     if (!e->model->indices)
         return ffd_fail_memory(e->error);
@@ -142,13 +137,15 @@ static ffd_status fill_positions(extractor *e)
 ffd_status ffd_stl_model(const mesh_document *document, mesh_state state, mesh_model *model, ffd_error *error)
 {
     extractor e = {.document = ffd_stl_of(document), .model = model, .error = error};
-    ffd_status status = e.document->binary ? take_binary(&e) : take_text(&e);
+    ffd_status status;
     (void)state;
-    if (!status)
-        status = fill_positions(&e);
-    if (!status && model->wants_details)
-        status = index_positions(&e);
+    TRY_END(e.document->binary ? take_binary(&e) : take_text(&e));
+    TRY_END(fill_positions(&e));
+    if (model->wants_details)
+        TRY_END(index_positions(&e));
+    TRY_END(ffd_model_finish(model, error));
+end:
     ffd_intern_free(&e.positions);
     ffd_free(e.name);
-    return status ? status : ffd_model_finish(model, error);
+    return status;
 }

@@ -49,26 +49,25 @@ static ffd_status take_keyword(text_reader *r, const char *keyword)
 
 static ffd_status take_normal(text_reader *r, text_word normal[3])
 {
-    ffd_status status = FFD_OK;
     double value;
-    for (int a = 0; status == FFD_OK && a < 3; a++) {
-        status = take_word(r, "a number of the normal", &normal[a]);
-        if (!status && !ffd_stl_text_normal(normal[a], &value))
-            status = refuse_word(r, "a number of the normal", normal[a]);
+    for (int a = 0; a < 3; a++) {
+        TRY(take_word(r, "a number of the normal", &normal[a]));
+        if (!ffd_stl_text_normal(normal[a], &value))
+            TRY(refuse_word(r, "a number of the normal", normal[a]));
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status take_corner(text_reader *r, text_word corner[3])
 {
-    ffd_status status = take_keyword(r, "vertex");
-    for (int a = 0; status == FFD_OK && a < 3; a++) {
+    TRY(take_keyword(r, "vertex"));
+    for (int a = 0; a < 3; a++) {
         double value;
-        status = take_word(r, "a coordinate", &corner[a]);
-        if (!status && !ffd_text_number(corner[a], &value))
-            status = refuse_word(r, "a coordinate", corner[a]);
+        TRY(take_word(r, "a coordinate", &corner[a]));
+        if (!ffd_text_number(corner[a], &value))
+            TRY(refuse_word(r, "a coordinate", corner[a]));
     }
-    return status;
+    return FFD_OK;
 }
 
 #define NOTE(reader, text, ...)                                                                              \
@@ -104,16 +103,15 @@ static ffd_status take_end(text_reader *r, stl_text *text, const char *keyword)
 static ffd_status take_facet(text_reader *r, stl_text *text, stl_facet *facet)
 {
     static const char *const before[] = {"outer", "loop"}, *const after[] = {"endloop", "endfacet"};
-    ffd_status status = take_keyword(r, "normal");
-    if (!status)
-        status = take_normal(r, facet->normal);
-    for (size_t i = 0; status == FFD_OK && i < 2; i++)
-        status = take_keyword(r, before[i]);
-    for (size_t i = 0; status == FFD_OK && i < 3; i++)
-        status = take_corner(r, facet->corners + 3 * i);
-    for (size_t i = 0; status == FFD_OK && i < 2; i++)
-        status = take_end(r, text, after[i]);
-    return status;
+    TRY(take_keyword(r, "normal"));
+    TRY(take_normal(r, facet->normal));
+    for (size_t i = 0; i < 2; i++)
+        TRY(take_keyword(r, before[i]));
+    for (size_t i = 0; i < 3; i++)
+        TRY(take_corner(r, facet->corners + 3 * i));
+    for (size_t i = 0; i < 2; i++)
+        TRY(take_end(r, text, after[i]));
+    return FFD_OK;
 }
 
 /* Returns a name, which may have any number of words, and moves past it. */
@@ -185,13 +183,9 @@ static ffd_status step_inside(text_reader *r, stl_text *text, stl_facet *facet, 
 {
     text_word word;
     bool passed = true;
-    ffd_status status = FFD_OK;
-    while (status == FFD_OK && passed)
-        status = pass_colour(r, text, &passed);
-    if (!status)
-        status = take_word(r, "facet or endsolid", &word);
-    if (status)
-        return status;
+    while (passed)
+        TRY(pass_colour(r, text, &passed));
+    TRY(take_word(r, "facet or endsolid", &word));
     facet->line = text->scan.line;
     if (ffd_text_is_any_case(word, "facet")) {
         *event = STL_AT_FACET;
@@ -220,10 +214,10 @@ ffd_status ffd_stl_text_next(stl_text *text, const char *name, stl_facet *facet,
                              ffd_error *error)
 {
     stl_event event;
-    ffd_status status;
+    *found = false;
     do
-        status = ffd_stl_text_step(text, name, facet, &event, error);
-    while (status == FFD_OK && event == STL_AT_SOLID);
-    *found = status == FFD_OK && event == STL_AT_FACET;
-    return status;
+        TRY(ffd_stl_text_step(text, name, facet, &event, error));
+    while (event == STL_AT_SOLID);
+    *found = event == STL_AT_FACET;
+    return FFD_OK;
 }

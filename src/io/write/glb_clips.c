@@ -57,19 +57,19 @@ static bool animates(const glb_plan *plan)
 
 ffd_status ffd_glb_make_clips(const glb_plan *plan, glb_clips *clips, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     *clips = (glb_clips){.plan = plan};
-    for (size_t c = 0; c < plan->model->clip_count && animates(plan) && !status; c++) {
+    for (size_t c = 0; c < plan->model->clip_count && animates(plan); c++) {
         const morph_clip *const clip = &plan->model->clips[c];
+        TRY(check_memory(plan, clip, error));
         double *const weights = ffd_alloc(clip->names.count, sizeof *weights);
-        status = weights ? check_memory(plan, clip, error) : ffd_fail_memory(error);
-        if (!status)
-            put_clip(plan, clip, weights, &clips->bytes);
-        if (!status && clips->bytes.failed)
-            status = ffd_fail_memory(error);
+        if (!weights)
+            return ffd_fail_memory(error);
+        put_clip(plan, clip, weights, &clips->bytes);
         ffd_free(weights);
+        if (clips->bytes.failed)
+            return ffd_fail_memory(error);
     }
-    return status;
+    return FFD_OK;
 }
 
 static void add_sampler(size_t input, size_t output, json_text *json)

@@ -52,26 +52,27 @@ typedef bool value_reader(const mesh_model *model, uint32_t index, float *values
 static ffd_status join_values(planner *p, size_t count, value_reader *read, size_t size, uint32_t **indices)
 {
     intern_table values = {0};
-    ffd_status status = FFD_OK;
     uint32_t *first = ffd_alloc(count, sizeof *first);
     float *const value = ffd_alloc(size, sizeof *value);
     *indices = ffd_alloc(count, sizeof **indices);
+    ffd_status status = FFD_OK;
     if (!*indices || !first || !value)
-        status = ffd_fail_memory(p->error);
-    for (size_t i = 0; i < count && !status; i++) {
+        TRY_END(ffd_fail_memory(p->error));
+    for (size_t i = 0; i < count; i++) {
         uint32_t index;
         const size_t known = values.count;
         (*indices)[i] = MODEL_NONE;
         if (!read(p->model, (uint32_t)i, value))
             continue;
         if (!ffd_intern(&values, value, size * sizeof *value, &index))
-            status = ffd_fail_memory(p->error);
+            TRY_END(ffd_fail_memory(p->error));
         else {
             if (values.count > known)
                 first[index] = (uint32_t)i;
             (*indices)[i] = first[index];
         }
     }
+end:
     ffd_intern_free(&values);
     ffd_free(first);
     ffd_free(value);
@@ -137,13 +138,12 @@ static ffd_status assign_run(planner *p, size_t r)
         (run->material != MODEL_NONE &&
          !ffd_intern(&p->plan->materials, &run->material, sizeof run->material, &key.material)))
         return ffd_fail_memory(p->error);
-    ffd_status status = FFD_OK;
     for (key.kind = 0; key.kind < MODEL_KINDS; key.kind++) {
         const size_t last = model_run_end(p->model, r, (model_kind)key.kind);
-        for (size_t i = run->first[key.kind]; i < last && !status; i++)
-            status = assign_element(p, &key, i);
+        for (size_t i = run->first[key.kind]; i < last; i++)
+            TRY(assign_element(p, &key, i));
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status assign_all(planner *p)
@@ -295,18 +295,15 @@ static ffd_status make_vertices(planner *p)
 {
     glb_plan *plan = p->plan;
     size_t at[MODEL_KINDS] = {0};
-    ffd_status status = allocate(p);
-    for (size_t i = 0; i < plan->primitive_count && !status; i++) {
+    TRY(allocate(p));
+    for (size_t i = 0; i < plan->primitive_count; i++) {
         glb_primitive *primitive = &plan->primitives[i];
         size_t drawn = 0;
         primitive->first_index = plan->index_count;
-        for (size_t e = 0; e < primitive->elements && !status; e++)
-            status = draw(p, primitive, p->elements[primitive->kind][at[primitive->kind]++], &drawn);
-        if (!status)
-            status = number_vertices(p, primitive, drawn);
+        for (size_t e = 0; e < primitive->elements; e++)
+            TRY(draw(p, primitive, p->elements[primitive->kind][at[primitive->kind]++], &drawn));
+        TRY(number_vertices(p, primitive, drawn));
     }
-    if (status)
-        return status;
     model_corner *block = ffd_realloc(plan->vertices, plan->vertex_count, sizeof *block);
     plan->vertices = block ? block : plan->vertices;
     return FFD_OK;
@@ -363,21 +360,17 @@ ffd_status ffd_glb_make_plan(const mesh_model *model, glb_plan *plan, ffd_error 
 {
     planner p = {.plan = plan, .model = model, .error = error};
     *plan = (glb_plan){.model = model};
-    ffd_status status = ffd_model_check_memory(model, CORNER_BYTES, RUN_BYTES, error);
-    if (!status)
-        status = join_values(&p, model->texcoord_count, read_texcoord, 2, &p.texcoords);
-    if (!status)
-        status = join_values(&p, model->normal_count, read_normal, 3 + 3 * model->morph_count, &p.normals);
-    if (!status)
-        status = assign_all(&p);
-    if (!status)
-        status = sort_elements(&p);
-    if (!status)
-        status = sort_primitives(&p);
-    if (!status)
-        status = make_vertices(&p);
-    if (!status && model->morph_count > 0)
-        status = mark_morphs(plan, error);
+    ffd_status status;
+    TRY_END(ffd_model_check_memory(model, CORNER_BYTES, RUN_BYTES, error));
+    TRY_END(join_values(&p, model->texcoord_count, read_texcoord, 2, &p.texcoords));
+    TRY_END(join_values(&p, model->normal_count, read_normal, 3 + 3 * model->morph_count, &p.normals));
+    TRY_END(assign_all(&p));
+    TRY_END(sort_elements(&p));
+    TRY_END(sort_primitives(&p));
+    TRY_END(make_vertices(&p));
+    if (model->morph_count > 0)
+        TRY_END(mark_morphs(plan, error));
+end:
     for (int k = 0; k < MODEL_KINDS; k++) {
         ffd_free(p.primitive_of[k]);
         ffd_free(p.elements[k]);

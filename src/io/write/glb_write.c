@@ -201,20 +201,18 @@ static ffd_status put_files(gltf_writer *w, const mesh_save_options *options, co
 {
     sidecar_names names = {.options = options, .log = log};
     char *path;
-    ffd_status status = ffd_sidecar_next(&names, NULL, NULL, &path, w->error);
+    TRY(ffd_sidecar_next(&names, NULL, NULL, &path, w->error));
     char *const uri = path ? ffd_uri_encode(ffd_path_name(path)) : NULL;
-    if (!status)
-        status = uri ? FFD_OK : ffd_fail_memory(w->error);
-    if (!status)
-        ffd_glb_make_json(w, false, uri);
-    if (!status && w->text.failed)
-        status = ffd_fail_memory(w->error);
-    if (!status && w->total > 0)
-        status = put_bin_file(w, options, path);
-    if (!status)
-        status = ffd_output_begin(w->sink.output, options->path, options->force, w->error);
-    if (!status)
-        status = ffd_output_write(w->sink.output, w->text.data, w->text.size, w->error);
+    ffd_status status;
+    TRY_END(uri ? FFD_OK : ffd_fail_memory(w->error));
+    ffd_glb_make_json(w, false, uri);
+    if (w->text.failed)
+        TRY_END(ffd_fail_memory(w->error));
+    if (w->total > 0)
+        TRY_END(put_bin_file(w, options, path));
+    TRY_END(ffd_output_begin(w->sink.output, options->path, options->force, w->error));
+    TRY_END(ffd_output_write(w->sink.output, w->text.data, w->text.size, w->error));
+end:
     ffd_free(path);
     ffd_free(uri);
     return status;
@@ -255,16 +253,15 @@ static ffd_status write(const mesh_model *model, const mesh_save_options *option
     gltf_writer *w = ffd_alloc_zero(1, sizeof *w);
     if (!w)
         return ffd_fail_memory(error);
-    ffd_status status = begin(w, model, error);
-    if (!status && !files)
-        status = ffd_output_begin(output, options->path, options->force, error);
-    w->sink = (model_sink){output, error, status};
-    if (!status)
-        status = files ? put_files(w, options, log) : binary ? put_glb(w, options->path) : put_stream(w);
-    if (!status)
-        log_origins(w, log);
-    if (!status)
-        ffd_polygon_cut_warn(w->plan.hurried_polygons, log);
+    ffd_status status;
+    TRY_END(begin(w, model, error));
+    if (!files)
+        TRY_END(ffd_output_begin(output, options->path, options->force, error));
+    w->sink = (model_sink){output, error, FFD_OK};
+    TRY_END(files ? put_files(w, options, log) : binary ? put_glb(w, options->path) : put_stream(w));
+    log_origins(w, log);
+    ffd_polygon_cut_warn(w->plan.hurried_polygons, log);
+end:
     end(w);
     return status;
 }

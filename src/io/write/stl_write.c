@@ -24,15 +24,15 @@ static void write_triangle(model_sink *sink, const double *const corners[3])
 static ffd_status write_face(model_sink *sink, const mesh_model *model, face_triangles *scratch, size_t face)
 {
     size_t count = 0;
-    const ffd_status status = ffd_face_triangles(scratch, model, face, &count, sink->error);
-    for (size_t t = 0; t < count && !status; t++) {
+    TRY(ffd_face_triangles(scratch, model, face, &count, sink->error));
+    for (size_t t = 0; t < count; t++) {
         const uint32_t *triangle = scratch->triangles + 3 * t;
         const double *const corners[3] = {scratch->points + 3 * (size_t)triangle[0],
                                           scratch->points + 3 * (size_t)triangle[1],
                                           scratch->points + 3 * (size_t)triangle[2]};
         write_triangle(sink, corners);
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status write(const mesh_model *model, const mesh_save_options *options, file_output *output,

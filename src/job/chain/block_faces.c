@@ -75,19 +75,19 @@ static ffd_status find_there(const chain_link *link, const double place[3], doub
     ffd_location location;
     boundary_point nearest;
     const boundary *border;
-    ffd_status status = ffd_locator_find(link->locator, place, 1, &location, error);
-    *found = !status && ffd_location_is_placed(&location);
-    if (*found)
+    *found = false;
+    TRY(ffd_locator_find(link->locator, place, 1, &location, error));
+    *found = ffd_location_is_placed(&location);
+    if (*found) {
         memcpy(uvw, location.uvw, sizeof location.uvw);
-    if (status || *found)
-        return status;
-    status = ffd_locator_border(link->locator, &border, error);
-    if (!status)
-        status = ffd_boundary_find(border, place, off, &nearest, error);
-    *found = !status && nearest.found;
+        return FFD_OK;
+    }
+    TRY(ffd_locator_border(link->locator, &border, error));
+    TRY(ffd_boundary_find(border, place, off, &nearest, error));
+    *found = nearest.found;
     if (*found)
         memcpy(uvw, nearest.uvw, sizeof nearest.uvw);
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_blocks_part(const block_place *own, const block_place *next, const double half[3], double snap,

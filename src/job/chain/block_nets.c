@@ -200,19 +200,21 @@ ffd_status ffd_blocks_join(const lattice_chain *chain, bool *join, ffd_error *er
             return FFD_OK;
     work.faces = ffd_alloc_zero(chain->count, FACES * sizeof *work.faces);
     work.groups = ffd_alloc(chain->count, sizeof *work.groups);
-    ffd_status status = work.faces && work.groups ? FFD_OK : ffd_fail_memory(error);
-    for (size_t l = 0; l < chain->count && !status; l++) {
+    ffd_status status;
+    TRY_END(work.faces && work.groups ? FFD_OK : ffd_fail_memory(error));
+    for (size_t l = 0; l < chain->count; l++) {
         work.groups[l] = (uint32_t)l;
         for (int n = 0; n < FACES && work.agree; n++)
             work.agree = make_face(chain->links[l].lattice, n, &work.faces[FACES * l + (size_t)n]);
     }
-    for (size_t l = 1; l < chain->count && !status && work.agree; l++) {
+    for (size_t l = 1; l < chain->count && work.agree; l++) {
         work.block = (uint32_t)l;
         ffd_box_tree_visit_box(&chain->tree, &chain->boxes[l], chain->slack, compare, &work);
     }
-    for (size_t l = 1; l < chain->count && !status && work.agree; l++)
+    for (size_t l = 1; l < chain->count && work.agree; l++)
         work.agree = group_of(&work, (uint32_t)l) == group_of(&work, 0);
-    *join = !status && work.agree;
+    *join = work.agree;
+end:
     ffd_free(work.faces);
     ffd_free(work.groups);
     return status;

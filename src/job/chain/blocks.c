@@ -220,41 +220,38 @@ static ffd_status search_block(const block_work *work, const uint32_t *points, s
     const face_ends ends = ffd_face_ends(link->lattice, ffd_faces_near(link, snap, run));
     for (size_t k = 0; k < count; k++)
         memcpy(blocks->x + 3 * k, run->x + 3 * (size_t)points[k], 3 * sizeof *blocks->x);
-    ffd_status status = ffd_pace_find(link, blocks->x, count, run->pace, blocks->found, error);
-    for (size_t k = 0; k < count && !status; k++) {
+    TRY(ffd_pace_find(link, blocks->x, count, run->pace, blocks->found, error));
+    for (size_t k = 0; k < count; k++) {
         const uint32_t i = points[k];
         blocks->asked[i] = block + 1;
         bool again;
         if (blocks->found[k].status == FFD_VERTEX_OUTSIDE)
-            status =
-                ffd_retry_near_border(link, snap, true, run, i, run->x + 3 * i, &blocks->found[k], error);
-        if (!status)
-            status = note_location(work, i, block, &ends, &blocks->found[k], &again, error);
-        if (!status && again)
+            TRY(ffd_retry_near_border(link, snap, true, run, i, run->x + 3 * i, &blocks->found[k], error));
+        TRY(note_location(work, i, block, &ends, &blocks->found[k], &again, error));
+        if (again)
             blocks->again[(*pending)++] = i;
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Searches the pending points block by block, until none is pending. */
 static ffd_status locate_pending(const block_work *work, ffd_error *error)
 {
     block_scratch *const blocks = &work->run->scratch->blocks;
-    ffd_status status = FFD_OK;
-    while (blocks->pending_count > 0 && !status) {
+    while (blocks->pending_count > 0) {
         const uint32_t last = ask_next(work);
         const size_t count = blocks->pending_count;
         const uint32_t *const sorted =
             sort_by_block(blocks->asked, last, count, blocks->pending, blocks->sorted);
         size_t again = 0;
-        for (size_t k = 0, size; k < count && !status; k += size) {
+        for (size_t k = 0, size; k < count; k += size) {
             size = same_block(blocks->asked, sorted + k, count - k);
-            status = search_block(work, sorted + k, size, &again, error);
+            TRY(search_block(work, sorted + k, size, &again, error));
         }
         memcpy(blocks->pending, blocks->again, again * sizeof *blocks->again);
         blocks->pending_count = again;
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Makes pending all finite points that no block has. */
@@ -360,9 +357,8 @@ static ffd_status place_others(const block_work *work, ffd_error *error)
     chain_run *const run = work->run;
     block_scratch *const blocks = &run->scratch->blocks;
     const bool marks = run->kept && work->chain->marks.owners > 0;
-    ffd_status status = FFD_OK;
     blocks->pending_count = 0;
-    for (size_t i = 0; i < run->count && !status; i++) {
+    for (size_t i = 0; i < run->count; i++) {
         if (run->scratch->owners[i] != BLOCK_NONE) {
             blocks->pending[blocks->pending_count++] = (uint32_t)i;
             if (marks)
@@ -377,11 +373,11 @@ static ffd_status place_others(const block_work *work, ffd_error *error)
         if (run->outcomes[i].status == FFD_VERTEX_INVALID)
             continue;
         if (work->chain->outside.extend)
-            status = extend(work, i, error);
+            TRY(extend(work, i, error));
         else
             ffd_mark_kept(run, i, 0);
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Displaces the points inside blocks, block by block. */
@@ -417,15 +413,14 @@ ffd_status ffd_blocks_apply(const lattice_chain *chain, chain_run *run, ffd_erro
     const double start = ffd_clock_seconds();
     ffd_status status = locate(&work, error);
     const double middle = ffd_clock_seconds();
-    if (!status)
-        status = place_others(&work, error);
-    if (!status) {
-        displace(&work);
-        ffd_array_kernel(chain->isa)->add(run->delta, 3 * run->count, run->x);
-    }
-    for (size_t i = 0; i < run->count && !status; i++)
-        run->disagreeing += run->outcomes[i].disagrees;
     run->embed_seconds += middle - start;
+    TRY(status);
+    TRY_END(place_others(&work, error));
+    displace(&work);
+    ffd_array_kernel(chain->isa)->add(run->delta, 3 * run->count, run->x);
+    for (size_t i = 0; i < run->count; i++)
+        run->disagreeing += run->outcomes[i].disagrees;
+end:
     run->deform_seconds += ffd_clock_seconds() - middle;
     return status;
 }

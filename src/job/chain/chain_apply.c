@@ -86,13 +86,12 @@ static ffd_status note_locations(const lattice_chain *chain, size_t l, chain_run
     const chain_link *const link = &chain->links[l];
     const bool is_first = l == 0, parts = run->kept && chain->marks.parted_count > 0;
     const ffd_location *const locations = run->scratch->locations;
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < run->count && !status; i++) {
+    for (size_t i = 0; i < run->count; i++) {
         point_outcome later, *const outcome = is_first ? &run->outcomes[i] : &later;
         ffd_outcome_make(link->lattice, &locations[i], outcome);
         if (outcome->outside && !(is_first && run->located)) {
-            status = ffd_retry_near_border(link, link->snap, is_first, run, i, run->x + 3 * i,
-                                           &run->scratch->locations[i], error);
+            TRY(ffd_retry_near_border(link, link->snap, is_first, run, i, run->x + 3 * i,
+                                      &run->scratch->locations[i], error));
             ffd_outcome_make(link->lattice, &locations[i], outcome);
         }
         if (!is_first)
@@ -106,10 +105,9 @@ static ffd_status note_locations(const lattice_chain *chain, size_t l, chain_run
         }
         ffd_mark_part(chain, l, run, i, NULL);
         mark_kept(link, l, run, i);
-        if (!status)
-            status = extend(chain, l, run, batch, i, error);
+        TRY(extend(chain, l, run, batch, i, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Adds the displacements of a link after the first. */
@@ -160,7 +158,6 @@ static ffd_status apply_link(const lattice_chain *chain, size_t links, size_t l,
 
 ffd_status ffd_chain_apply(const lattice_chain *chain, size_t links, chain_run *run, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     if (links == 0) {
         memset(run->delta, 0, 3 * run->count * sizeof *run->delta);
         memset(run->outcomes, 0, run->count * sizeof *run->outcomes);
@@ -173,19 +170,21 @@ ffd_status ffd_chain_apply(const lattice_chain *chain, size_t links, chain_run *
         ffd_common_begin(run);
     if (run->turns && links > 1)
         memset(run->scratch->is_turned, 0, run->count);
-    for (size_t l = 0; l < links && !status; l++) {
+    for (size_t l = 0; l < links; l++) {
         const double start = ffd_clock_seconds();
+        ffd_status status = FFD_OK;
         if (l > 0 || !run->located)
             status = ffd_pace_find(&chain->links[l], run->x, run->count, run->pace, run->scratch->locations,
                                    error);
         const double middle = ffd_clock_seconds();
-        if (!status)
-            status = apply_link(chain, links, l, run, error);
         run->embed_seconds += middle - start;
+        TRY(status);
+        status = apply_link(chain, links, l, run, error);
         run->deform_seconds += ffd_clock_seconds() - middle;
+        TRY(status);
     }
     for (size_t i = 0; run->turns && links > 1 && i < run->count; i++)
         if (run->scratch->is_turned[i])
             run->turns->points[run->turns->count++] = (uint32_t)i;
-    return status;
+    return FFD_OK;
 }

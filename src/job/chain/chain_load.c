@@ -105,11 +105,12 @@ static ffd_status load_link(const chain_files *files, bool *used, lattice_chain 
 {
     chain_link *link = &chain->links[i];
     bool fitted = false;
-    ffd_status status = load_lattice(files, used, i, link->stamp.size, &chain->memory, &link->lattice, error);
-    if (!status)
-        status = fit(files, chain->cache, link, &fitted, error);
-    if (!status && fitted)
-        status = ffd_chain_prepare(chain, i, error);
+    ffd_status status;
+    TRY_END(load_lattice(files, used, i, link->stamp.size, &chain->memory, &link->lattice, error));
+    TRY_END(fit(files, chain->cache, link, &fitted, error));
+    if (fitted)
+        TRY_END(ffd_chain_prepare(chain, i, error));
+end:
     if (status)
         ffd_fail_name_file(error, files->lattices[i].path);
     return status;
@@ -180,15 +181,16 @@ ffd_status ffd_chain_load(const chain_files *files, const chain_outside *outside
     TRY(check_count(files, error));
     bool *const used = ffd_alloc_zero(files->set_count, sizeof *used);
     chain->links = ffd_alloc_zero(files->count, sizeof *chain->links);
-    ffd_status status = used && chain->links ? FFD_OK : ffd_fail_memory(error);
-    chain->count = status ? 0 : files->count;
+    ffd_status status;
+    TRY_END(used && chain->links ? FFD_OK : ffd_fail_memory(error));
+    chain->count = files->count;
     for (size_t i = 0; i < chain->count; i++)
         borrow_lattice(files, chain, i);
     ffd_job_cache_evict_lattices(cache);
-    for (size_t i = 0; i < chain->count && !status; i++)
-        status = load_link(files, used, chain, i, error);
-    if (!status)
-        status = refuse_unused(files, used, ffd_job_cache_is_of_batch(cache), error);
+    for (size_t i = 0; i < chain->count; i++)
+        TRY_END(load_link(files, used, chain, i, error));
+    TRY_END(refuse_unused(files, used, ffd_job_cache_is_of_batch(cache), error));
+end:
     ffd_free(used);
     if (status)
         ffd_chain_free(chain);
@@ -199,14 +201,15 @@ ffd_status ffd_chain_check(const chain_files *files, ffd_error *error)
 {
     memory_budget memory = budget_of(files);
     bool *const used = ffd_alloc_zero(files->set_count, sizeof *used);
-    ffd_status status = used ? check_count(files, error) : ffd_fail_memory(error);
-    for (size_t i = 0; i < files->count && !status; i++) {
+    ffd_status status;
+    TRY_END(used ? check_count(files, error) : ffd_fail_memory(error));
+    for (size_t i = 0; i < files->count; i++) {
         ffd_lattice *lattice = NULL;
-        status = load_lattice(files, used, i, 0, &memory, &lattice, error);
+        TRY_END(load_lattice(files, used, i, 0, &memory, &lattice, error));
         ffd_lattice_destroy(&lattice);
     }
-    if (!status)
-        status = refuse_unused(files, used, true, error);
+    TRY_END(refuse_unused(files, used, true, error));
+end:
     ffd_free(used);
     return status;
 }

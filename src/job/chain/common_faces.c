@@ -159,18 +159,18 @@ static ffd_status count_places(const lattice_chain *chain, size_t link, const si
     ffd_location at[PLACES];
     for (size_t k = 0; k < count; k++)
         memcpy(x + 3 * k, run->scratch->places[indices[k]].x, 3 * sizeof *x);
-    ffd_status status = ffd_locator_find(to->locator, x, count, at, error);
-    for (size_t k = 0; k < count && !status; k++) {
+    TRY(ffd_locator_find(to->locator, x, count, at, error));
+    for (size_t k = 0; k < count; k++) {
         face_place *const place = &run->scratch->places[indices[k]];
         if (at[k].status == FFD_VERTEX_OUTSIDE)
-            status = ffd_retry_near_border(to, to->snap, place->link == 0, run, place->point, place->x,
-                                           &at[k], error);
+            TRY(ffd_retry_near_border(to, to->snap, place->link == 0, run, place->point, place->x, &at[k],
+                                      error));
         if (!vec_is_finite(at[k].uvw) || !share_face(chain->links, place, to, at[k].uvw))
             continue;
         place->is_counted = true;
         run->moved_twice++;
     }
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_common_count(const lattice_chain *chain, size_t link, const double *deltas, chain_run *run,
@@ -180,9 +180,8 @@ ffd_status ffd_common_count(const lattice_chain *chain, size_t link, const doubl
     const chain_link *const of = &chain->links[link];
     const double near = ON_FACE * of->lattice->diagonal + of->snap;
     size_t indices[PLACES], count = 0;
-    ffd_status status = FFD_OK;
     drop_unmoved(of, link, deltas, scratch);
-    for (size_t k = 0; k < scratch->place_count && !status; k++) {
+    for (size_t k = 0; k < scratch->place_count; k++) {
         const face_place *const place = &scratch->places[k];
         const double slack[3] = {near + 2 * place->half[0], near + 2 * place->half[1],
                                  near + 2 * place->half[2]};
@@ -190,9 +189,9 @@ ffd_status ffd_common_count(const lattice_chain *chain, size_t link, const doubl
             bounds_hold(&chain->boxes[link], place->x, slack))
             indices[count++] = k;
         if (count == PLACES) {
-            status = count_places(chain, link, indices, count, run, error);
+            TRY(count_places(chain, link, indices, count, run, error));
             count = 0;
         }
     }
-    return status || !count ? status : count_places(chain, link, indices, count, run, error);
+    return count ? count_places(chain, link, indices, count, run, error) : FFD_OK;
 }

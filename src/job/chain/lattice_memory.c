@@ -36,11 +36,11 @@ ffd_status ffd_lattice_memory_load(const ffd_lattice_source *source, const spec_
     lattice_spec *spec = NULL;
     size_t size = 0;
     *lattice = NULL;
-    ffd_status status = ffd_spec_load(source, settings, &spec, &size, error);
-    if (!status)
-        status = ffd_lattice_memory_take(budget, spec, size, error);
-    if (!status)
-        status = ffd_spec_build(spec, NULL, NULL, lattice, error);
+    ffd_status status;
+    TRY_END(ffd_spec_load(source, settings, &spec, &size, error));
+    TRY_END(ffd_lattice_memory_take(budget, spec, size, error));
+    TRY_END(ffd_spec_build(spec, NULL, NULL, lattice, error));
+end:
     if (status)
         ffd_spec_free(spec);
     return status;

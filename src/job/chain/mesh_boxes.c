@@ -15,15 +15,14 @@ static void free_box(mesh_box *box)
 
 static ffd_status list_meshes(const ffd_lattice *lattice, path_list *meshes, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < ffd_lattice_get_mesh_count(lattice) && !status; i++) {
-        char *path = NULL;
-        status = ffd_lattice_get_mesh(lattice, i, &path, error);
-        if (!status)
-            status = ffd_paths_add(meshes, path, error);
+    for (size_t i = 0; i < ffd_lattice_get_mesh_count(lattice); i++) {
+        char *path;
+        TRY(ffd_lattice_get_mesh(lattice, i, &path, error));
+        const ffd_status status = ffd_paths_add(meshes, path, error);
         ffd_free(path);
+        TRY(status);
     }
-    return status;
+    return FFD_OK;
 }
 
 static bool is_same(const path_list *a, const path_list *b)
@@ -85,50 +84,46 @@ static ffd_status add_mesh(mesh_box *box, const char *path, const ffd_source *li
 static ffd_status measure(mesh_box *box, const ffd_source *like, ffd_error *error)
 {
     shown_box shown;
-    ffd_status status = FFD_OK;
     ffd_shown_box_clear(&shown);
     box->space = like->space;
     box->rules = ffd_source_rules(like);
-    for (size_t i = 0; i < box->meshes.count && !status; i++)
-        status = add_mesh(box, box->meshes.paths[i], like, &shown, error);
+    for (size_t i = 0; i < box->meshes.count; i++)
+        TRY(add_mesh(box, box->meshes.paths[i], like, &shown, error));
     box->bounds = ffd_shown_box_bounds(&shown);
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status copy(const mesh_box *box, ffd_bounds *bounds, path_list *files, const mesh_log *log,
                        ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     *bounds = box->bounds;
     for (size_t i = 0; i < box->warnings.count; i++)
         ffd_log_line(log, FFD_LOG_WARNING, "%s", box->warnings.paths[i]);
-    for (size_t i = 0; i < box->files.count && !status; i++)
-        status = ffd_paths_add(files, box->files.paths[i], error);
-    return status;
+    for (size_t i = 0; i < box->files.count; i++)
+        TRY(ffd_paths_add(files, box->files.paths[i], error));
+    return FFD_OK;
 }
 
 ffd_status ffd_mesh_box_find(mesh_boxes *kept, const ffd_lattice *lattice, const ffd_source *like,
                              ffd_bounds *bounds, path_list *files, const mesh_log *log, ffd_error *error)
 {
     mesh_box made = {0};
-    ffd_status status = list_meshes(lattice, &made.meshes, error);
-    const mesh_box *const known = status ? NULL : find(kept, &made.meshes, like);
+    ffd_status status;
+    TRY_END(list_meshes(lattice, &made.meshes, error));
+    const mesh_box *const known = find(kept, &made.meshes, like);
     if (known) {
         free_box(&made);
         return copy(known, bounds, files, log, error);
     }
-    if (!status)
-        status = measure(&made, like, error);
-    if (!status)
-        status = copy(&made, bounds, files, log, error);
-    if (status) {
-        free_box(&made);
-        return status;
-    }
+    TRY_END(measure(&made, like, error));
+    TRY_END(copy(&made, bounds, files, log, error));
     free_box(&kept->boxes[kept->next]);
     kept->boxes[kept->next] = made;
     kept->next = (kept->next + 1) % MESH_BOXES;
     return FFD_OK;
+end:
+    free_box(&made);
+    return status;
 }
 
 void ffd_mesh_boxes_free(mesh_boxes *kept)

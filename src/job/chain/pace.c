@@ -56,13 +56,13 @@ ffd_status ffd_pace_find(const chain_link *link, const double *x, size_t count, 
 {
     const bool ends = ffd_deadline_get(), slices = link->locator->method == METHOD_GENERAL && (pace || ends);
     size_t size = !slices ? count : ends ? 1 : pace->done < FIRST_POINTS ? FIRST_POINTS : MOST_POINTS;
-    ffd_status status = ffd_deadline_check(error);
-    for (size_t first = 0; first < count && !status;) {
+    TRY(ffd_deadline_check(error));
+    for (size_t first = 0; first < count;) {
         const size_t left = count - first, now = left < size ? left : size;
         const double start = slices ? ffd_clock_seconds() : 0;
-        status = ffd_locator_find(link->locator, x + 3 * first, now, locations + first, error);
+        TRY(ffd_locator_find(link->locator, x + 3 * first, now, locations + first, error));
         first += now;
-        if (!slices || status)
+        if (!slices)
             continue;
         const double seconds = ffd_clock_seconds() - start;
         if (pace) {
@@ -71,7 +71,7 @@ ffd_status ffd_pace_find(const chain_link *link, const double *x, size_t count, 
             warn(pace, link);
         }
         size = ends ? next_slice(now, seconds) : MOST_POINTS;
-        status = ffd_deadline_check(error);
+        TRY(ffd_deadline_check(error));
     }
-    return status;
+    return FFD_OK;
 }

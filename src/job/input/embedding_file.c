@@ -257,19 +257,16 @@ ffd_status ffd_embedding_open(const ffd_embedding_source *source, size_t count, 
     file_content content = {.name = ffd_file_display_name(source->path)};
     bool own = true;
     *file = (embedding_file){.count = count};
-    ffd_status status = ffd_file_take(source->path, source->bytes, &file->input, error);
-    if (!status)
-        status = find_footer(&file->input, &content, error);
-    if (!status)
-        status = check_content(&content, error);
-    if (!status)
-        status = check_origin(&content, count, positions, lattice, error);
-    if (!status)
-        status = find_arrays(&content, file, &own, error);
-    if (!status && !own)
-        status = turn_bytes(file, error);
-    if (!status)
-        status = check_vertices(file, content.name, error);
+    ffd_status status;
+    TRY_END(ffd_file_take(source->path, source->bytes, &file->input, error));
+    TRY_END(find_footer(&file->input, &content, error));
+    TRY_END(check_content(&content, error));
+    TRY_END(check_origin(&content, count, positions, lattice, error));
+    TRY_END(find_arrays(&content, file, &own, error));
+    if (!own)
+        TRY_END(turn_bytes(file, error));
+    TRY_END(check_vertices(file, content.name, error));
+end:
     if (status)
         ffd_embedding_close(file);
     return status;

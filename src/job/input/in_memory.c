@@ -60,30 +60,30 @@ static ffd_status name_lattices(job_memory *memory, ffd_deform_desc *desc, ffd_e
         return FFD_OK;
     memory->lattices = ffd_alloc(desc->lattice_count, sizeof *memory->lattices);
     memory->names = ffd_alloc(desc->lattice_count, sizeof *memory->names);
-    ffd_status status = memory->lattices && memory->names ? FFD_OK : ffd_fail_memory(error);
-    for (size_t i = 0; i < desc->lattice_count && !status; i++) {
+    ffd_status status;
+    TRY_END(memory->lattices && memory->names ? FFD_OK : ffd_fail_memory(error));
+    for (size_t i = 0; i < desc->lattice_count; i++) {
         char *const name = memory->names[i];
         memory->lattices[i] = desc->lattices[i];
         snprintf(name, sizeof memory->names[i], "lattice %zu", i + 1);
-        status = ffd_in_memory_lattice(&memory->lattices[i], name, name, error);
-        if (!status && !memory->lattices[i].path)
-            status = ffd_fail(error, FFD_E_ARGUMENT, "%s is neither a file nor an object nor a text", name);
+        TRY_END(ffd_in_memory_lattice(&memory->lattices[i], name, name, error));
+        if (!memory->lattices[i].path)
+            TRY_END(ffd_fail(error, FFD_E_ARGUMENT, "%s is neither a file nor an object nor a text", name));
     }
+end:
     desc->lattices = memory->lattices;
     return status;
 }
 
 ffd_status ffd_in_memory_desc(job_memory *memory, ffd_deform_desc *desc, ffd_error *error)
 {
-    ffd_status status = ffd_deform_desc_check(desc, error);
-    if (!status)
-        status = ffd_in_memory_source(memory, &desc->input, error);
-    if (!status)
-        status = name_lattices(memory, desc, error);
-    if (!status)
-        status = ffd_in_memory_bytes(desc->embedding.bytes, "embedding", &desc->embedding.path, error);
-    if (!status)
-        status = ffd_in_memory_output(desc->sink, desc->output, error);
+    ffd_status status;
+    TRY_END(ffd_deform_desc_check(desc, error));
+    TRY_END(ffd_in_memory_source(memory, &desc->input, error));
+    TRY_END(name_lattices(memory, desc, error));
+    TRY_END(ffd_in_memory_bytes(desc->embedding.bytes, "embedding", &desc->embedding.path, error));
+    TRY_END(ffd_in_memory_output(desc->sink, desc->output, error));
+end:
     if (desc->sink)
         desc->output_set = NULL;
     return status;

@@ -14,15 +14,15 @@ ffd_status ffd_selection_apply(const char *const *only, size_t count, const char
     if (count == 0)
         return FFD_OK;
     mesh_selector *selectors = ffd_alloc(count, sizeof *selectors);
-    ffd_status status = selectors ? FFD_OK : ffd_fail_memory(error);
-    for (size_t i = 0; i < count && !status; i++) {
-        status = ffd_selector_parse(only[i], &selectors[i], error);
-        if (!status)
-            status = ffd_selector_check_kind(&selectors[i], calls ? calls->kinds : 0, document->format->name,
-                                             name, error);
+    ffd_status status;
+    TRY_END(selectors ? FFD_OK : ffd_fail_memory(error));
+    for (size_t i = 0; i < count; i++) {
+        TRY_END(ffd_selector_parse(only[i], &selectors[i], error));
+        TRY_END(ffd_selector_check_kind(&selectors[i], calls ? calls->kinds : 0, document->format->name, name,
+                                        error));
     }
-    if (!status)
-        status = calls->select(document, selectors, count, error);
+    TRY_END(calls->select(document, selectors, count, error));
+end:
     ffd_free(selectors);
     return status;
 }

@@ -251,14 +251,14 @@ static ffd_status read_name(const reading *r)
 
 static ffd_status read_selector(const reading *r)
 {
-    const ffd_status status = ffd_selector_check(r->text, r->error);
-    return status ? status : add_text(r);
+    TRY(ffd_selector_check(r->text, r->error));
+    return add_text(r);
 }
 
 static ffd_status read_clip(const reading *r)
 {
-    const ffd_status status = ffd_clip_check(r->text, r->error);
-    return status ? status : read_name(r);
+    TRY(ffd_clip_check(r->text, r->error));
+    return read_name(r);
 }
 
 /* Reads NAME=VALUE. */

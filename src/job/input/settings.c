@@ -238,14 +238,13 @@ static ffd_status check_rule(const ffd_deform_desc *desc, const job_rule *rule, 
 ffd_status ffd_deform_desc_check(const ffd_deform_desc *callers, ffd_error *error)
 {
     ffd_deform_desc desc;
-    ffd_status status = ffd_deform_desc_take(callers, &desc, error);
-    if (!status && desc.embedding.bytes.data && !desc.embedding.path)
+    TRY(ffd_deform_desc_take(callers, &desc, error));
+    if (desc.embedding.bytes.data && !desc.embedding.path)
         desc.embedding.path = "embedding";
-    for (size_t m = 0; m < MEMBERS && !status; m++)
-        status = check_range(&desc, &members[m], error);
-    if (!status)
-        status = check_gates(&desc, error);
-    for (const job_rule *rule = ffd_job_rules; !status && rule->setting; rule++)
-        status = check_rule(&desc, rule, error);
-    return status;
+    for (size_t m = 0; m < MEMBERS; m++)
+        TRY(check_range(&desc, &members[m], error));
+    TRY(check_gates(&desc, error));
+    for (const job_rule *rule = ffd_job_rules; rule->setting; rule++)
+        TRY(check_rule(&desc, rule, error));
+    return FFD_OK;
 }

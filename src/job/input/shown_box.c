@@ -57,20 +57,19 @@ ffd_status ffd_shown_box_add(shown_box *box, const ffd_source *source, const cha
     mesh_document *document;
     positions.only_positions = true;
     TRY(ffd_source_open(&positions, 0, &document, error));
-    ffd_status status = ffd_selection_apply(only, only_count, ffd_source_name(source), document, error);
-    if (!status)
-        status = ffd_mesh_check(document, error);
-    if (!status)
-        status = ffd_mesh_mark_used(document, error);
-    for (size_t i = 0; i < document->part_count && !status; i++) {
+    ffd_status status;
+    TRY_END(ffd_selection_apply(only, only_count, ffd_source_name(source), document, error));
+    TRY_END(ffd_mesh_check(document, error));
+    TRY_END(ffd_mesh_mark_used(document, error));
+    for (size_t i = 0; i < document->part_count; i++) {
         part_box of = {&document->parts[i], box};
         if (!of.part->repeats_positions)
             ffd_source_visit_places(document, i, widen, &of);
     }
-    if (!status && files)
-        status = ffd_source_files(source, document, files, error);
-    if (!status)
-        ffd_flaws_warn(&document->flaws, ffd_source_name(source), log);
+    if (files)
+        TRY_END(ffd_source_files(source, document, files, error));
+    ffd_flaws_warn(&document->flaws, ffd_source_name(source), log);
+end:
     ffd_source_close(&document);
     status = ffd_mapping_judge(losses, status, error);
     if (status && status != FFD_E_ARGUMENT)
@@ -100,15 +99,15 @@ ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *caller
     ffd_deform_desc own;
     const ffd_deform_desc *const desc = &own;
     job_memory memory = {0};
-    ffd_status status = ffd_deform_desc_take(callers, &own, error);
-    if (!status)
-        status = ffd_in_memory_source(&memory, &own.input, error);
-    if (!status && ffd_file_is_stream(desc->input.path))
-        status = ffd_fail(error, FFD_E_ARGUMENT,
-                          "a shared box reads its meshes twice, but standard input can be read only once");
-    if (!status)
-        status = ffd_shown_box_add(&box->box, &desc->input, desc->only, desc->only_count, &box->files, NULL,
-                                   error);
+    ffd_status status;
+    TRY_END(ffd_deform_desc_take(callers, &own, error));
+    TRY_END(ffd_in_memory_source(&memory, &own.input, error));
+    if (ffd_file_is_stream(desc->input.path))
+        TRY_END(ffd_fail(error, FFD_E_ARGUMENT,
+                         "a shared box reads its meshes twice, but standard input can be read only once"));
+    TRY_END(
+        ffd_shown_box_add(&box->box, &desc->input, desc->only, desc->only_count, &box->files, NULL, error));
+end:
     status = ffd_in_memory_end(&memory, status, error);
     return status;
 }

@@ -53,13 +53,12 @@ ffd_status ffd_source_open_bytes(const ffd_source *source, int threads, file_inp
 {
     ffd_source typed = *source;
     *document = NULL;
-    ffd_status status = ffd_source_format(source, &typed.format, error);
-    if (!status)
-        status = ffd_threads_choose(source->threads ? source->threads : threads, &typed.threads, error);
-    if (!status) {
-        status = ffd_format_open(ffd_format_table(typed.format), input, &typed, document, error);
-        ffd_fail_name_file(status ? error : NULL, ffd_source_name(source));
-    }
+    ffd_status status;
+    TRY_END(ffd_source_format(source, &typed.format, error));
+    TRY_END(ffd_threads_choose(source->threads ? source->threads : threads, &typed.threads, error));
+    status = ffd_format_open(ffd_format_table(typed.format), input, &typed, document, error);
+    ffd_fail_name_file(status ? error : NULL, ffd_source_name(source));
+end:
     if (status)
         ffd_file_unload(input);
     return status;
@@ -70,26 +69,23 @@ ffd_status ffd_source_open(const ffd_source *source, int threads, mesh_document 
     ffd_format format;
     file_input input;
     *document = NULL;
-    ffd_status status = ffd_source_format(source, &format, error);
-    if (!status) {
-        status = ffd_file_take(source->path, source->bytes, &input, error);
-        if (status && !source->bytes.data)
-            mention_set_aside(source->path, error);
-    }
+    TRY(ffd_source_format(source, &format, error));
+    const ffd_status status = ffd_file_take(source->path, source->bytes, &input, error);
+    if (status && !source->bytes.data)
+        mention_set_aside(source->path, error);
     return status ? status : ffd_source_open_bytes(source, threads, &input, document, error);
 }
 
 ffd_status ffd_source_files(const ffd_source *source, const mesh_document *document, path_list *files,
                             ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     if (source->bytes.data)
         return FFD_OK;
     if (!ffd_file_is_stream(source->path))
-        status = ffd_paths_add(files, source->path, error);
-    if (!status && document->format->sidecars)
-        status = document->format->sidecars->list(document, files, error);
-    return status;
+        TRY(ffd_paths_add(files, source->path, error));
+    if (document->format->sidecars)
+        TRY(document->format->sidecars->list(document, files, error));
+    return FFD_OK;
 }
 
 bool ffd_source_is_alone(const mesh_document *document)
@@ -98,10 +94,8 @@ bool ffd_source_is_alone(const mesh_document *document)
     path_list others = {0};
     if (!sidecars)
         return true;
-    ffd_status status = sidecars->list(document, &others, NULL);
-    if (!status)
-        status = sidecars->list_images(document, &others, NULL);
-    const bool is_alone = !status && others.count == 0;
+    const bool is_alone = !sidecars->list(document, &others, NULL) &&
+                          !sidecars->list_images(document, &others, NULL) && others.count == 0;
     ffd_paths_free(&others);
     return is_alone;
 }

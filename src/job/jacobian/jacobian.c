@@ -84,19 +84,17 @@ static ffd_status check_differences(const jacobian *j, double *worst, ffd_error 
 static ffd_status make(jacobian *j, ffd_jacobian_result *result, ffd_error *error)
 {
     uint64_t *starts = NULL;
-    ffd_status status = ffd_jacobian_prepare(j, error);
-    if (!status)
-        starts = ffd_alloc(j->rows + 1, sizeof *starts);
-    if (!status && !starts)
-        status = ffd_fail_memory(error);
-    if (!status)
-        status = ffd_jacobian_count(j, starts, &result->moving, error);
-    if (!status && j->desc->check)
-        status = check_differences(j, &result->worst, error);
-    if (!status)
-        status = ffd_deadline_check(error);
-    if (!status)
-        status = is_product(j->desc) ? ffd_jacobian_multiply(j, error) : ffd_jacobian_write(j, starts, error);
+    ffd_status status;
+    TRY_END(ffd_jacobian_prepare(j, error));
+    starts = ffd_alloc(j->rows + 1, sizeof *starts);
+    if (!starts)
+        TRY_END(ffd_fail_memory(error));
+    TRY_END(ffd_jacobian_count(j, starts, &result->moving, error));
+    if (j->desc->check)
+        TRY_END(check_differences(j, &result->worst, error));
+    TRY_END(ffd_deadline_check(error));
+    TRY_END(is_product(j->desc) ? ffd_jacobian_multiply(j, error) : ffd_jacobian_write(j, starts, error));
+end:
     result->rows = j->rows;
     result->columns = j->columns;
     result->vertices = j->count;
@@ -109,16 +107,16 @@ static ffd_status differentiate(const ffd_jacobian_desc *desc, ffd_jacobian_resu
 {
     ffd_job_result figures;
     jacobian j = {.desc = desc};
-    ffd_status status = ffd_deform_job_begin(&j.job, desc->job, true, &figures);
-    if (!status)
-        status = ffd_deform_job_open(&j.job, desc->by == FFD_BY_PARAMETERS ? JOB_NEEDS_DERIVATIVES : 0,
-                                     &figures, &figures.error);
-    if (!status && !desc->job->sink)
-        status = ffd_job_check_mesh_files(desc->output, &desc->job->input, j.job.document, &figures.error);
-    if (!status && !desc->job->sink)
-        status = ffd_job_check_box_files(desc->output, &j.job.chain, desc->job->lattices, &figures.error);
-    if (!status)
-        status = make(&j, result, &figures.error);
+    ffd_status status;
+    TRY_END(ffd_deform_job_begin(&j.job, desc->job, true, &figures));
+    TRY_END(ffd_deform_job_open(&j.job, desc->by == FFD_BY_PARAMETERS ? JOB_NEEDS_DERIVATIVES : 0, &figures,
+                                &figures.error));
+    if (!desc->job->sink)
+        TRY_END(ffd_job_check_mesh_files(desc->output, &desc->job->input, j.job.document, &figures.error));
+    if (!desc->job->sink)
+        TRY_END(ffd_job_check_box_files(desc->output, &j.job.chain, desc->job->lattices, &figures.error));
+    TRY_END(make(&j, result, &figures.error));
+end:
     ffd_jacobian_free(&j);
     return ffd_deform_job_end(&j.job, status, &figures, error);
 }
@@ -127,13 +125,29 @@ static ffd_status differentiate(const ffd_jacobian_desc *desc, ffd_jacobian_resu
 static ffd_status take_memory(job_memory *memory, ffd_jacobian_desc *desc, ffd_deform_desc *job,
                               ffd_error *error)
 {
-    ffd_status status = ffd_in_memory_output(job->sink, desc->output, error);
-    if (!status)
-        status = ffd_in_memory_bytes(desc->times_bytes, "times", &desc->times, error);
-    if (!status)
-        status = ffd_in_memory_bytes(desc->transposed_bytes, "transposed", &desc->transposed, error);
+    ffd_status status;
+    TRY_END(ffd_in_memory_output(job->sink, desc->output, error));
+    TRY_END(ffd_in_memory_bytes(desc->times_bytes, "times", &desc->times, error));
+    TRY_END(ffd_in_memory_bytes(desc->transposed_bytes, "transposed", &desc->transposed, error));
+end:
     job->output = NULL;
     return status ? status : ffd_in_memory_desc(memory, job, error);
+}
+
+static ffd_status take(job_memory *memory, const ffd_jacobian_desc *callers,
+                       const ffd_jacobian_result *callers_result, ffd_jacobian_desc *desc,
+                       ffd_deform_desc *job, ffd_error *error)
+{
+    ffd_jacobian_desc_init(desc, sizeof *desc);
+    TRY(ffd_struct_take(desc, sizeof *desc, callers, "ffd_jacobian_desc", error));
+    if (callers_result)
+        TRY(ffd_struct_check(sizeof *callers_result, callers_result, "ffd_jacobian_result", error));
+    if (desc->job) {
+        TRY(ffd_deform_desc_take(desc->job, job, error));
+        TRY(take_memory(memory, desc, job, error));
+        desc->job = job;
+    }
+    return check_desc(desc, error);
 }
 
 ffd_status ffd_jacobian_run(const ffd_jacobian_desc *callers, ffd_jacobian_result *callers_result,
@@ -143,28 +157,18 @@ ffd_status ffd_jacobian_run(const ffd_jacobian_desc *callers, ffd_jacobian_resul
     ffd_jacobian_result result = {.struct_size = sizeof result};
     ffd_deform_desc job;
     ffd_error own;
-    ffd_jacobian_desc_init(&desc, sizeof desc);
-    ffd_status status = ffd_struct_take(&desc, sizeof desc, callers, "ffd_jacobian_desc", &own);
-    if (!status && callers_result)
-        status = ffd_struct_check(sizeof result, callers_result, "ffd_jacobian_result", &own);
-    if (!status && desc.job)
-        status = ffd_deform_desc_take(desc.job, &job, &own);
     job_memory memory = {0};
-    if (!status && desc.job)
-        status = take_memory(&memory, &desc, &job, &own);
-    desc.job = desc.job ? &job : NULL;
-    if (!status)
-        status = check_desc(&desc, &own);
-    const bool runs = !status;
     deadline limit;
-    const deadline *const before = ffd_deadline_begin(&limit, runs ? job.timeout : 0);
-    if (runs)
-        status = differentiate(&desc, &result, &own);
+    ffd_status status;
+    TRY_END(take(&memory, callers, callers_result, &desc, &job, &own));
+    const deadline *const before = ffd_deadline_begin(&limit, job.timeout);
+    status = differentiate(&desc, &result, &own);
     ffd_deadline_end(before);
+    if (callers_result)
+        ffd_struct_give(&result, sizeof result, callers_result, callers_result->struct_size);
+end:
     status = ffd_in_memory_end(&memory, status, &own);
     if (status && error)
         *error = own;
-    if (callers_result && runs)
-        ffd_struct_give(&result, sizeof result, callers_result, callers_result->struct_size);
     return status;
 }

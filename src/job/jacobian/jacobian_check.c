@@ -97,18 +97,17 @@ static ffd_status differ_point(check_work *work, ffd_lattice *lattice, const dou
     memcpy(offset, ffd_lattice_get_offsets(lattice) + 3 * point, sizeof offset);
     const double kept = offset[coordinate];
     ffd_status status = FFD_OK;
-    for (int side = 0; side < 2 && !status; side++) {
+    for (int side = 0; side < 2; side++) {
         offset[coordinate] = side ? kept + h : kept - h;
-        status = ffd_lattice_set_offsets(lattice, &point, 1, offset, error);
-        if (status)
-            break;
+        TRY_END(ffd_lattice_set_offsets(lattice, &point, 1, offset, error));
         displace(link->embedding, lattice, vertex, at[side]);
         for (int c = 0; c < 3; c++)
             at[side][c] += base[c];
-        status = send(work, &work->j->job.chain, link->index + 1, at[side], error);
+        TRY_END(send(work, &work->j->job.chain, link->index + 1, at[side], error));
     }
-    for (int c = 0; c < 3 && !status; c++)
+    for (int c = 0; c < 3; c++)
         difference[c] = (at[1][c] - at[0][c]) / (2 * h);
+end:
     to_file(work->j, vertex, difference);
     offset[coordinate] = kept;
     return status ? status : ffd_lattice_set_offsets(lattice, &point, 1, offset, error);
@@ -122,20 +121,21 @@ static ffd_status check_points(check_work *work, size_t vertex, const double bas
     const double h = cbrt(2.2e-16) * of->diagonal, scale = largest_of(work);
     ffd_lattice *lattice;
     size_t next = ffd_embedding_first_extended(link->embedding, vertex);
-    ffd_status status = ffd_lattice_copy(of, &lattice, error);
+    TRY(ffd_lattice_copy(of, &lattice, error));
     ffd_basis_row(link->embedding, ffd_jacobian_weights(j, link), vertex, &next, &work->rows.basis);
-    for (size_t e = 0; e < work->rows.basis.count && !status; e++)
-        for (int b = 0; b < 3 && !status; b++) {
+    ffd_status status = FFD_OK;
+    for (size_t e = 0; e < work->rows.basis.count; e++)
+        for (int b = 0; b < 3; b++) {
             const uint64_t column = work->rows.basis.columns[e];
             double found[3] = {0, 0, 0}, difference[3];
             for (int a = 0; a < 3; a++)
                 found[a] = j->blocks ? number_at(work, a, 3 * column + (uint64_t)b)
                            : a == b  ? number_at(work, 0, column)
                                      : 0;
-            status = differ_point(work, lattice, base, vertex, (size_t)column, b, h, difference, error);
-            if (!status)
-                compare(work, found, difference, scale);
+            TRY_END(differ_point(work, lattice, base, vertex, (size_t)column, b, h, difference, error));
+            compare(work, found, difference, scale);
         }
+end:
     ffd_lattice_destroy(&lattice);
     return status;
 }
@@ -186,15 +186,16 @@ static ffd_status load_changed(const jacobian *j, const spec_variable *variable,
                                .set = set,
                                .set_count = count,
                                .mesh = &desc->input};
-    ffd_status status = ffd_chain_load(&files, &j->job.chain.outside, desc->isa, NULL, chain, error);
-    for (size_t l = 0; l < chain->count && !status; l++) {
+    ffd_status status;
+    TRY_END(ffd_chain_load(&files, &j->job.chain.outside, desc->isa, NULL, chain, error));
+    for (size_t l = 0; l < chain->count; l++) {
         const ffd_lattice *const like = j->job.chain.links[l].lattice;
         if (chain->links[l].locator)
             continue;
-        status = ffd_lattice_fit(chain->links[l].lattice, like->fitted_min, like->fitted_max, error);
-        if (!status)
-            status = ffd_chain_prepare(chain, l, error);
+        TRY_END(ffd_lattice_fit(chain->links[l].lattice, like->fitted_min, like->fitted_max, error));
+        TRY_END(ffd_chain_prepare(chain, l, error));
     }
+end:
     ffd_free(set);
     return status;
 }
@@ -205,11 +206,13 @@ static ffd_status move_changed(check_work *work, const spec_variable *variable, 
 {
     lattice_chain chain = {.links = NULL};
     char *const text = value_text(variable, component, by);
-    ffd_status status = text ? load_changed(work->j, variable, text, &chain, error) : ffd_fail_memory(error);
-    for (size_t i = 0; i < count && !status; i++) {
+    ffd_status status;
+    TRY_END(text ? load_changed(work->j, variable, text, &chain, error) : ffd_fail_memory(error));
+    for (size_t i = 0; i < count; i++) {
         memcpy(to + 3 * i, rest + 3 * i, 3 * sizeof *to);
-        status = send(work, &chain, 0, to + 3 * i, error);
+        TRY_END(send(work, &chain, 0, to + 3 * i, error));
     }
+end:
     ffd_chain_free(&chain);
     ffd_free(text);
     return status;
@@ -222,10 +225,9 @@ static ffd_status check_parameter(check_work *work, size_t column, const size_t 
     const spec_variable *const variable = variable_of(work->j, column, &component);
     const double h = cbrt(2.2e-16) * fmax(fabs(variable->numbers[component]), 1);
     double at[2][3 * VERTICES];
-    ffd_status status = move_changed(work, variable, component, -h, count, rest, at[0], error);
-    if (!status)
-        status = move_changed(work, variable, component, h, count, rest, at[1], error);
-    for (size_t i = 0; i < count && !status; i++) {
+    TRY(move_changed(work, variable, component, -h, count, rest, at[0], error));
+    TRY(move_changed(work, variable, component, h, count, rest, at[1], error));
+    for (size_t i = 0; i < count; i++) {
         double found[3], difference[3];
         ffd_jacobian_rows_begin(work->j, vertices[i], &work->rows);
         ffd_jacobian_rows_fill(work->j, vertices[i], &work->rows);
@@ -236,7 +238,7 @@ static ffd_status check_parameter(check_work *work, size_t column, const size_t 
         to_file(work->j, vertices[i], difference);
         compare(work, found, difference, largest_of(work));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Chooses moving vertices, evenly from the first to the last. */
@@ -267,9 +269,11 @@ static ffd_status find_base(const jacobian *j, const size_t *vertices, size_t co
     if (!all)
         return ffd_fail_memory(error);
     const size_t links = j->desc->by == FFD_BY_POINTS ? j->links[0].index : 0;
-    const ffd_status status = ffd_jacobian_positions(j, links, all, error);
-    for (size_t i = 0; i < count && !status; i++)
+    ffd_status status;
+    TRY_END(ffd_jacobian_positions(j, links, all, error));
+    for (size_t i = 0; i < count; i++)
         memcpy(base + 3 * i, all + 3 * vertices[i], 3 * sizeof *base);
+end:
     ffd_free(all);
     return status;
 }
@@ -280,25 +284,26 @@ static ffd_status check_sample(check_work *work, ffd_error *error)
     size_t vertices[VERTICES];
     double base[3 * VERTICES];
     const size_t count = choose(work, vertices);
-    ffd_status status = find_base(j, vertices, count, base, error);
-    for (size_t i = 0; i < count && !status && j->desc->by == FFD_BY_POINTS; i++) {
+    TRY(find_base(j, vertices, count, base, error));
+    for (size_t i = 0; i < count && j->desc->by == FFD_BY_POINTS; i++) {
         ffd_jacobian_rows_begin(j, vertices[i], &work->rows);
         ffd_jacobian_rows_fill(j, vertices[i], &work->rows);
-        status = check_points(work, vertices[i], base + 3 * i, error);
+        TRY(check_points(work, vertices[i], base + 3 * i, error));
     }
-    for (size_t c = 0; c < j->columns && !status && j->desc->by == FFD_BY_PARAMETERS; c++)
-        status = check_parameter(work, c, vertices, count, base, error);
-    return status;
+    for (size_t c = 0; c < j->columns && j->desc->by == FFD_BY_PARAMETERS; c++)
+        TRY(check_parameter(work, c, vertices, count, base, error));
+    return FFD_OK;
 }
 
 ffd_status ffd_jacobian_check(const jacobian *j, double *worst, ffd_error *error)
 {
     check_work work = {.j = j, .scratch = ffd_alloc_zero(1, sizeof *work.scratch)};
-    ffd_status status = ffd_jacobian_rows_make(j, &work.rows, error);
-    if (!status && !work.scratch)
-        status = ffd_fail_memory(error);
-    if (!status)
-        status = check_sample(&work, error);
+    ffd_status status;
+    TRY_END(ffd_jacobian_rows_make(j, &work.rows, error));
+    if (!work.scratch)
+        TRY_END(ffd_fail_memory(error));
+    TRY_END(check_sample(&work, error));
+end:
     *worst = work.worst;
     ffd_jacobian_rows_free(&work.rows);
     ffd_free(work.scratch);

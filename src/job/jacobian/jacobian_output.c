@@ -89,14 +89,16 @@ static ffd_status run_pass(rows_pass *pass, ffd_error *error)
     pass->error = error;
     pass->slot_count = ffd_ordered_slots(pass->j->job.threads);
     pass->slots = ffd_alloc_zero((size_t)pass->slot_count, sizeof *pass->slots);
-    ffd_status status = pass->slots ? FFD_OK : ffd_fail_memory(error);
-    for (int i = 0; i < pass->slot_count && !status; i++)
-        status = ffd_jacobian_rows_make(pass->j, &pass->slots[i].rows, error);
-    if (!status &&
-        !ffd_parallel_in_order(pass->j->count, ROWS_TILE, pass->j->job.threads, make_tile, finish_tile, pass))
-        status = ffd_fail_memory(error);
+    ffd_status status;
+    TRY_END(pass->slots ? FFD_OK : ffd_fail_memory(error));
+    for (int i = 0; i < pass->slot_count; i++)
+        TRY_END(ffd_jacobian_rows_make(pass->j, &pass->slots[i].rows, error));
+    if (!ffd_parallel_in_order(pass->j->count, ROWS_TILE, pass->j->job.threads, make_tile, finish_tile, pass))
+        TRY_END(ffd_fail_memory(error));
+    status = pass->status;
+end:
     free_slots(pass);
-    return status ? status : pass->status;
+    return status;
 }
 
 ffd_status ffd_jacobian_count(const jacobian *j, uint64_t *starts, uint64_t *moving, ffd_error *error)
@@ -104,17 +106,17 @@ ffd_status ffd_jacobian_count(const jacobian *j, uint64_t *starts, uint64_t *mov
     rows_pass pass = {.j = j, .starts = starts};
     const size_t each = j->blocks ? 3 : 1;
     starts[0] = 0;
-    const ffd_status status = run_pass(&pass, error);
+    TRY(run_pass(&pass, error));
     *moving = 0;
-    for (size_t i = 0; i < j->count && !status; i++) {
+    for (size_t i = 0; i < j->count; i++) {
         uint64_t entries = 0;
         for (size_t a = 0; a < each; a++)
             entries += starts[each * i + a + 1];
         *moving += entries > 0;
     }
-    for (size_t row = 0; row < j->rows && !status; row++)
+    for (size_t row = 0; row < j->rows; row++)
         starts[row + 1] += starts[row];
-    return status;
+    return FFD_OK;
 }
 
 static void put_index(const rows_pass *pass, uint64_t value, byte_buffer *bytes)
@@ -264,9 +266,8 @@ static ffd_status write_npy(const jacobian *j, file_output *output, ffd_error *e
     rows_pass pass = {.j = j, .output = output, .put = put_dense};
     char shape[80], header[NPY_HEADER_CAPACITY];
     snprintf(shape, sizeof shape, "(%zu, 3, %zu)", j->count, j->columns);
-    const ffd_status status =
-        ffd_output_write(output, header, ffd_npy_header_of("<f8", shape, header), error);
-    return status ? status : run_pass(&pass, error);
+    TRY(ffd_output_write(output, header, ffd_npy_header_of("<f8", shape, header), error));
+    return run_pass(&pass, error);
 }
 
 /* Writes the names of the columns, one a line. */
@@ -277,13 +278,13 @@ static ffd_status write_names(const jacobian *j, file_output *output, ffd_error 
     ffd_buffer_append(&text, path, (size_t)(ffd_path_ending(path) - path));
     ffd_buffer_text(&text, ".columns.txt");
     char *const name = ffd_buffer_finish(&text);
-    ffd_status status =
-        name ? ffd_output_begin(output, name, j->desc->job->force, error) : ffd_fail_memory(error);
-    for (size_t c = 0; c < j->columns && !status; c++) {
-        status = ffd_output_write(output, j->names[c], strlen(j->names[c]), error);
-        if (!status)
-            status = ffd_output_write(output, "\n", 1, error);
+    ffd_status status;
+    TRY_END(name ? ffd_output_begin(output, name, j->desc->job->force, error) : ffd_fail_memory(error));
+    for (size_t c = 0; c < j->columns; c++) {
+        TRY_END(ffd_output_write(output, j->names[c], strlen(j->names[c]), error));
+        TRY_END(ffd_output_write(output, "\n", 1, error));
     }
+end:
     ffd_free(name);
     return status;
 }
@@ -292,19 +293,17 @@ ffd_status ffd_jacobian_write(const jacobian *j, const uint64_t *starts, ffd_err
 {
     const char *const path = j->desc->output;
     file_output *output;
-    ffd_status status = ffd_output_create(&output, error);
-    if (!status)
-        ffd_output_redirect(output, j->desc->job->sink, j->desc->job->sink_user);
-    if (!status && j->desc->by == FFD_BY_PARAMETERS)
-        status = write_names(j, output, error);
-    if (!status)
-        status = ffd_output_begin(output, path, j->desc->job->force, error);
-    if (!status)
-        status = ffd_path_has_ending(path, ".npz")   ? write_npz(j, starts, output, error)
-                 : ffd_path_has_ending(path, ".mtx") ? write_mtx(j, starts, output, error)
-                                                     : write_npy(j, output, error);
-    if (!status)
-        status = ffd_output_commit(output, error);
+    TRY(ffd_output_create(&output, error));
+    ffd_output_redirect(output, j->desc->job->sink, j->desc->job->sink_user);
+    ffd_status status = FFD_OK;
+    if (j->desc->by == FFD_BY_PARAMETERS)
+        TRY_END(write_names(j, output, error));
+    TRY_END(ffd_output_begin(output, path, j->desc->job->force, error));
+    TRY_END(ffd_path_has_ending(path, ".npz")   ? write_npz(j, starts, output, error)
+            : ffd_path_has_ending(path, ".mtx") ? write_mtx(j, starts, output, error)
+                                                : write_npy(j, output, error));
+    TRY_END(ffd_output_commit(output, error));
+end:
     ffd_output_destroy(&output);
     return status;
 }

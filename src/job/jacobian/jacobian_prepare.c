@@ -35,17 +35,15 @@ static ffd_status find_extended(jacobian *j, const chain_link *link, const doubl
 {
     const double reach = link->falloff > 0 ? link->falloff : HUGE_VAL;
     size_t capacity = 0;
-    ffd_status status = FFD_OK;
     embedding->falloff = link->falloff;
-    for (size_t i = 0; i < j->count && !status; i++) {
+    for (size_t i = 0; i < j->count; i++) {
         boundary_point nearest;
         if (ffd_embedding_has(embedding, i) || embedding->status[i] == FFD_VERTEX_INVALID ||
             !vec_is_finite(before + 3 * i))
             continue;
-        status = ffd_deadline_check(error);
-        if (!status)
-            status = ffd_boundary_find(link->border, before + 3 * i, reach, &nearest, error);
-        if (status || !nearest.found)
+        TRY(ffd_deadline_check(error));
+        TRY(ffd_boundary_find(link->border, before + 3 * i, reach, &nearest, error));
+        if (!nearest.found)
             continue;
         TRY(ffd_budget_take(&j->budget, 1, sizeof *embedding->extended, error));
         if (!ffd_grow((void **)&embedding->extended, &capacity, embedding->extended_count + 1,
@@ -53,7 +51,7 @@ static ffd_status find_extended(jacobian *j, const chain_link *link, const doubl
             return ffd_fail_memory(error);
         embedding->extended[embedding->extended_count++] = (extended_point){i, nearest};
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Marks the selected vertices: only these can be outside. */
@@ -61,13 +59,15 @@ static ffd_status mark_selected(const jacobian *j, uint8_t *selected, ffd_error 
 {
     vertex_owners owners;
     const mesh_document *const document = j->job.document;
-    const ffd_status status = ffd_vertex_owners_list(document, &owners, error);
+    ffd_status status;
+    TRY_END(ffd_vertex_owners_list(document, &owners, error));
     memset(selected, 1, j->count);
-    for (size_t o = 0; o < owners.count && !status; o++) {
+    for (size_t o = 0; o < owners.count; o++) {
         const mesh_part *const part = &document->parts[owners.parts[o]];
         for (size_t i = 0; i < part->vertex_count; i++)
             selected[owners.first[o] + i] = ffd_part_selects(part, i);
     }
+end:
     ffd_vertex_owners_free(&owners);
     return status;
 }
@@ -77,15 +77,14 @@ static ffd_status extend(jacobian *j, size_t index, ffd_embedding *embedding, ff
     const chain_link *const link = &j->job.chain.links[index];
     double *const before = ffd_alloc(j->count, 3 * sizeof *before);
     uint8_t *const selected = ffd_alloc(j->count, 1);
-    ffd_status status =
-        before && selected ? ffd_jacobian_positions(j, index, before, error) : ffd_fail_memory(error);
-    if (!status)
-        status = mark_selected(j, selected, error);
-    for (size_t i = 0; i < j->count && !status; i++)
+    ffd_status status;
+    TRY_END(before && selected ? ffd_jacobian_positions(j, index, before, error) : ffd_fail_memory(error));
+    TRY_END(mark_selected(j, selected, error));
+    for (size_t i = 0; i < j->count; i++)
         if (!selected[i])
             before[3 * i] = (double)NAN;
-    if (!status)
-        status = find_extended(j, link, before, embedding, error);
+    TRY_END(find_extended(j, link, before, embedding, error));
+end:
     ffd_free(before);
     ffd_free(selected);
     return status;
@@ -99,8 +98,8 @@ static ffd_status fill_embedding(jacobian *j, jacobian_link *link, pass_totals *
     pass.pace = &j->pace;
     pass.uvw = link->embedding->uvw;
     pass.statuses = link->embedding->status;
-    ffd_status status = ffd_pass_over_mesh(&pass, totals, error);
-    return status || !of->border ? status : extend(j, link->index, link->embedding, error);
+    TRY(ffd_pass_over_mesh(&pass, totals, error));
+    return of->border ? extend(j, link->index, link->embedding, error) : FFD_OK;
 }
 
 /* Scratch memory for a run of points through the later links. */
@@ -121,11 +120,11 @@ static ffd_status find_later_run(const lattice_chain *later, const double *after
                      .gradient = gradients,
                      .outcomes = s->outcomes};
     memcpy(s->x, after, 3 * count * sizeof *s->x);
-    const ffd_status status = ffd_chain_apply(later, later->count, &run, error);
-    for (size_t i = 0; i < count && !status; i++)
+    TRY(ffd_chain_apply(later, later->count, &run, error));
+    for (size_t i = 0; i < count; i++)
         for (int d = 0; d < 9; d += 4)
             gradients[9 * i + (size_t)d] += 1;
-    return status;
+    return FFD_OK;
 }
 
 /* Computes, at each vertex, F of all links after one. */
@@ -141,13 +140,14 @@ static ffd_status find_later(const jacobian *j, jacobian_link *link, ffd_error *
     double *const after = ffd_alloc(j->count, 3 * sizeof *after);
     later_scratch *const scratch = ffd_alloc_zero(1, sizeof *scratch);
     link->later = ffd_alloc(j->count, 9 * sizeof *link->later);
-    ffd_status status = after && scratch && link->later
-                            ? ffd_jacobian_positions(j, link->index + 1, after, error)
-                            : ffd_fail_memory(error);
-    for (size_t first = 0; first < j->count && !status; first += CHAIN_RUN) {
+    ffd_status status;
+    TRY_END(after && scratch && link->later ? ffd_jacobian_positions(j, link->index + 1, after, error)
+                                            : ffd_fail_memory(error));
+    for (size_t first = 0; first < j->count; first += CHAIN_RUN) {
         const size_t left = j->count - first, count = left < CHAIN_RUN ? left : CHAIN_RUN;
-        status = find_later_run(&later, after + 3 * first, count, scratch, link->later + 9 * first, error);
+        TRY_END(find_later_run(&later, after + 3 * first, count, scratch, link->later + 9 * first, error));
     }
+end:
     ffd_free(after);
     ffd_free(scratch);
     return status;
@@ -158,15 +158,17 @@ static ffd_status find_inverses(jacobian *j, ffd_error *error)
 {
     const mesh_document *const document = j->job.document;
     vertex_owners owners;
+    vertex_transforms *transforms = NULL;
     bool any = false;
-    ffd_status status = ffd_vertex_owners_list(document, &owners, error);
-    for (size_t o = 0; o < owners.count && !status; o++)
+    ffd_status status;
+    TRY_END(ffd_vertex_owners_list(document, &owners, error));
+    for (size_t o = 0; o < owners.count; o++)
         any = any || !document->parts[owners.parts[o]].identity;
-    vertex_transforms *const transforms = any ? ffd_alloc(1, sizeof *transforms) : NULL;
+    transforms = any ? ffd_alloc(1, sizeof *transforms) : NULL;
     j->inverses = any ? ffd_alloc_zero(j->count, 9 * sizeof *j->inverses) : NULL;
-    if (!status && any && (!transforms || !j->inverses))
-        status = ffd_fail_memory(error);
-    for (size_t o = 0; o < owners.count && !status && any; o++) {
+    if (any && (!transforms || !j->inverses))
+        TRY_END(ffd_fail_memory(error));
+    for (size_t o = 0; o < owners.count && any; o++) {
         const size_t part = owners.parts[o], count = document->parts[part].vertex_count;
         for (size_t i = 0; i < count; i++) {
             if (i % VERTEX_TRANSFORMS == 0)
@@ -181,6 +183,7 @@ static ffd_status find_inverses(jacobian *j, ffd_error *error)
                 memcpy(inverse, transform.inverse, 9 * sizeof *inverse);
         }
     }
+end:
     ffd_free(transforms);
     ffd_vertex_owners_free(&owners);
     return status;
@@ -232,18 +235,15 @@ static ffd_status find_tangents(jacobian *j, jacobian_link *link, ffd_error *err
     const ffd_lattice *const lattice = j->job.chain.links[link->index].lattice;
     const lattice_spec *const spec = lattice->spec;
     size_t own = 0;
-    ffd_status status = take_tangents(j, lattice, error);
-    if (!status)
-        status = ffd_lattice_tangents_find(lattice, &link->tangents, error);
-    if (status)
-        return status;
+    TRY(take_tangents(j, lattice, error));
+    TRY(ffd_lattice_tangents_find(lattice, &link->tangents, error));
     link->columns = ffd_alloc(link->tangents.columns, sizeof *link->columns);
     if (!link->columns)
         return ffd_fail_memory(error);
-    for (size_t v = 0; v < spec->variable_count && !status; v++)
-        for (size_t c = 0; c < spec->variables[v].size && !status; c++)
-            status = find_column(j, &spec->variables[v], c, &link->columns[own++], error);
-    return status;
+    for (size_t v = 0; v < spec->variable_count; v++)
+        for (size_t c = 0; c < spec->variables[v].size; c++)
+            TRY(find_column(j, &spec->variables[v], c, &link->columns[own++], error));
+    return FFD_OK;
 }
 
 /* Chooses the links to derive by: one, or all with placeholders. */
@@ -286,32 +286,26 @@ ffd_status ffd_jacobian_prepare(jacobian *j, ffd_error *error)
 {
     const bool by_points = j->desc->by == FFD_BY_POINTS;
     pass_totals totals = {0};
-    ffd_status status = ffd_mesh_check(j->job.document, error);
     j->count = (size_t)ffd_mesh_vertex_count(j->job.document);
-    if (!status)
-        status = ffd_chain_fit(&j->job.chain, j->job.document, j->job.threads, error);
-    if (!status)
-        status = choose_links(j, error);
-    if (!status)
-        status = take_vertices(j, error);
+    TRY(ffd_mesh_check(j->job.document, error));
+    TRY(ffd_chain_fit(&j->job.chain, j->job.document, j->job.threads, error));
+    TRY(choose_links(j, error));
+    TRY(take_vertices(j, error));
     j->pace = (chain_pace){.points = (double)j->count,
                            .threads = j->job.threads,
                            .links = j->job.chain.links,
                            .lattices = j->job.desc->lattices,
                            .more = " (see {timeout})",
                            .log = j->job.log};
-    for (size_t l = 0; l < j->link_count && !status; l++) {
+    for (size_t l = 0; l < j->link_count; l++) {
         jacobian_link *const link = &j->links[l];
-        status = fill_embedding(j, link, &totals, error);
-        if (!status)
-            status = find_later(j, link, error);
-        if (!status && !by_points)
-            status = find_tangents(j, link, error);
+        TRY(fill_embedding(j, link, &totals, error));
+        TRY(find_later(j, link, error));
+        if (!by_points)
+            TRY(find_tangents(j, link, error));
     }
-    if (!status && j->desc->components)
-        status = find_inverses(j, error);
-    if (status)
-        return status;
+    if (j->desc->components)
+        TRY(find_inverses(j, error));
     ffd_result_warn(&totals, &j->job.chain, false, &j->job.log);
     j->blocks = !by_points || j->desc->components || j->links[0].later;
     j->rows = j->blocks ? 3 * j->count : j->count;

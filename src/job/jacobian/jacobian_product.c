@@ -77,20 +77,18 @@ static ffd_status write(const jacobian *j, const double *numbers, size_t rows, s
                         ffd_error *error)
 {
     file_output *output;
-    ffd_status status = ffd_output_create(&output, error);
-    if (!status)
-        ffd_output_redirect(output, j->desc->job->sink, j->desc->job->sink_user);
-    if (!status)
-        status = ffd_output_begin(output, j->desc->output, j->desc->job->force, error);
-    if (!status)
-        status = ffd_npy_begin(output, "<f8", rows, columns, error);
-    for (size_t n = 0; n < rows * (columns ? columns : 1) && !status; n++) {
+    TRY(ffd_output_create(&output, error));
+    ffd_output_redirect(output, j->desc->job->sink, j->desc->job->sink_user);
+    ffd_status status;
+    TRY_END(ffd_output_begin(output, j->desc->output, j->desc->job->force, error));
+    TRY_END(ffd_npy_begin(output, "<f8", rows, columns, error));
+    for (size_t n = 0; n < rows * (columns ? columns : 1); n++) {
         unsigned char stored[8];
         store_double(stored, numbers[n]);
-        status = ffd_output_write(output, stored, sizeof stored, error);
+        TRY_END(ffd_output_write(output, stored, sizeof stored, error));
     }
-    if (!status)
-        status = ffd_output_commit(output, error);
+    TRY_END(ffd_output_commit(output, error));
+end:
     ffd_output_destroy(&output);
     return status;
 }
@@ -107,16 +105,15 @@ ffd_status ffd_jacobian_multiply(const jacobian *j, ffd_error *error)
     p.in = in;
     p.out = ffd_alloc_zero(transposed ? columns : vertices, sizeof *p.out);
     p.block = ffd_alloc(transposed ? columns : 0, sizeof *p.block);
-    ffd_status status = ffd_jacobian_rows_make(j, &p.rows, error);
-    if (!status && (!p.out || !p.block))
-        status = ffd_fail_memory(error);
-    if (!status) {
-        multiply(&p, transposed);
-        status = ffd_deadline_check(error);
-    }
-    if (!status)
-        status = transposed ? write(j, p.out, by_points ? columns / 3 : columns, by_points ? 3 : 0, error)
-                            : write(j, p.out, j->count, 3, error);
+    ffd_status status;
+    TRY_END(ffd_jacobian_rows_make(j, &p.rows, error));
+    if (!p.out || !p.block)
+        TRY_END(ffd_fail_memory(error));
+    multiply(&p, transposed);
+    TRY_END(ffd_deadline_check(error));
+    TRY_END(transposed ? write(j, p.out, by_points ? columns / 3 : columns, by_points ? 3 : 0, error)
+                       : write(j, p.out, j->count, 3, error));
+end:
     ffd_jacobian_rows_free(&p.rows);
     ffd_free(in);
     ffd_free(p.out);

@@ -40,26 +40,24 @@ static ffd_status count_place(const mesh_document *document, const mesh_place *p
 static ffd_status find_places(const deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     const double diagonal = ffd_rig_diagonal(&result->bounds.before);
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < job->rig.places.count && !status; i++) {
+    for (size_t i = 0; i < job->rig.places.count; i++) {
         const mesh_place_move *const move = &job->rig.moves[i];
         const bool stays = job->desc->rig == FFD_RIG_KEEP || ffd_rig_lag(move, diagonal) > 0;
         if (move->moves && stays)
-            status = count_place(job->document, &job->rig.places.list[i], result, error);
+            TRY(count_place(job->document, &job->rig.places.list[i], result, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status find_splats(const deform_job *job, ffd_behind *splats, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     splats->count = job->totals.splats_moved;
-    for (int i = 0; i < job->totals.splat_part_count && !status; i++) {
+    for (int i = 0; i < job->totals.splat_part_count; i++) {
         const mesh_part *part = &job->document->parts[job->totals.splat_parts[i]];
         if (part->place != MESH_NO_PLACE)
-            status = add_name(job->document, part->place, splats, error);
+            TRY(add_name(job->document, part->place, splats, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Displacements of control points are equal if they differ by at most this part of the lattice's diagonal. */

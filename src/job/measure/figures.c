@@ -57,14 +57,13 @@ static ffd_status read_faces(const deform_job *job, mesh_state state, figure_arr
     ffd_error own;
     char line[1024];
     memory_budget budget = arrays->budget;
-    ffd_status status = job->document->format->faces(job->document, state, &arrays->faces, &own);
-    if (!status)
-        status = take_memory(job, &arrays->faces, &budget, &own);
-    arrays->has_faces = status == FFD_OK;
-    if (!status) {
-        arrays->budget = budget;
-        return FFD_OK;
-    }
+    ffd_status status;
+    TRY_END(job->document->format->faces(job->document, state, &arrays->faces, &own));
+    TRY_END(take_memory(job, &arrays->faces, &budget, &own));
+    arrays->has_faces = true;
+    arrays->budget = budget;
+    return FFD_OK;
+end:
     ffd_mesh_faces_free(&arrays->faces);
     if (job->check || job->recomputes || status == FFD_E_MEMORY || job->desc->fail_on & NEED_FACES) {
         if (error)
@@ -128,7 +127,6 @@ ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_j
                              ffd_error *error)
 {
     edge_quality edges;
-    ffd_status status = FFD_OK;
     result->det.is_known = job->totals.det_min <= job->totals.det_max;
     result->det.min = job->totals.det_min;
     result->det.max = job->totals.det_max;
@@ -136,9 +134,7 @@ ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_j
         return FFD_OK;
     measure_extent(job, arrays, result);
     if (!ffd_selection_is_all(job->document))
-        status = ffd_selection_reduce(job->document, &arrays->faces, error);
-    if (status)
-        return status;
+        TRY(ffd_selection_reduce(job->document, &arrays->faces, error));
     result->has_flipped = true;
     result->faces = arrays->faces.face_count;
     result->flipped_faces = ffd_quality_flipped(&arrays->faces, arrays->deformed, arrays->gradients);

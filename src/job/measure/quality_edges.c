@@ -304,8 +304,8 @@ static ffd_status take_blocks(const edge_work *work, edge_scratch *scratch)
                      .delta = scratch->delta,
                      .outcomes = scratch->point_outcomes,
                      .rounding = work->owners.document ? &rounding : NULL};
-    const ffd_status status = ffd_chain_apply(work->chain, work->chain->count, &run, NULL);
-    for (size_t i = 0; i < scratch->requested && !status; i++) {
+    TRY(ffd_chain_apply(work->chain, work->chain->count, &run, NULL));
+    for (size_t i = 0; i < scratch->requested; i++) {
         const sample_request *request = &scratch->requests[i];
         const uint32_t owner = scratch->chain.owners[i];
         scratch->owners[request->edge * SLOTS + request->slot] = owner;
@@ -313,7 +313,7 @@ static ffd_status take_blocks(const edge_work *work, edge_scratch *scratch)
             count_cells(work->chain->links[owner].lattice, scratch->chain.locations[i].uvw,
                         cells_of(work, scratch, request->edge, request->slot));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Sends the requested points through the chain, one link at a time to get the u,v,w in each. */
@@ -344,11 +344,11 @@ static ffd_status take_links(const edge_work *work, edge_scratch *scratch)
 
 static ffd_status take_samples(const edge_work *work, edge_scratch *scratch)
 {
-    const ffd_status status = work->chain->blocks ? take_blocks(work, scratch) : take_links(work, scratch);
-    for (size_t i = 0; i < scratch->requested && !status; i++)
+    TRY(work->chain->blocks ? take_blocks(work, scratch) : take_links(work, scratch));
+    for (size_t i = 0; i < scratch->requested; i++)
         keep_sample(&scratch->requests[i], scratch->delta + 3 * i, scratch);
     scratch->requested = 0;
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status request_sample(const edge_work *work, edge_scratch *scratch, size_t index, size_t slot)
@@ -415,17 +415,16 @@ static ffd_status halve_pieces(const edge_work *work, edge_scratch *scratch, siz
     sampled_edge *edge = &scratch->edges[index];
     const size_t width = PIECES >> level;
     uint64_t halved = 0;
-    ffd_status status = FFD_OK;
     for (size_t piece = 0; piece < PIECES / width && !edge->left_out; piece++)
         if (edge->open >> piece & 1 && must_halve(work, scratch, index, piece * width, width))
             halved |= (uint64_t)1 << piece;
     edge->open = 0;
-    for (size_t piece = 0; piece < PIECES / width && !status; piece++)
+    for (size_t piece = 0; piece < PIECES / width; piece++)
         if (halved >> piece & 1) {
             edge->open |= (uint64_t)3 << 2 * piece;
-            status = request_sample(work, scratch, index, piece * width + width / 2);
+            TRY(request_sample(work, scratch, index, piece * width + width / 2));
         }
-    return status;
+    return FFD_OK;
 }
 
 /* Requests the ends of a window that is shorter than the edge: there nothing moves, but the straight edge may
@@ -449,18 +448,16 @@ static ffd_status begin_window(const edge_work *work, edge_scratch *scratch, siz
 static ffd_status begin_samples(const edge_work *work, edge_scratch *scratch, size_t count)
 {
     const size_t quarter = PIECES >> FIRST_LEVEL;
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < count && !status; i++) {
+    for (size_t i = 0; i < count; i++) {
         sampled_edge *edge = &scratch->edges[i];
         memset(scratch->offset[i][0], 0, sizeof scratch->offset[i][0]);
         memset(scratch->offset[i][PIECES], 0, sizeof scratch->offset[i][PIECES]);
-        status = begin_window(work, scratch, i);
-        for (size_t slot = quarter; slot < PIECES && !edge->left_out && !status; slot += quarter)
-            status = request_sample(work, scratch, i, slot);
+        TRY(begin_window(work, scratch, i));
+        for (size_t slot = quarter; slot < PIECES && !edge->left_out; slot += quarter)
+            TRY(request_sample(work, scratch, i, slot));
     }
-    if (!status)
-        status = take_samples(work, scratch);
-    for (size_t i = 0; i < count && !status; i++) {
+    TRY(take_samples(work, scratch));
+    for (size_t i = 0; i < count; i++) {
         sampled_edge *edge = &scratch->edges[i];
         if (edge->left_out)
             continue;
@@ -468,11 +465,27 @@ static ffd_status begin_samples(const edge_work *work, edge_scratch *scratch, si
         edge->is_long = extent(work, scratch, i, quarter, 2 * quarter) > LONG_QUARTER ||
                         extent(work, scratch, i, 2 * quarter, 3 * quarter) > LONG_QUARTER;
         if (edge->is_long)
-            status = request_sample(work, scratch, i, 0);
-        if (edge->is_long && !status)
-            status = request_sample(work, scratch, i, PIECES);
+            TRY(request_sample(work, scratch, i, 0));
+        if (edge->is_long)
+            TRY(request_sample(work, scratch, i, PIECES));
     }
-    return status;
+    return FFD_OK;
+}
+
+static ffd_status measure_edges(const edge_work *work, edge_scratch *scratch, size_t first, size_t count)
+{
+    scratch->requested = 0;
+    scratch->first = first;
+    TRY(ffd_deadline_check(NULL));
+    for (size_t i = 0; i < count; i++)
+        begin_edge(work, work->list.keys[first + i], &scratch->edges[i]);
+    TRY(begin_samples(work, scratch, count));
+    for (int level = FIRST_LEVEL; level < LAST_LEVEL; level++) {
+        for (size_t i = 0; i < count; i++)
+            TRY(halve_pieces(work, scratch, i, level));
+        TRY(take_samples(work, scratch));
+    }
+    return FFD_OK;
 }
 
 static void run_tile(void *context, size_t tile, size_t first, size_t last, int worker)
@@ -480,21 +493,8 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     const edge_work *work = context;
     edge_scratch *scratch = &work->scratch[worker];
     edge_tile *result = &work->tiles[tile];
-    const size_t count = last - first;
-    scratch->requested = 0;
-    scratch->first = first;
-    result->status = ffd_deadline_check(NULL);
-    for (size_t i = 0; i < count && !result->status; i++)
-        begin_edge(work, work->list.keys[first + i], &scratch->edges[i]);
-    ffd_status status = result->status ? result->status : begin_samples(work, scratch, count);
-    for (int level = FIRST_LEVEL; level < LAST_LEVEL && !status; level++) {
-        for (size_t i = 0; i < count && !status; i++)
-            status = halve_pieces(work, scratch, i, level);
-        if (!status)
-            status = take_samples(work, scratch);
-    }
-    result->status = status;
-    for (size_t i = 0; i < count && !status; i++) {
+    result->status = measure_edges(work, scratch, first, last - first);
+    for (size_t i = 0; i < last - first && !result->status; i++) {
         const sampled_edge *edge = &scratch->edges[i];
         if (edge->left_out)
             continue;
@@ -587,14 +587,13 @@ ffd_status ffd_quality_edges(const mesh_document *document, mesh_state state, co
     workers = tiles && tiles < workers ? tiles : workers;
     work.scratch = make_scratch(workers, work.layers);
     work.tiles = ffd_alloc_zero(tiles, sizeof *work.tiles);
-    ffd_status status = work.scratch && work.tiles && find_reach(&work) ? FFD_OK : ffd_fail_memory(error);
-    if (!status && document)
-        status = ffd_vertex_owners_list(document, &work.owners, error);
-    if (status)
-        goto done;
+    ffd_status status;
+    TRY_END(work.scratch && work.tiles && find_reach(&work) ? FFD_OK : ffd_fail_memory(error));
+    if (document)
+        TRY_END(ffd_vertex_owners_list(document, &work.owners, error));
     ffd_parallel_tiles(work.list.count, TILE, (int)workers, run_tile, &work);
-    status = join_tiles(&work, tiles, result, error);
-done:
+    TRY_END(join_tiles(&work, tiles, result, error));
+end:
     ffd_vertex_owners_free(&work.owners);
     ffd_free(work.tiles);
     ffd_free(work.reach);

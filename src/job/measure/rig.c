@@ -29,10 +29,9 @@ static void note_move(const mesh_place *place, const place_run *run, size_t i, m
 
 static ffd_status send(const lattice_chain *chain, const rig_places *rig, place_run *run, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     ffd_displacement_scratch_clear(&run->chain.displacement);
     run->chain.displacement.kept.threads = 1;
-    for (size_t first = 0; first < rig->places.count && !status; first += CHAIN_RUN) {
+    for (size_t first = 0; first < rig->places.count; first += CHAIN_RUN) {
         const mesh_place *const list = rig->places.list + first;
         const size_t left = rig->places.count - first, count = left < CHAIN_RUN ? left : CHAIN_RUN;
         chain_run sent = {.x = run->points,
@@ -43,11 +42,11 @@ static ffd_status send(const lattice_chain *chain, const rig_places *rig, place_
                           .outcomes = run->outcomes};
         for (size_t i = 0; i < count; i++)
             memcpy(run->points + 3 * i, list[i].at, sizeof list[i].at);
-        status = ffd_chain_apply(chain, chain->count, &sent, error);
-        for (size_t i = 0; i < count && !status; i++)
+        TRY(ffd_chain_apply(chain, chain->count, &sent, error));
+        for (size_t i = 0; i < count; i++)
             note_move(&list[i], run, i, &rig->moves[first + i]);
     }
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_rig_places_find(const mesh_document *document, const lattice_chain *chain, bool all,
@@ -140,7 +139,6 @@ ffd_status ffd_rig_figures_find(const mesh_document *document, const rig_places 
     uint8_t *const lagging = ffd_alloc(rig->places.count, sizeof *lagging);
     if (!lagging)
         return ffd_fail_memory(error);
-    ffd_status status = FFD_OK;
     const size_t worst = measure(rig, kinds, diagonal, figures, lagging);
     figures->moved = following->written;
     figures->sheared = following->sheared;
@@ -151,12 +149,13 @@ ffd_status ffd_rig_figures_find(const mesh_document *document, const rig_places 
     figures->unselected_by = following->unselected_by;
     figures->is_there =
         figures->is_there || figures->moved || figures->sheared || figures->singular || figures->partial;
+    ffd_status status = FFD_OK;
     if (worst != SIZE_MAX) {
-        status = name_worst(document, rig->places.list[worst].index, figures, error);
-        if (!status)
-            status = document->format->places->count_skins(
-                document, &rig->places, lagging, &figures->lagging_skins, &figures->lagging_joints, error);
+        TRY_END(name_worst(document, rig->places.list[worst].index, figures, error));
+        TRY_END(document->format->places->count_skins(
+            document, &rig->places, lagging, &figures->lagging_skins, &figures->lagging_joints, error));
     }
+end:
     ffd_free(lagging);
     return status;
 }

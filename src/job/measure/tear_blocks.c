@@ -30,11 +30,11 @@ static ffd_status find_end(const tear_field *field, field_place *place, field_fo
         memcpy(foot->point.uvw, location.uvw, sizeof location.uvw);
         return FFD_OK;
     }
-    ffd_status status = ffd_foot_on_border(field, block, place->x, foot, error);
-    if (!status && foot->found && !(owner & OWNER_NEAREST))
+    TRY(ffd_foot_on_border(field, block, place->x, foot, error));
+    if (foot->found && !(owner & OWNER_NEAREST))
         ffd_lattice_evaluate(field->chain->links[block].lattice, FFD_VOLUME_REST, foot->point.uvw, place->x,
                              NULL);
-    return status;
+    return FFD_OK;
 }
 
 /* The foot of a place that no block holds. */
@@ -48,12 +48,11 @@ static ffd_status find_outside(const tear_field *field, const field_place *place
         first == (owner_of(field, place->ends[1]) & ~OWNER_NEAREST))
         return ffd_foot_on_border(field, first, place->x, foot, error);
     *foot = (field_foot){0};
-    const ffd_status status =
-        ffd_blocks_nearest(field->chain, place->x, outside->falloff > 0 ? outside->falloff : HUGE_VAL,
-                           &foot->point, &block, error);
-    foot->found = !status && foot->point.found;
+    TRY(ffd_blocks_nearest(field->chain, place->x, outside->falloff > 0 ? outside->falloff : HUGE_VAL,
+                           &foot->point, &block, error));
+    foot->found = foot->point.found;
     foot->link = block;
-    return status;
+    return FFD_OK;
 }
 
 /* Displaces all places by the blocks that hold them. */
@@ -69,11 +68,11 @@ static ffd_status find_inside(const tear_field *field, const field_place *places
                      .outcomes = scratch->outcomes};
     for (size_t i = 0; i < count; i++)
         memcpy(scratch->x + 3 * i, places[i].x, 3 * sizeof *scratch->x);
-    const ffd_status status = ffd_chain_apply(&field->plain, field->plain.count, &run, error);
+    TRY(ffd_chain_apply(&field->plain, field->plain.count, &run, error));
     long long taken = 0;
-    for (size_t i = 0; i < count && !status; i++)
+    for (size_t i = 0; i < count; i++)
         taken += scratch->outcomes[i].evaluations;
-    return status ? status : ffd_field_take(field, taken, error);
+    return ffd_field_take(field, taken, error);
 }
 
 /* Whether the block that holds a place gives its displacement: that of an end is its own block. */
@@ -86,8 +85,8 @@ static bool is_held(const tear_field *field, const field_place *place, uint32_t 
 ffd_status ffd_tear_blocks_find(const tear_field *field, field_place *places, size_t count,
                                 field_scratch *scratch, ffd_error *error)
 {
-    ffd_status status = find_inside(field, places, count, scratch, error);
-    for (size_t i = 0; i < count && !status; i++) {
+    TRY(find_inside(field, places, count, scratch, error));
+    for (size_t i = 0; i < count; i++) {
         field_place *const place = &places[i];
         field_foot foot;
         if (is_held(field, place, scratch->chain.owners[i])) {
@@ -95,12 +94,11 @@ ffd_status ffd_tear_blocks_find(const tear_field *field, field_place *places, si
             memcpy(place->gradient, scratch->gradient + 9 * i, sizeof place->gradient);
             continue;
         }
-        status = place->by == FIELD_BETWEEN ? find_outside(field, place, &foot, error)
-                                            : find_end(field, place, &foot, error);
-        if (!status)
-            ffd_foot_displacement(field, &foot, place->delta, place->gradient);
+        TRY(place->by == FIELD_BETWEEN ? find_outside(field, place, &foot, error)
+                                       : find_end(field, place, &foot, error));
+        ffd_foot_displacement(field, &foot, place->delta, place->gradient);
     }
-    return status;
+    return FFD_OK;
 }
 
 /* The foot of any place. */

@@ -316,9 +316,8 @@ static ffd_status begin_ends(const cut_work *work, size_t count)
         }
         cuts->ways[e].follows = false;
     }
-    const ffd_status status =
-        ffd_tear_field_find(field, cuts->places, 2 * count, &visitor, cuts->field, work->error);
-    for (size_t e = 0; e < count && !status; e++) {
+    TRY(ffd_tear_field_find(field, cuts->places, 2 * count, &visitor, cuts->field, work->error));
+    for (size_t e = 0; e < count; e++) {
         const field_place *const ends = &cuts->places[2 * e];
         bounds box;
         for (int a = 0; a < 3; a++) { /* blocks may have moved the ends to their borders */
@@ -335,7 +334,7 @@ static ffd_status begin_ends(const cut_work *work, size_t count)
         cuts->low[e] = take(&cuts->edges[e], 0, &ends[0]);
         cuts->high[e] = take(&cuts->edges[e], 1, &ends[1]);
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Makes the parts between the first places of an edge. places: those between its ends. */
@@ -358,19 +357,19 @@ static void begin_parts(tear_cuts *cuts, size_t e, const field_place *places)
 static ffd_status begin_edges(const cut_work *work, size_t count)
 {
     tear_cuts *const cuts = work->cuts;
-    ffd_status status = begin_ends(work, count);
-    for (size_t first = 0, end; first < count && !status; first = end) {
+    TRY(begin_ends(work, count));
+    for (size_t first = 0, end; first < count; first = end) {
         size_t places = 0;
         for (end = first; end < count && places + cuts->lists[end].count <= FIELD_RUN; end++)
             for (size_t i = 1; i + 1 < cuts->lists[end].count; i++)
                 place_at(work->field, &cuts->edges[end], cuts->lists[end].t[i], &cuts->places[places++]);
         if (places > 0)
-            status = ffd_tear_field_find(work->field, cuts->places, places, NULL, cuts->field, work->error);
+            TRY(ffd_tear_field_find(work->field, cuts->places, places, NULL, cuts->field, work->error));
         places = 0;
-        for (size_t e = first; e < end && !status; places += cuts->lists[e++].count - 2)
+        for (size_t e = first; e < end; places += cuts->lists[e++].count - 2)
             begin_parts(cuts, e, cuts->places + places);
     }
-    return status;
+    return FFD_OK;
 }
 
 /* How much the step along a part depends on where along it the jump is. */
@@ -438,16 +437,15 @@ static bool go_on(cut_edge *edge, const cut_place *middle)
 static ffd_status cut(const cut_work *work, cut_edge *edge, const cut_place *middle)
 {
     bool settled = false;
-    ffd_status status = FFD_OK;
     if (is_narrow(&edge->part))
-        status = measure(work, edge, &edge->part, &settled);
+        TRY(measure(work, edge, &edge->part, &settled));
     const tear_step known = edge->part.known;
-    if (!status && !settled && go_on(edge, middle))
+    if (!settled && go_on(edge, middle))
         return FFD_OK;
     if (known.length > edge->step.length)
         edge->step = known;
     take_next(edge);
-    return status;
+    return FFD_OK;
 }
 
 /* Cuts the parts at hand of all edges. *some: whether there are any. */
@@ -463,16 +461,15 @@ static ffd_status cut_all(const cut_work *work, size_t count, bool *some)
             place_at(work->field, &cuts->edges[e], t[e], &cuts->places[places++]);
     }
     *some = places > 0;
-    ffd_status status =
-        *some ? ffd_tear_field_find(work->field, cuts->places, places, NULL, cuts->field, work->error)
-              : FFD_OK;
+    TRY(*some ? ffd_tear_field_find(work->field, cuts->places, places, NULL, cuts->field, work->error)
+              : FFD_OK);
     places = 0;
-    for (size_t e = 0; e < count && !status; e++)
+    for (size_t e = 0; e < count; e++)
         if (cuts->edges[e].is_cut) {
             const cut_place middle = take(&cuts->edges[e], t[e], &cuts->places[places++]);
-            status = cut(work, &cuts->edges[e], &middle);
+            TRY(cut(work, &cuts->edges[e], &middle));
         }
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_tear_cut(const tear_field *field, const uint64_t *edges, size_t count, tear_step *steps,
@@ -487,12 +484,12 @@ ffd_status ffd_tear_cut(const tear_field *field, const uint64_t *edges, size_t c
                                                        fabs(chain->links[l].locator->hull.hi[a])));
     for (size_t e = 0; e < count; e++)
         begin_edge(&work, edges[e], &cuts->edges[e]);
-    ffd_status status = begin_edges(&work, count);
-    while (some && !status)
-        status = cut_all(&work, count, &some);
+    TRY(begin_edges(&work, count));
+    while (some)
+        TRY(cut_all(&work, count, &some));
     for (size_t e = 0; e < count; e++)
         steps[e] = cuts->edges[e].step;
-    return status;
+    return FFD_OK;
 }
 
 field_scratch *ffd_tear_cuts_scratch(const tear_cuts *cuts)

@@ -248,10 +248,7 @@ static ffd_status add_key(list_work *work, uint64_t key, ffd_error *error)
 {
     edge_list *const edges = work->edges;
     if (edges->count == work->capacity) {
-        const ffd_status status =
-            ffd_budget_check(work->mesh->budget, edges->count + 1, EDGE_BYTES + work->spare, error);
-        if (status)
-            return status;
+        TRY(ffd_budget_check(work->mesh->budget, edges->count + 1, EDGE_BYTES + work->spare, error));
         if (!ffd_grow((void **)&edges->keys, &work->capacity, edges->count + 1, sizeof *edges->keys))
             return ffd_fail_memory(error);
     }
@@ -262,8 +259,7 @@ static ffd_status add_key(list_work *work, uint64_t key, ffd_error *error)
 static ffd_status list_all(list_work *work, ffd_error *error)
 {
     const mesh_faces *const faces = work->mesh->faces;
-    ffd_status status = FFD_OK;
-    for (size_t f = 0; f < faces->face_count && !status; f++) {
+    for (size_t f = 0; f < faces->face_count; f++) {
         const uint32_t *const corners = faces->corners + faces->start[f];
         const size_t size = faces->start[f + 1] - faces->start[f];
         uint64_t key;
@@ -272,11 +268,11 @@ static ffd_status list_all(list_work *work, ffd_error *error)
             continue;
         if (ffd_tear_is_hidden(work->mesh, corners[0]))
             continue;
-        for (size_t c = 0; c < size && !status; c++)
+        for (size_t c = 0; c < size; c++)
             if (make_key(work, corners[c], corners[c + 1 < size ? c + 1 : 0], &key))
-                status = add_key(work, key, error);
+                TRY(add_key(work, key, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Merges ends that share a position. */
@@ -284,14 +280,14 @@ static ffd_status join_ends(const list_work *work, ffd_error *error)
 {
     position_table table;
     edge_list *const edges = work->edges;
-    ffd_status status = ffd_positions_begin(&table, work->mesh->faces->positions, 2 * edges->count, error);
-    for (size_t i = 0; i < edges->count && !status; i++) {
+    TRY(ffd_positions_begin(&table, work->mesh->faces->positions, 2 * edges->count, error));
+    for (size_t i = 0; i < edges->count; i++) {
         const uint32_t first = ffd_positions_add(&table, ffd_tear_first(edges->keys[i]));
         const uint32_t second = ffd_positions_add(&table, ffd_tear_second(edges->keys[i]));
         edges->keys[i] = (uint64_t)first << 32 | second;
     }
     ffd_positions_end(&table);
-    return status;
+    return FFD_OK;
 }
 
 /* Context of meet_earlier. */
@@ -361,9 +357,10 @@ ffd_status ffd_tear_edges_list(const tear_mesh *mesh, tear_kind kind, size_t spa
     list_work work = {
         .mesh = mesh, .kind = kind, .layers = ffd_chain_layers(mesh->chain), .spare = spare, .edges = edges};
     *edges = (edge_list){NULL, 0};
-    ffd_status status = kind == TEAR_MOVES ? find_others(&work, error) : FFD_OK;
-    if (!status)
-        status = list_all(&work, error);
+    ffd_status status;
+    TRY_END(kind == TEAR_MOVES ? find_others(&work, error) : FFD_OK);
+    TRY_END(list_all(&work, error));
+end:
     ffd_free(work.others);
     ffd_free(work.before);
     ffd_free(work.behind);

@@ -21,13 +21,11 @@ ffd_status ffd_foot_on_border(const tear_field *field, size_t link, const double
     const chain_link *const of = &field->chain->links[link];
     const boundary *border;
     *foot = (field_foot){.link = link};
-    ffd_status status = ffd_deadline_check(error);
-    if (!status)
-        status = ffd_locator_border(of->locator, &border, error);
-    if (!status)
-        status = ffd_boundary_find(border, x, of->falloff > 0 ? of->falloff : HUGE_VAL, &foot->point, error);
-    foot->found = !status && foot->point.found;
-    return status;
+    TRY(ffd_deadline_check(error));
+    TRY(ffd_locator_border(of->locator, &border, error));
+    TRY(ffd_boundary_find(border, x, of->falloff > 0 ? of->falloff : HUGE_VAL, &foot->point, error));
+    foot->found = foot->point.found;
+    return FFD_OK;
 }
 
 void ffd_foot_displacement(const tear_field *field, const field_foot *foot, double delta[3],

@@ -40,12 +40,12 @@ static ffd_status locate(const tear_field *field, size_t link, const field_place
         memcpy(scratch->link_x + 3 * *asked, scratch->x + 3 * i, 3 * sizeof *scratch->x);
         scratch->asked[(*asked)++] = (uint32_t)i;
     }
-    const ffd_status status = ffd_pace_find(&field->chain->links[link], scratch->link_x, *asked, NULL,
-                                            scratch->chain.locations, error);
+    TRY(ffd_pace_find(&field->chain->links[link], scratch->link_x, *asked, NULL, scratch->chain.locations,
+                      error));
     long long taken = 0;
-    for (size_t k = 0; k < *asked && !status; k++)
+    for (size_t k = 0; k < *asked; k++)
         taken += scratch->chain.locations[k].evaluations;
-    return status ? status : ffd_field_take(field, taken, error);
+    return ffd_field_take(field, taken, error);
 }
 
 /* Finds the foot of an asked place. One that the link neither holds nor extends to gets no foot. */
@@ -71,19 +71,17 @@ static ffd_status find_foot(const tear_field *field, size_t link, size_t k, fiel
 static ffd_status displace(const tear_field *field, size_t link, size_t asked, displacement_batch *batch,
                            field_scratch *scratch, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t k = 0; k < asked && !status; k++) {
+    for (size_t k = 0; k < asked; k++) {
         field_foot foot;
-        status = find_foot(field, link, k, &foot, scratch, error);
+        TRY(find_foot(field, link, k, &foot, scratch, error));
         if (foot.inside)
             scratch->chain.inside[batch->count++] = (uint32_t)k;
         else
             ffd_foot_displacement(field, &foot, batch->delta + 3 * k, batch->gradient + 9 * k);
     }
-    if (!status)
-        ffd_displacements(field->chain->links[link].lattice, field->chain->isa, batch,
-                          &scratch->chain.displacement);
-    return status;
+    ffd_displacements(field->chain->links[link].lattice, field->chain->isa, batch,
+                      &scratch->chain.displacement);
+    return FFD_OK;
 }
 
 /* Notes why a link may displace the places of a pair differently. */
@@ -103,14 +101,13 @@ static ffd_status displace_pair(const tear_field *field, size_t link, size_t ask
                                 ffd_tear_cause *cause, field_scratch *scratch, ffd_error *error)
 {
     field_foot feet[2] = {{.link = link}, {.link = link}};
-    ffd_status status = FFD_OK;
-    for (size_t k = 0; k < asked && !status; k++)
-        status = find_foot(field, link, k, &feet[scratch->asked[k]], scratch, error);
+    for (size_t k = 0; k < asked; k++)
+        TRY(find_foot(field, link, k, &feet[scratch->asked[k]], scratch, error));
     ffd_feet_join(field, &feet[0], &feet[1]);
     for (size_t k = 0; k < asked; k++)
         ffd_foot_displacement(field, &feet[scratch->asked[k]], batch->delta + 3 * k, batch->gradient + 9 * k);
     note_cause(field, feet, scratch, cause);
-    return status;
+    return FFD_OK;
 }
 
 /* Adds the displacement by a link: F = F2 F1, written with E = F - I. */
@@ -138,14 +135,13 @@ static ffd_status apply_link(const tear_field *field, size_t link, field_place *
                                 .gradient = scratch->gradient,
                                 .moves = chain->moves};
     size_t asked;
-    ffd_status status = locate(field, link, places, count, &asked, scratch, error);
-    if (!status)
-        status = cause ? displace_pair(field, link, asked, &batch, cause, scratch, error)
-                       : displace(field, link, asked, &batch, scratch, error);
-    for (size_t k = 0; k < asked && !status; k++)
+    TRY(locate(field, link, places, count, &asked, scratch, error));
+    TRY(cause ? displace_pair(field, link, asked, &batch, cause, scratch, error)
+              : displace(field, link, asked, &batch, scratch, error));
+    for (size_t k = 0; k < asked; k++)
         add(&places[scratch->asked[k]], scratch->x + 3 * (size_t)scratch->asked[k], scratch->delta + 3 * k,
             scratch->gradient + 9 * k);
-    return status;
+    return FFD_OK;
 }
 
 /* cause: of a pair of places; or NULL. */
@@ -153,19 +149,18 @@ static ffd_status apply_links(const tear_field *field, field_place *places, size
                               const field_visitor *visitor, ffd_tear_cause *cause, field_scratch *scratch,
                               ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     for (size_t i = 0; i < count; i++) {
         memcpy(scratch->x + 3 * i, places[i].x, 3 * sizeof *scratch->x);
         memset(places[i].delta, 0, sizeof places[i].delta);
         memset(places[i].gradient, 0, sizeof places[i].gradient);
         scratch->held[i] = false;
     }
-    for (size_t l = 0; l < field->chain->count && !status; l++) {
+    for (size_t l = 0; l < field->chain->count; l++) {
         if (visitor)
             visitor->visit(visitor->context, l, scratch->x);
-        status = apply_link(field, l, places, count, cause, scratch, error);
+        TRY(apply_link(field, l, places, count, cause, scratch, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Finds the distance of a place from the nearest of the links that move one end and not the other; HUGE_VAL:
@@ -173,17 +168,16 @@ static ffd_status apply_links(const tear_field *field, field_place *places, size
 static ffd_status find_distance(const tear_field *field, const field_place *place, int end, double *distance,
                                 ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     *distance = HUGE_VAL;
-    for (size_t l = 0; l < field->chain->count && !status; l++) {
+    for (size_t l = 0; l < field->chain->count; l++) {
         field_foot foot;
         if (!takes(field, place->ends[end], l) || takes(field, place->ends[1 - end], l))
             continue;
-        status = ffd_foot_on_border(field, l, place->x, &foot, error);
-        if (!status && foot.found)
+        TRY(ffd_foot_on_border(field, l, place->x, &foot, error));
+        if (foot.found)
             *distance = lesser_of(*distance, foot.point.distance);
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Lists the places in a gap between links that move one end and links that move the other, and decides whose
@@ -191,22 +185,20 @@ static ffd_status find_distance(const tear_field *field, const field_place *plac
 static ffd_status find_gaps(const tear_field *field, const field_place *places, size_t count, size_t *gaps,
                             field_scratch *scratch, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     *gaps = 0;
-    for (size_t i = 0; i < count && !status; i++) {
+    for (size_t i = 0; i < count; i++) {
         double first, second;
         if (places[i].by != FIELD_BETWEEN || scratch->held[i])
             continue;
-        status = find_distance(field, &places[i], 0, &first, error);
-        if (!status)
-            status = find_distance(field, &places[i], 1, &second, error);
-        if (status || first == HUGE_VAL || second == HUGE_VAL)
+        TRY(find_distance(field, &places[i], 0, &first, error));
+        TRY(find_distance(field, &places[i], 1, &second, error));
+        if (first == HUGE_VAL || second == HUGE_VAL)
             continue;
         scratch->in_gaps[*gaps] = places[i];
         scratch->in_gaps[*gaps].by = first <= second ? FIELD_FIRST : FIELD_SECOND;
         scratch->gaps[(*gaps)++] = (uint32_t)i;
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Lattices one after the other. cause: of a pair of places; or NULL. */
@@ -220,15 +212,15 @@ static ffd_status find_in_links(const tear_field *field, field_place *places, si
         TRY(find_gaps(field, places, count, &gaps, scratch, error));
     if (gaps == 0)
         return FFD_OK;
-    ffd_status status = apply_links(field, scratch->in_gaps, gaps, NULL, NULL, scratch, error);
-    for (size_t k = 0; k < gaps && !status; k++) {
+    TRY(apply_links(field, scratch->in_gaps, gaps, NULL, NULL, scratch, error));
+    for (size_t k = 0; k < gaps; k++) {
         field_place *const place = &places[scratch->gaps[k]];
         memcpy(place->delta, scratch->in_gaps[k].delta, sizeof place->delta);
         memcpy(place->gradient, scratch->in_gaps[k].gradient, sizeof place->gradient);
     }
     if (cause)
         *cause = FFD_TEAR_LATTICES;
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_tear_field_find(const tear_field *field, field_place *places, size_t count,

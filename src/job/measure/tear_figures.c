@@ -205,11 +205,9 @@ static ffd_status count_marked(const deform_job *job, const mesh_faces *faces, u
                               .torn = job->details ? &job->details->tears : NULL,
                               .threads = job->threads,
                               .most = most_evaluations(job)};
-    ffd_status status = list_hidden(job, &hidden, &question.mesh.hidden_count, error);
+    TRY(list_hidden(job, &hidden, &question.mesh.hidden_count, error));
     question.mesh.hidden = hidden;
-    if (status)
-        return status;
-    status = ffd_tears_count(&question, &count, error);
+    const ffd_status status = ffd_tears_count(&question, &count, error);
     if (!status || status == FFD_E_LIMIT)
         fill_result(job, faces, &count, !status, result);
     ffd_free(hidden);
@@ -257,9 +255,10 @@ static ffd_status read_and_count(deform_job *job, size_t planes, const figure_ar
     const bool all = some_may_not_move(job) || (is_asked_for(job) && job->chain.count > 1);
     TRY(all ? format->faces(job->document, ffd_job_judged(job), &faces, error)
             : format->mixed_faces(job->document, ffd_job_judged(job), &marks, &faces, error));
-    ffd_status status = ffd_mesh_faces_take(&faces, faces.start[faces.face_count], &budget, error);
-    if (!status)
-        status = count_torn(job, &faces, arrays, &budget, result, error);
+    ffd_status status;
+    TRY_END(ffd_mesh_faces_take(&faces, faces.start[faces.face_count], &budget, error));
+    TRY_END(count_torn(job, &faces, arrays, &budget, result, error));
+end:
     ffd_mesh_faces_free(&faces);
     return status;
 }

@@ -41,11 +41,10 @@ static ffd_status add_jumps(const tear_work *work, const uint64_t *keys, size_t 
                             tear_worker *worker)
 {
     tear_step jumps[CUT_RUN];
-    const ffd_status status =
-        ffd_tear_cut(&work->continued, keys, count, jumps, worker->cuts, &worker->error);
-    for (size_t i = 0; i < count && !status; i++)
+    TRY(ffd_tear_cut(&work->continued, keys, count, jumps, worker->cuts, &worker->error));
+    for (size_t i = 0; i < count; i++)
         steps[i].length = larger_of(steps[i].length, jumps[i].length);
-    return status;
+    return FFD_OK;
 }
 
 /* The step of an end that stays is the displacement that it would have by the lattices of its neighbour, as
@@ -63,15 +62,15 @@ static ffd_status find_stays(const tear_work *work, const uint64_t *keys, size_t
                                .by = work->mesh->chain->blocks ? FIELD_BETWEEN : FIELD_SECOND};
         memcpy(place->x, work->mesh->faces->positions + 3 * (size_t)place->ends[0], sizeof place->x);
     }
-    const ffd_status status = ffd_tear_field_find(&work->field, places, heads, NULL,
-                                                  ffd_tear_cuts_scratch(worker->cuts), &worker->error);
-    for (size_t i = 0; i < count && !status; i++) {
+    TRY(ffd_tear_field_find(&work->field, places, heads, NULL, ffd_tear_cuts_scratch(worker->cuts),
+                            &worker->error));
+    for (size_t i = 0; i < count; i++) {
         of += i > 0 && !is_repeated(work, keys[i - 1], keys[i]);
         steps[i].length = vec_length(places[of].delta);
         steps[i].cause = work->mesh->marks.bytes[ffd_tear_first(keys[i])] & KEPT_ALWAYS ? FFD_TEAR_UNSELECTED
                                                                                         : FFD_TEAR_STAYS;
     }
-    return status || !work->mesh->continues ? status : add_jumps(work, keys, count, steps, worker);
+    return !work->mesh->continues ? FFD_OK : add_jumps(work, keys, count, steps, worker);
 }
 
 static void run_tile(void *context, size_t tile, size_t first, size_t last, int worker)
@@ -102,12 +101,12 @@ static ffd_status find_steps(tear_work *work, ffd_error *error)
         ffd_free(work->workers);
         return ffd_fail_memory(error);
     }
-    for (size_t i = 0; i < workers && !status; i++) {
+    for (size_t i = 0; i < workers; i++) {
         work->workers[i].cuts = ffd_tear_cuts_make();
-        status = work->workers[i].cuts ? FFD_OK : ffd_fail_memory(error);
+        TRY_END(work->workers[i].cuts ? FFD_OK : ffd_fail_memory(error));
     }
-    if (!status)
-        ffd_parallel_tiles(work->edges.count, CUT_RUN, (int)workers, run_tile, work);
+    ffd_parallel_tiles(work->edges.count, CUT_RUN, (int)workers, run_tile, work);
+end:
     for (size_t i = 0; i < workers; i++) {
         if (!status && work->workers[i].status) {
             status = work->workers[i].status;
@@ -176,11 +175,13 @@ static ffd_status join_marks(const tear_work *work, ffd_error *error)
 /* Counts the torn edges of a kind. */
 static ffd_status count_kind(tear_work *work, ffd_error *error)
 {
-    ffd_status status = ffd_tear_edges_list(work->mesh, work->kind, sizeof *work->steps, &work->edges, error);
-    if (!status && work->edges.count > 0)
-        status = find_steps(work, error);
-    for (size_t i = 0; i < work->edges.count && !status; i++)
-        status = judge_edge(work, work->edges.keys[i], &work->steps[i], error);
+    ffd_status status;
+    TRY_END(ffd_tear_edges_list(work->mesh, work->kind, sizeof *work->steps, &work->edges, error));
+    if (work->edges.count > 0)
+        TRY_END(find_steps(work, error));
+    for (size_t i = 0; i < work->edges.count; i++)
+        TRY_END(judge_edge(work, work->edges.keys[i], &work->steps[i], error));
+end:
     ffd_edges_free(&work->edges);
     ffd_free(work->steps);
     work->steps = NULL;
@@ -198,13 +199,13 @@ ffd_status ffd_tears_count(const tear_question *question, tear_count *count, ffd
     work.continued = ffd_tear_field_continue(&work.field, &work.room);
     *count = (tear_count){.vertex = UINT32_MAX};
     atomic_init(&left, question->most);
-    ffd_status status = join_marks(&work, error);
-    for (int kind = mesh->stays ? TEAR_STAYS : TEAR_MOVES; kind < TEAR_KINDS && !status; kind++) {
+    TRY(join_marks(&work, error));
+    for (int kind = mesh->stays ? TEAR_STAYS : TEAR_MOVES; kind < TEAR_KINDS; kind++) {
         work.kind = (tear_kind)kind;
         work.field.left = kind == TEAR_MOVES ? &left : NULL;
-        status = count_kind(&work, error);
+        TRY(count_kind(&work, error));
     }
-    if (!status && question->torn)
+    if (question->torn)
         ffd_torn_edges_thin(question->torn);
-    return status;
+    return FFD_OK;
 }

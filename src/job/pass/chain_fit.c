@@ -45,14 +45,11 @@ static ffd_status find_box(const lattice_chain *chain, size_t links, mesh_docume
                       .bounds_shapes = true,
                       .bounds_of = PASS_BOUNDS_SHOWN};
     pass_totals totals;
-    ffd_status status = ffd_mesh_mark_used(document, error);
-    if (!status)
-        status = ffd_pass_over_mesh(&pass, &totals, error);
+    TRY(ffd_mesh_mark_used(document, error));
+    TRY(ffd_pass_over_mesh(&pass, &totals, error));
     pass.bounds_of = PASS_BOUNDS_ALL;
-    if (!status && is_empty(&totals.after) && is_empty(&totals.shapes))
-        status = ffd_pass_over_mesh(&pass, &totals, error);
-    if (status)
-        return status;
+    if (is_empty(&totals.after) && is_empty(&totals.shapes))
+        TRY(ffd_pass_over_mesh(&pass, &totals, error));
     *box = totals.after;
     ffd_bounds_join(box, &totals.shapes);
     /* Without vertices any box will do. */
@@ -63,23 +60,28 @@ static ffd_status find_box(const lattice_chain *chain, size_t links, mesh_docume
     return FFD_OK;
 }
 
+static ffd_status fit_link(lattice_chain *chain, size_t l, const ffd_bounds *box, ffd_error *error)
+{
+    ffd_lattice *const lattice = chain->links[l].lattice;
+    ffd_status status;
+    TRY_END(ffd_lattice_fit(lattice, box->min, box->max, error));
+    TRY_END(ffd_chain_prepare(chain, l, error));
+end:
+    if (status)
+        ffd_fail_name_file(error, lattice->spec->name);
+    return status;
+}
+
 ffd_status ffd_chain_fit(lattice_chain *chain, mesh_document *document, int threads, ffd_error *error)
 {
     const int usable = ffd_pass_threads(&document->budget, 0, threads);
     for (size_t l = 0; l < chain->count; l++) {
-        chain_link *link = &chain->links[l];
-        if (link->locator)
+        if (chain->links[l].locator)
             continue;
         ffd_bounds box;
         TRY(check_reach(NULL, l, document, error));
         TRY(find_box(chain, chain->blocks ? 0 : l, document, usable, &box, error));
-        ffd_status status = ffd_lattice_fit(link->lattice, box.min, box.max, error);
-        if (!status)
-            status = ffd_chain_prepare(chain, l, error);
-        if (status) {
-            ffd_fail_name_file(error, link->lattice->spec->name);
-            return status;
-        }
+        TRY(fit_link(chain, l, &box, error));
     }
     TRY(ffd_chain_boxes(chain, error));
     TRY(ffd_seams_find(chain, error));

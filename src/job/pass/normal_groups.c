@@ -216,38 +216,33 @@ static ffd_status find_directions(grouping *g, ffd_error *error)
     groups->directions = ffd_alloc_zero(groups->group_count, 3 * sizeof *groups->directions);
     if (!groups->directions)
         return ffd_fail_memory(error);
-    const ffd_status status = ffd_normals_of_groups(g->faces, g->deformed, g->corners, groups->group_count,
-                                                    g->sides, groups->directions, error);
-    for (size_t i = 0; i < groups->group_count && !status; i++) {
+    TRY(ffd_normals_of_groups(g->faces, g->deformed, g->corners, groups->group_count, g->sides,
+                              groups->directions, error));
+    for (size_t i = 0; i < groups->group_count; i++) {
         const double *n = groups->directions + 3 * i;
         if (groups->outcomes[i] == NORMAL_NEW && n[0] == 0 && n[1] == 0 && n[2] == 0)
             groups->outcomes[i] = NORMAL_LOST;
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status make(grouping *g, ffd_error *error)
 {
     size_t *first_vertices = NULL;
-    ffd_status status = count_normals(g, error);
-    if (!status)
-        status = allocate(g, error);
-    if (!status)
-        status = ffd_first_vertices(g->document, &first_vertices, error);
-    if (!status)
-        status = read_corners(g, error);
-    if (!status) {
-        read_normals(g, first_vertices);
-        join_corners(g);
-        g->groups->outcomes = ffd_alloc_zero(g->groups->group_count, 1);
-        if (!g->groups->outcomes)
-            status = ffd_fail_memory(error);
-    }
-    if (!status) {
-        touch_groups(g);
-        if (drop_kept(g))
-            status = find_directions(g, error);
-    }
+    TRY(count_normals(g, error));
+    TRY(allocate(g, error));
+    TRY(ffd_first_vertices(g->document, &first_vertices, error));
+    ffd_status status;
+    TRY_END(read_corners(g, error));
+    read_normals(g, first_vertices);
+    join_corners(g);
+    g->groups->outcomes = ffd_alloc_zero(g->groups->group_count, 1);
+    if (!g->groups->outcomes)
+        TRY_END(ffd_fail_memory(error));
+    touch_groups(g);
+    if (drop_kept(g))
+        TRY_END(find_directions(g, error));
+end:
     ffd_free(first_vertices);
     return status;
 }

@@ -432,8 +432,9 @@ static ffd_status send_points(const pass_tile *tile, const gradient_need *need, 
     run.only_turns = need->turns && !need->all;
     run.kept = counts ? tile->scratch->kept : NULL;
     turns->count = 0;
-    ffd_status status = ffd_chain_apply(pass->chain, pass->links, &run, error);
-    if (!status && run.only_turns && turns->count > 0 && pass->links > 1 && !pass->chain->blocks) {
+    ffd_status status;
+    TRY_END(ffd_chain_apply(pass->chain, pass->links, &run, error));
+    if (run.only_turns && turns->count > 0 && pass->links > 1 && !pass->chain->blocks) {
         /* Rare: several lattices turn points inside out, whose gradients only a second run gives. */
         place_points(tile);
         choose(tile);
@@ -442,16 +443,16 @@ static ffd_status send_points(const pass_tile *tile, const gradient_need *need, 
         run.only_turns = false;
         run.pace = NULL;
         run.moved_twice = run.disagreeing = 0;
-        status = ffd_chain_apply(pass->chain, pass->links, &run, error);
+        TRY_END(ffd_chain_apply(pass->chain, pass->links, &run, error));
     }
+end:
     ffd_tile_add_times(tile, &run);
     if (counts) {
         tile->totals->moved_twice = run.moved_twice;
         tile->totals->disagreeing = run.disagreeing;
         tile->totals->disagreement = run.disagreement;
     }
-    if (status)
-        return status;
+    TRY(status);
     keep_locations(tile);
     if (run.kept)
         mark_kept(tile, run.keeps);
@@ -583,8 +584,7 @@ static ffd_status pass_over_part(part_work *work, pass_totals *totals, ffd_error
         ffd_totals_join(&work->tiles[i], totals);
     ffd_totals_judge_rounding(work->tiles, tiles, ffd_part_tolerance(work->whole.pass->document), totals);
     ffd_free(work->tiles);
-    if (status)
-        return status;
+    TRY(status);
     for (int i = 0; i < work->workers; i++)
         if (work->scratch[i].status) {
             if (error)
@@ -650,24 +650,25 @@ static tile_scratch *make_scratch(const mesh_pass *pass, int workers)
 ffd_status ffd_pass_over_mesh(const mesh_pass *pass, pass_totals *totals, ffd_error *error)
 {
     part_work work = {.whole = {.pass = pass}, .workers = worker_count(pass)};
-    ffd_status status = FFD_OK;
     ffd_totals_clear(totals);
     atomic_init(&work.stopped, false);
     work.scratch = make_scratch(pass, work.workers);
     if (!work.scratch)
         return ffd_fail_memory(error);
-    for (size_t i = 0; i < pass->document->part_count && !status; i++) {
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < pass->document->part_count; i++) {
         const mesh_part *const part = &pass->document->parts[i];
         work.whole.part = part;
         work.whole.part_index = i;
         work.whole.count = part->vertex_count;
         const uint64_t moved = totals->moved;
-        status = pass_over_part(&work, totals, error);
+        TRY_END(pass_over_part(&work, totals, error));
         if (part->splats && !ffd_pass_takes_splats(pass, part))
             ffd_totals_note_splats(totals, i, totals->moved - moved);
         if (!part->repeats_positions)
             work.whole.first_index += part->vertex_count;
     }
+end:
     free_scratch(work.scratch, work.workers);
     return status;
 }

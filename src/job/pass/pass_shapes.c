@@ -101,8 +101,7 @@ static ffd_status send_moved(shape_scratch *s, bool gradients, ffd_error *error)
     chain_run run = ffd_tile_run(moved, gradients);
     const ffd_status status = ffd_chain_apply(tile->pass->chain, tile->pass->links, &run, error);
     ffd_tile_add_times(tile, &run);
-    if (status)
-        return status;
+    TRY(status);
     if (moved->shape != SHAPE_SHOWN)
         count_outside(moved);
     if (tile->part->carried)

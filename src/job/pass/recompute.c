@@ -142,8 +142,8 @@ static void recompute_part(recomputing *r)
 static ffd_status recompute_parts(recomputing *r, ffd_error *error)
 {
     size_t *first_vertices;
-    const ffd_status status = ffd_first_vertices(r->document, &first_vertices, error);
-    for (r->part = 0; r->part < r->document->part_count && !status; r->part++) {
+    TRY(ffd_first_vertices(r->document, &first_vertices, error));
+    for (r->part = 0; r->part < r->document->part_count; r->part++) {
         const mesh_part *part = &r->document->parts[r->part];
         r->first_vertex = first_vertices[r->part];
         if (part->normal_count && !part->skipped)
@@ -151,7 +151,7 @@ static ffd_status recompute_parts(recomputing *r, ffd_error *error)
         r->first_normal += part->normal_count;
     }
     ffd_free(first_vertices);
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_recompute_normals(mesh_document *document, mesh_state state, const mesh_faces *faces,
@@ -161,18 +161,17 @@ ffd_status ffd_recompute_normals(mesh_document *document, mesh_state state, cons
     normal_groups groups = {0};
     recomputing *r = ffd_alloc_zero(1, sizeof *r);
     *counts = (recompute_counts){0};
-    ffd_status status = r ? FFD_OK : ffd_fail_memory(error);
-    if (!status)
-        status = ffd_normal_groups_make(document, state, faces, deformed, &groups, error);
-    if (!status) {
-        r->document = document;
-        r->state = state;
-        r->gradients = gradients;
-        r->groups = &groups;
-        r->counts = counts;
-        counts->normals = groups.normal_count;
-        status = recompute_parts(r, error);
-    }
+    ffd_status status;
+    TRY_END(r ? FFD_OK : ffd_fail_memory(error));
+    TRY_END(ffd_normal_groups_make(document, state, faces, deformed, &groups, error));
+    r->document = document;
+    r->state = state;
+    r->gradients = gradients;
+    r->groups = &groups;
+    r->counts = counts;
+    counts->normals = groups.normal_count;
+    TRY_END(recompute_parts(r, error));
+end:
     ffd_normal_groups_free(&groups);
     ffd_free(r);
     return status;

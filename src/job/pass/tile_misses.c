@@ -16,19 +16,18 @@ ffd_status ffd_tile_find_misses(const pass_tile *tile, ffd_error *error)
     const lattice_chain *const chain = tile->pass->chain;
     const chain_link *const link = chain->links;
     near_misses *const misses = &tile->totals->misses;
-    ffd_status status = FFD_OK;
     const uint64_t before = misses->count;
     int searches = 0;
     if (chain->count != 1 || tile->pass->links != 1 || chain->outside.extend)
         return FFD_OK;
     const double reach = NEXT_TO_NOTHING * link->lattice->diagonal;
-    for (size_t i = 0; i < base->count && !status; i++) {
+    for (size_t i = 0; i < base->count; i++) {
         double miss;
         bool searched;
         if (base->outcomes[i].status != FFD_VERTEX_OUTSIDE ||
             !ffd_part_shows(tile->part, tile->first + ffd_tile_vertex(base, i)))
             continue;
-        status = ffd_link_miss(link, base->position + 3 * i, reach, &miss, &searched, error);
+        TRY(ffd_link_miss(link, base->position + 3 * i, reach, &miss, &searched, error));
         misses->examined++;
         misses->count += miss > 0 && isfinite(miss);
         if (isfinite(miss))
@@ -38,5 +37,5 @@ ffd_status ffd_tile_find_misses(const pass_tile *tile, ffd_error *error)
         if (misses->is_least)
             break;
     }
-    return status;
+    return FFD_OK;
 }

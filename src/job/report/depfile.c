@@ -32,9 +32,10 @@ ffd_status ffd_depfile_create(const char *path, ffd_depfile **depfile, ffd_error
     ffd_depfile *made = ffd_alloc_zero(1, sizeof *made);
     if (!made)
         return ffd_fail_memory(error);
-    ffd_status status = ffd_output_create(&made->output, error);
-    if (!status)
-        status = ffd_output_begin(made->output, path, true, error);
+    ffd_status status;
+    TRY_END(ffd_output_create(&made->output, error));
+    TRY_END(ffd_output_begin(made->output, path, true, error));
+end:
     if (status)
         ffd_depfile_destroy(&made);
     *depfile = made;
@@ -82,20 +83,21 @@ static ffd_status put_names(byte_buffer *rules, const path_list *names, bool onc
 {
     intern_table known = {0};
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < names->count && !status; i++) {
+    for (size_t i = 0; i < names->count; i++) {
         const char *const name = names->paths[i];
         const size_t before = known.count;
         uint32_t index;
         if (name[strcspn(name, "\r\n")])
-            status = ffd_fail_file(error, FFD_E_IO, name,
-                                   "cannot be written in a depfile: its name has a line break");
+            TRY_END(ffd_fail_file(error, FFD_E_IO, name,
+                                  "cannot be written in a depfile: its name has a line break"));
         else if (once && !ffd_intern(&known, name, strlen(name), &index))
-            status = ffd_fail_memory(error);
-        if (status || (once && known.count == before))
+            TRY_END(ffd_fail_memory(error));
+        if (once && known.count == before)
             continue;
         ffd_buffer_text(rules, i ? " " : "");
         put_name(rules, name);
     }
+end:
     ffd_intern_free(&known);
     return status;
 }
@@ -103,20 +105,20 @@ static ffd_status put_names(byte_buffer *rules, const path_list *names, bool onc
 ffd_status ffd_depfile_common_rule(const path_list *outputs, const path_list *inputs, byte_buffer *rules,
                                    ffd_error *error)
 {
-    ffd_status status = put_names(rules, outputs, false, error);
+    TRY(put_names(rules, outputs, false, error));
     ffd_buffer_text(rules, inputs->count ? ": " : ":");
-    if (!status)
-        status = put_names(rules, inputs, true, error);
+    TRY(put_names(rules, inputs, true, error));
     ffd_buffer_text(rules, "\n");
-    return status || !rules->failed ? status : ffd_fail_memory(error);
+    return !rules->failed ? FFD_OK : ffd_fail_memory(error);
 }
 
 ffd_status ffd_depfile_rule(const char *output, const path_list *inputs, byte_buffer *rules, ffd_error *error)
 {
     path_list outputs = {0};
-    ffd_status status = ffd_paths_add(&outputs, output, error);
-    if (!status)
-        status = ffd_depfile_common_rule(&outputs, inputs, rules, error);
+    ffd_status status;
+    TRY_END(ffd_paths_add(&outputs, output, error));
+    TRY_END(ffd_depfile_common_rule(&outputs, inputs, rules, error));
+end:
     ffd_paths_free(&outputs);
     return status;
 }

@@ -219,6 +219,18 @@ static ffd_status grow_file(ffd_report *report, ffd_error *error)
     return status;
 }
 
+/* Adds the entry in the buffer, which begins there after a lead. */
+static ffd_status add_to_file(ffd_report *report, uint64_t index, size_t lead, ffd_error *error)
+{
+    ffd_status status;
+    TRY_END(note_place(report, index, report->end + lead, report->buffer.size - lead, error));
+    TRY_END(grow_file(report, error));
+end:
+    if (status && index < report->place_count)
+        report->places[index].size = 0;
+    return status;
+}
+
 ffd_status ffd_report_add_text(ffd_report *report, uint64_t index, const char *text, size_t size,
                                ffd_error *error)
 {
@@ -227,38 +239,29 @@ ffd_status ffd_report_add_text(ffd_report *report, uint64_t index, const char *t
     ffd_report_put_entry(report->lines, report->count == 0, text, size, buffer);
     if (buffer->failed)
         return ffd_fail_memory(error);
-    ffd_status status;
-    if (report->stream) {
-        status = ffd_output_write(report->stream, buffer->data, buffer->size, error);
-    } else {
-        const size_t lead = report->lines ? 0 : buffer->size - size;
-        status = note_place(report, index, report->end + lead, buffer->size - lead, error);
-        if (!status)
-            status = grow_file(report, error);
-        if (status && index < report->place_count)
-            report->places[index].size = 0;
-    }
-    report->count += !status;
-    return status;
+    TRY(report->stream ? ffd_output_write(report->stream, buffer->data, buffer->size, error)
+                       : add_to_file(report, index, report->lines ? 0 : buffer->size - size, error));
+    report->count++;
+    return FFD_OK;
 }
 
 /* Copies a caller's result, and its array of results of morph targets. *morphs is freed by the caller. */
 static ffd_status take_result(const ffd_job_result *callers, ffd_job_result *result, ffd_job_result **morphs,
                               ffd_error *error)
 {
-    ffd_status status = ffd_struct_take(result, sizeof *result, callers, "ffd_job_result", error);
     *morphs = NULL;
-    if (status || !result->morphs.results)
-        return status;
+    TRY(ffd_struct_take(result, sizeof *result, callers, "ffd_job_result", error));
+    if (!result->morphs.results)
+        return FFD_OK;
     *morphs = ffd_alloc_zero(result->morphs.count, sizeof **morphs);
     if (!*morphs)
         return ffd_fail_memory(error);
     const char *const first = (const char *)result->morphs.results;
-    for (size_t k = 0; k < result->morphs.count && !status; k++)
-        status = ffd_struct_take(&(*morphs)[k], sizeof **morphs, first + k * callers->struct_size,
-                                 "ffd_job_result", error);
+    for (size_t k = 0; k < result->morphs.count; k++)
+        TRY(ffd_struct_take(&(*morphs)[k], sizeof **morphs, first + k * callers->struct_size,
+                            "ffd_job_result", error));
     result->morphs.results = *morphs;
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status add_entry(ffd_report *report, const char *input, const char *output,
@@ -278,9 +281,10 @@ ffd_status ffd_report_add(ffd_report *report, const char *input, const char *out
                           const ffd_job_result *callers, ffd_error *error)
 {
     ffd_job_result result = {.struct_size = sizeof result}, *morphs;
-    ffd_status status = take_result(callers, &result, &morphs, error);
-    if (!status)
-        status = add_entry(report, input, output, &result, error);
+    ffd_status status;
+    TRY_END(take_result(callers, &result, &morphs, error));
+    TRY_END(add_entry(report, input, output, &result, error));
+end:
     ffd_free(morphs);
     return status;
 }
@@ -293,22 +297,21 @@ static ffd_status copy_entries(ffd_report *report, file_output *output, ffd_erro
     byte_buffer *const text = &report->buffer, entry = {0};
     bool is_first = true;
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < report->place_count && !status; i++) {
+    for (size_t i = 0; i < report->place_count; i++) {
         const entry_place place = report->places[i];
         entry.size = text->size = 0;
         if (place.size == 0)
             continue;
         char *const bytes = ffd_buffer_reserve(&entry, (size_t)place.size);
-        status = bytes ? ffd_growing_read(report->file, place.begin, bytes, (size_t)place.size, error)
-                       : ffd_fail_memory(error);
-        if (status)
-            break;
+        TRY_END(bytes ? ffd_growing_read(report->file, place.begin, bytes, (size_t)place.size, error)
+                      : ffd_fail_memory(error));
         /* The line break belongs to the entry of JSON Lines. */
         ffd_report_put_entry(report->lines, is_first, bytes, (size_t)place.size - report->lines, text);
         is_first = false;
-        status =
-            text->failed ? ffd_fail_memory(error) : ffd_output_write(output, text->data, text->size, error);
+        TRY_END(text->failed ? ffd_fail_memory(error)
+                             : ffd_output_write(output, text->data, text->size, error));
     }
+end:
     ffd_buffer_free(&entry);
     return status;
 }
@@ -318,22 +321,19 @@ static ffd_status put_in_order(ffd_report *report, ffd_error *error)
 {
     byte_buffer *const text = &report->buffer;
     file_output *output;
-    ffd_status status = ffd_output_create(&output, error);
+    TRY(ffd_output_create(&output, error));
     text->size = 0;
     ffd_report_begin_text(report->lines, text);
-    if (!status)
-        status = ffd_output_begin(output, report->path, true, error);
-    if (!status && !text->failed)
-        status = ffd_output_write(output, text->data, text->size, error);
-    if (!status)
-        status = copy_entries(report, output, error);
+    ffd_status status;
+    TRY_END(ffd_output_begin(output, report->path, true, error));
+    if (!text->failed)
+        TRY_END(ffd_output_write(output, text->data, text->size, error));
+    TRY_END(copy_entries(report, output, error));
     text->size = 0;
     ffd_report_end_text(report->lines, false, text);
-    if (!status)
-        status =
-            text->failed ? ffd_fail_memory(error) : ffd_output_write(output, text->data, text->size, error);
-    if (!status)
-        status = ffd_output_commit(output, error);
+    TRY_END(text->failed ? ffd_fail_memory(error) : ffd_output_write(output, text->data, text->size, error));
+    TRY_END(ffd_output_commit(output, error));
+end:
     ffd_output_destroy(&output);
     return status;
 }

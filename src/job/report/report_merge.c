@@ -52,15 +52,14 @@ static ffd_status write_next(part *p, merged_report *merged, ffd_error *error)
 
 static ffd_status write_in_order(part *parts, size_t count, merged_report *merged, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; !status && i < count; i++) {
+    for (size_t i = 0; i < count; i++) {
         uint64_t before;
         do {
             before = merged->count;
-            status = write_next(&parts[i], merged, error);
-        } while (!status && merged->count > before);
+            TRY(write_next(&parts[i], merged, error));
+        } while (merged->count > before);
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Takes one entry of each part in turn. Shards of one run differ by at most one entry, so an entry after a
@@ -68,13 +67,12 @@ static ffd_status write_in_order(part *parts, size_t count, merged_report *merge
 static ffd_status write_in_turn(part *parts, size_t count, merged_report *merged, ffd_error *error)
 {
     const part *ended = NULL;
-    ffd_status status = FFD_OK;
     uint64_t before;
     do {
         before = merged->count;
-        for (size_t i = 0; !status && i < count; i++) {
+        for (size_t i = 0; i < count; i++) {
             const uint64_t entries = merged->count;
-            status = write_next(&parts[i], merged, error);
+            TRY(write_next(&parts[i], merged, error));
             if (merged->count > entries && ended)
                 return ffd_fail_file(
                     error, FFD_E_INVALID, ended->reader.name,
@@ -83,17 +81,18 @@ static ffd_status write_in_turn(part *parts, size_t count, merged_report *merged
             if (merged->count == entries && !ended)
                 ended = &parts[i];
         }
-    } while (!status && merged->count > before);
-    return status;
+    } while (merged->count > before);
+    return FFD_OK;
 }
 
 static ffd_status write_report(part *parts, size_t count, bool interleave, merged_report *merged,
                                ffd_error *error)
 {
     ffd_report_begin_text(merged->lines, &merged->buffer);
-    ffd_status status = flush(merged, error);
-    if (!status)
-        status = (interleave ? write_in_turn : write_in_order)(parts, count, merged, error);
+    ffd_status status;
+    TRY_END(flush(merged, error));
+    TRY_END((interleave ? write_in_turn : write_in_order)(parts, count, merged, error));
+end:
     ffd_report_end_text(merged->lines, merged->count == 0, &merged->buffer);
     return status ? status : flush(merged, error);
 }
@@ -103,14 +102,12 @@ static ffd_status write_file(part *parts, size_t count, bool interleave, unsigne
                              bool force, ffd_error *error)
 {
     merged_report merged = {.lines = ffd_report_has_lines(path)};
-    ffd_status status = ffd_output_create(&merged.output, error);
-    if (!status)
-        status = ffd_output_begin(merged.output, path, force, error);
-    if (!status)
-        status = write_report(parts, count, interleave, &merged, error);
-    status = ffd_mapping_judge(losses, status, error);
-    if (!status)
-        status = ffd_output_commit(merged.output, error);
+    TRY(ffd_output_create(&merged.output, error));
+    ffd_status status;
+    TRY_END(ffd_output_begin(merged.output, path, force, error));
+    TRY_END(ffd_mapping_judge(losses, write_report(parts, count, interleave, &merged, error), error));
+    TRY_END(ffd_output_commit(merged.output, error));
+end:
     ffd_output_destroy(&merged.output);
     ffd_buffer_free(&merged.buffer);
     return status;
@@ -121,17 +118,16 @@ ffd_status ffd_report_merge_run(const char *const *reports, size_t count, bool i
 {
     if (count == 0)
         return ffd_fail(error, FFD_E_ARGUMENT, "no report is given");
-    ffd_status status = ffd_output_check(output, force, error);
-    if (status)
-        return status;
+    TRY(ffd_output_check(output, force, error));
     const unsigned losses = ffd_mapping_losses();
     part *const parts = ffd_alloc_zero(count, sizeof *parts);
     if (!parts)
         return ffd_fail_memory(error);
-    for (size_t i = 0; !status && i < count; i++)
-        status = open_part(&parts[i], reports[i], error);
-    if (!status)
-        status = write_file(parts, count, interleave, losses, output, force, error);
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < count; i++)
+        TRY_END(open_part(&parts[i], reports[i], error));
+    TRY_END(write_file(parts, count, interleave, losses, output, force, error));
+end:
     for (size_t i = 0; i < count; i++)
         ffd_file_unload(&parts[i].file);
     ffd_free(parts);

@@ -171,10 +171,12 @@ static ffd_status check_entry(const report_reader *reader, const report_entry_te
     const json_input input = {
         .text = entry->bytes, .size = entry->size, .name = reader->name, .whole = reader->begin};
     json_tree tree;
-    ffd_status status = ffd_json_parse(&input, &tree, error);
-    const bool parsed = !status;
-    if (!status)
-        status = check_members(&tree, reader->name, error);
+    bool parsed = false;
+    ffd_status status;
+    TRY_END(ffd_json_parse(&input, &tree, error));
+    parsed = true;
+    TRY_END(check_members(&tree, reader->name, error));
+end:
     if (status == FFD_E_INVALID && error && (parsed || error->pointer[0]))
         extend_pointer(reader, entry, error);
     ffd_json_tree_free(&tree);

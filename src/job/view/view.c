@@ -84,10 +84,10 @@ static ffd_status check_desc(const view_work *work, ffd_error *error)
         return ffd_fail_file(error, FFD_E_ARGUMENT, desc->output,
                              "the ending \"%s\" is not that of a page or a picture (.html .htm .png)",
                              ffd_path_ending(desc->output));
-    ffd_status status = ffd_view_picture_check(&picture, error);
-    if (!status && !desc->sink)
-        status = ffd_view_check_inputs(desc, error);
-    return status || desc->sink ? status : ffd_output_check(desc->output, desc->force, error);
+    TRY(ffd_view_picture_check(&picture, error));
+    if (!desc->sink)
+        TRY(ffd_view_check_inputs(desc, error));
+    return desc->sink ? FFD_OK : ffd_output_check(desc->output, desc->force, error);
 }
 
 /* What is shown of a mesh: the base, or what default weights of morph targets make of it. */
@@ -168,9 +168,8 @@ static ffd_status take_findings(view_work *work, const ffd_job_result *result, f
 static ffd_status check_mesh(const view_work *work, const ffd_source *source, mesh_document *document,
                              ffd_error *error)
 {
-    const ffd_status status = ffd_mesh_check(document, error);
-    return status || work->desc->sink ? status
-                                      : ffd_view_check_files(source, document, work->desc->output, error);
+    TRY(ffd_mesh_check(document, error));
+    return work->desc->sink ? FFD_OK : ffd_view_check_files(source, document, work->desc->output, error);
 }
 
 /* Deforms the mesh in memory. A shape that a gate refuses is shown too; result then has the refusal. */
@@ -246,18 +245,17 @@ static ffd_status read_deformed(view_work *work, ffd_error *error)
     const ffd_source *const deformed = work->desc->deformed;
     const uint64_t count = ffd_mesh_vertex_count(work->job.document);
     double *positions = NULL;
-    ffd_status status = open_mesh(work, deformed, &work->other, error);
-    if (!status && ffd_mesh_vertex_count(work->other) != count)
-        status = ffd_fail_file(error, FFD_E_INVALID, ffd_source_name(deformed),
-                               "has %llu vertices, and %s has %llu: they are not one mesh before and after",
-                               (unsigned long long)ffd_mesh_vertex_count(work->other),
-                               ffd_source_name(&work->desc->job->input), (unsigned long long)count);
-    if (!status)
-        status = read_positions(work, work->other, &positions, error);
-    if (!status)
-        status = ffd_view_match_parts(work->job.document, work->other, &work->scene.rigs[1].order, error);
-    if (!status)
-        status = ffd_view_place_after(&work->model, positions, &work->scene, error);
+    TRY(open_mesh(work, deformed, &work->other, error));
+    ffd_status status = FFD_OK;
+    if (ffd_mesh_vertex_count(work->other) != count)
+        TRY_END(ffd_fail_file(error, FFD_E_INVALID, ffd_source_name(deformed),
+                              "has %llu vertices, and %s has %llu: they are not one mesh before and after",
+                              (unsigned long long)ffd_mesh_vertex_count(work->other),
+                              ffd_source_name(&work->desc->job->input), (unsigned long long)count));
+    TRY_END(read_positions(work, work->other, &positions, error));
+    TRY_END(ffd_view_match_parts(work->job.document, work->other, &work->scene.rigs[1].order, error));
+    TRY_END(ffd_view_place_after(&work->model, positions, &work->scene, error));
+end:
     ffd_free(positions);
     return status;
 }
@@ -297,14 +295,14 @@ static ffd_status write_view(view_work *work, ffd_error *error)
     TRY(ffd_output_create(&output, error));
     ffd_output_record(output, ffd_output_set_list(desc->job->output_set));
     ffd_output_redirect(output, desc->sink, desc->sink_user);
-    ffd_status status = ffd_output_begin(output, desc->output, desc->force, error);
-    if (!status)
-        status = is_page(desc->output) ? write_page(work, output, error) : write_picture(work, output, error);
-    status = ffd_mapping_judge(work->job.losses, status, error);
-    if (!status) /* an image that seems to be missing may have failed to load */
-        status = ffd_in_memory_judge(&desc->job->input, status, error);
-    if (!status)
-        status = ffd_output_commit(output, error);
+    ffd_status status;
+    TRY_END(ffd_output_begin(output, desc->output, desc->force, error));
+    status = is_page(desc->output) ? write_page(work, output, error) : write_picture(work, output, error);
+    TRY_END(ffd_mapping_judge(work->job.losses, status, error));
+    /* an image that seems to be missing may have failed to load */
+    TRY_END(ffd_in_memory_judge(&desc->job->input, FFD_OK, error));
+    TRY_END(ffd_output_commit(output, error));
+end:
     ffd_output_destroy(&output);
     return status;
 }
@@ -380,17 +378,17 @@ static ffd_status view(const ffd_view_desc *desc, ffd_job_result *result, ffd_er
 {
     view_work work = {.desc = desc, .scene = {.animation = RIG_NONE}};
     ffd_error own;
-    ffd_status status = ffd_deform_job_begin(&work.job, desc->job, true, result);
+    ffd_status status;
+    TRY_END(ffd_deform_job_begin(&work.job, desc->job, true, result));
     work.job.stored = desc->as_stored;
-    if (!status) {
-        status = make_view(&work, result, &own);
-        if (status) {
-            result->error = own;
-        } else {
-            result->picture = desc->output;
-            status = result->status; /* of the gates */
-        }
+    status = make_view(&work, result, &own);
+    if (status) {
+        result->error = own;
+    } else {
+        result->picture = desc->output;
+        status = result->status; /* of the gates */
     }
+end:
     free_work(&work);
     return ffd_deform_job_end(&work.job, status, result, error);
 }
@@ -419,30 +417,38 @@ static ffd_status take_memory(job_memory *memory, ffd_view_desc *desc, ffd_sourc
     return ffd_in_memory_desc(memory, job, error);
 }
 
+static ffd_status view_in_time(ffd_view_desc *desc, ffd_deform_desc *job, ffd_job_result *result)
+{
+    ffd_source deformed;
+    job_memory memory = {0};
+    deadline own;
+    const deadline *const before = ffd_deadline_begin(&own, job->timeout);
+    ffd_status status;
+    TRY_END(take_memory(&memory, desc, &deformed, job, &result->error));
+    TRY_END(view(desc, result, &result->error));
+end:
+    status = ffd_in_memory_end(&memory, status, &result->error);
+    ffd_deadline_end(before);
+    return status;
+}
+
 ffd_status ffd_view_run(const ffd_view_desc *callers, ffd_job_result *callers_result, ffd_error *error)
 {
     ffd_view_desc desc;
     ffd_deform_desc job;
-    ffd_source deformed;
-    job_memory memory = {0};
     ffd_job_result result;
     ffd_view_desc_init(&desc, sizeof desc);
     ffd_deform_desc_init(&job, sizeof job); /* stays unused for files as they are */
     ffd_result_clear(&result);
     TRY(ffd_struct_check(sizeof result, callers_result, "ffd_job_result", error));
-    ffd_status status = ffd_struct_take(&desc, sizeof desc, callers, "ffd_view_desc", &result.error);
-    if (!status && desc.job)
-        status = ffd_deform_desc_take(desc.job, &job, &result.error);
+    ffd_status status;
+    TRY_END(ffd_struct_take(&desc, sizeof desc, callers, "ffd_view_desc", &result.error));
+    if (desc.job)
+        TRY_END(ffd_deform_desc_take(desc.job, &job, &result.error));
     job.morph_results = NULL; /* only jobs that write fill these */
     desc.job = &job;
-    deadline own;
-    const deadline *const before = ffd_deadline_begin(&own, status ? 0 : job.timeout);
-    if (!status)
-        status = take_memory(&memory, &desc, &deformed, &job, &result.error);
-    if (!status)
-        status = view(&desc, &result, &result.error);
-    status = ffd_in_memory_end(&memory, status, &result.error);
-    ffd_deadline_end(before);
+    TRY_END(view_in_time(&desc, &job, &result));
+end:
     if (status && error)
         *error = result.error;
     result.status = status;

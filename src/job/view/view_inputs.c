@@ -39,19 +39,18 @@ ffd_status ffd_view_check_files(const ffd_source *source, const mesh_document *d
                                 ffd_error *error)
 {
     path_list files = {0};
-    bool is_named = false, is_linked = false;
     if (!ffd_file_exists(output) || source->bytes.data)
         return FFD_OK;
-    ffd_status status = find_resources(source, document, &files, error);
-    if (!status && document->format->sidecars)
-        status = document->format->sidecars->list(document, &files, error);
+    ffd_status status;
+    TRY_END(find_resources(source, document, &files, error));
+    if (document->format->sidecars)
+        TRY_END(document->format->sidecars->list(document, &files, error));
     const size_t read = files.count;
-    if (!status)
-        status = ffd_mesh_list_linked(document, &files, error);
-    for (size_t i = 0; i < files.count && !is_named; i++) {
-        is_named = ffd_file_same(files.paths[i], output);
-        is_linked = i >= read;
-    }
+    TRY_END(ffd_mesh_list_linked(document, &files, error));
+    for (size_t i = 0; i < files.count; i++)
+        if (ffd_file_same(files.paths[i], output))
+            TRY_END(refuse(output, i >= read, error));
+end:
     ffd_paths_free(&files);
-    return status ? status : is_named ? refuse(output, is_linked, error) : FFD_OK;
+    return status;
 }

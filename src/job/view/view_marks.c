@@ -18,11 +18,8 @@ static uint64_t index_of(const view_scene *scene, size_t vertex)
 static ffd_status add_statuses(const job_details *details, const mesh_model *model, view_scene *scene,
                                ffd_error *error)
 {
-    const ffd_status status =
-        model->budget ? ffd_budget_take(model->budget, scene->vertex_count, 1 + sizeof *scene->dets, error)
-                      : FFD_OK;
-    if (status)
-        return status;
+    TRY(model->budget ? ffd_budget_take(model->budget, scene->vertex_count, 1 + sizeof *scene->dets, error)
+                      : FFD_OK);
     scene->statuses = ffd_alloc(scene->vertex_count, 1);
     scene->dets = ffd_alloc(scene->vertex_count, sizeof *scene->dets);
     if (!scene->statuses || !scene->dets)

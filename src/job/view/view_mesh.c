@@ -55,12 +55,12 @@ static ffd_status take_face(mesh_taker *t, size_t face)
 {
     size_t count, triangles = 0;
     const model_corner *const corners = model_element(&t->model->lists[MODEL_FACES], face, &count);
-    const ffd_status status = ffd_face_triangles(&t->scratch, t->model, face, &triangles, t->error);
-    for (size_t i = 0; i < 3 * triangles && !status; i++)
+    TRY(ffd_face_triangles(&t->scratch, t->model, face, &triangles, t->error));
+    for (size_t i = 0; i < 3 * triangles; i++)
         put_corner(t, &corners[t->scratch.triangles[i]], 3 * t->triangles + i);
-    for (size_t i = 0; i < triangles && !status; i++)
+    for (size_t i = 0; i < triangles; i++)
         t->faces[t->triangles++] = (uint32_t)face;
-    return status;
+    return FFD_OK;
 }
 
 static const char *name_of_run(const mesh_model *model, const model_run *run)
@@ -136,18 +136,18 @@ ffd_status ffd_view_take_mesh(mesh_model *model, view_scene *scene, uint32_t **f
                               ffd_error *error)
 {
     mesh_taker t = {.model = model, .scene = scene, .error = error};
-    ffd_status status = make_arrays(&t);
-    for (size_t r = 0; r < model->run_count && !status; r++)
-        status = take_run(&t, r);
-    if (!status) {
-        take_lines(&t);
-        take_vertices(model, scene);
-        ffd_polygon_cut_warn(t.scratch.cutter.hurried, log);
-        if (model->features & MODEL_HAS_TEXTURES && scene->materials.count == 0)
-            ffd_log_line(log, FFD_LOG_WARNING, "the textures that the file names are not shown");
-        if (model->face_colours)
-            ffd_log_line(log, FFD_LOG_WARNING, "the colours of faces are not shown");
-    }
+    ffd_status status;
+    TRY_END(make_arrays(&t));
+    for (size_t r = 0; r < model->run_count; r++)
+        TRY_END(take_run(&t, r));
+    take_lines(&t);
+    take_vertices(model, scene);
+    ffd_polygon_cut_warn(t.scratch.cutter.hurried, log);
+    if (model->features & MODEL_HAS_TEXTURES && scene->materials.count == 0)
+        ffd_log_line(log, FFD_LOG_WARNING, "the textures that the file names are not shown");
+    if (model->face_colours)
+        ffd_log_line(log, FFD_LOG_WARNING, "the colours of faces are not shown");
+end:
     ffd_face_triangles_free(&t.scratch);
     *faces = t.faces;
     return status;
@@ -157,11 +157,8 @@ ffd_status ffd_view_place_after(const mesh_model *model, const double *deformed,
                                 ffd_error *error)
 {
     const size_t vertex = 3 * sizeof *scene->after;
-    ffd_status status = FFD_OK;
     if (model->budget)
-        status = ffd_budget_take(model->budget, scene->vertex_count, vertex, error);
-    if (status)
-        return status;
+        TRY(ffd_budget_take(model->budget, scene->vertex_count, vertex, error));
     scene->after = ffd_alloc(scene->vertex_count, vertex);
     if (!scene->after)
         return ffd_fail_memory(error);

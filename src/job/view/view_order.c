@@ -73,10 +73,11 @@ ffd_status ffd_view_match_parts(const mesh_document *before, mesh_document *afte
 {
     part_list of_before, of_after = {0};
     bool moved;
-    ffd_status status =
-        list_parts(before, &of_before) && list_parts(after, &of_after) ? FFD_OK : ffd_fail_memory(error);
-    if (!status && are_alike(&of_before, &of_after, &moved) && moved)
-        status = make_order(&of_before, &of_after, after, order, error);
+    ffd_status status;
+    TRY_END(list_parts(before, &of_before) && list_parts(after, &of_after) ? FFD_OK : ffd_fail_memory(error));
+    if (are_alike(&of_before, &of_after, &moved) && moved)
+        TRY_END(make_order(&of_before, &of_after, after, order, error));
+end:
     ffd_free(of_before.parts);
     ffd_free(of_after.parts);
     return status;

@@ -123,10 +123,9 @@ static ffd_status match(const view_scene *scene, ffd_error *error)
     const size_t count = other ? other->animation_count : 0;
     intern_table names = {0};
     size_t *const first = ffd_alloc(count, sizeof *first);
-    ffd_status status = !first  ? ffd_fail_memory(error)
-                        : other ? intern_names(other, &names, first, error)
-                                : FFD_OK;
-    for (size_t a = 0; a < scene->animation_count && !status; a++) {
+    ffd_status status;
+    TRY_END(!first ? ffd_fail_memory(error) : other ? intern_names(other, &names, first, error) : FFD_OK);
+    for (size_t a = 0; a < scene->animation_count; a++) {
         const char *const name = own->animations[a].name ? own->animations[a].name : "";
         size_t *const of = &scene->animations[a].of[1];
         uint32_t index;
@@ -136,6 +135,7 @@ static ffd_status match(const view_scene *scene, ffd_error *error)
         else if (*name && ffd_intern_find(&names, name, strlen(name), &index))
             *of = first[index];
     }
+end:
     ffd_intern_free(&names);
     ffd_free(first);
     return status;
@@ -172,17 +172,16 @@ static ffd_status load(const view_rigs_desc *desc, view_scene *scene, int side, 
 
 static ffd_status load_all(const view_rigs_desc *desc, view_scene *scene, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t a = 0; a < scene->animation_count && !status; a++) {
+    for (size_t a = 0; a < scene->animation_count; a++) {
         if (!is_wanted(desc, scene, a))
             continue;
-        status = load(desc, scene, 0, a, error);
-        if (!status && scene->rigs[1].skeleton != scene->rigs[0].skeleton)
-            status = load(desc, scene, 1, a, error);
+        TRY(load(desc, scene, 0, a, error));
+        if (scene->rigs[1].skeleton != scene->rigs[0].skeleton)
+            TRY(load(desc, scene, 1, a, error));
         if (scene->rigs[1].skeleton == scene->rigs[0].skeleton)
             scene->animations[a].of[1] = scene->animations[a].of[0];
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status read_anchors(const view_rigs_desc *desc, mesh_document *document, bool after, view_rig *rig,
@@ -237,27 +236,19 @@ static void warn(const view_rigs_desc *desc, const view_scene *scene)
 static ffd_status make_both(const view_rigs_desc *desc, view_scene *scene, ffd_error *error)
 {
     view_rig *const before = &scene->rigs[0], *const after = &scene->rigs[1];
-    ffd_status status = read_skeleton(desc->before, false, before, error);
-    if (!status && (desc->after || desc->follows))
-        status = read_skeleton(desc->after ? desc->after : desc->before, desc->follows, after, error);
-    else if (!status)
-        after->skeleton = before->skeleton;
-    if (!status)
-        status = list_animations(scene, error);
-    if (!status)
-        status = choose(desc, scene, error);
-    if (status)
-        return status;
+    TRY(read_skeleton(desc->before, false, before, error));
     if (desc->after || desc->follows)
-        status = match(scene, error);
-    if (!status)
-        status = load_all(desc, scene, error);
-    if (!status)
-        status = read_anchors(desc, desc->before, false, before, error);
-    if (!status && (desc->after || desc->deformed))
-        status = read_anchors(desc, desc->after ? desc->after : desc->before, desc->deformed, after, error);
-    if (status)
-        return status;
+        TRY(read_skeleton(desc->after ? desc->after : desc->before, desc->follows, after, error));
+    else
+        after->skeleton = before->skeleton;
+    TRY(list_animations(scene, error));
+    TRY(choose(desc, scene, error));
+    if (desc->after || desc->follows)
+        TRY(match(scene, error));
+    TRY(load_all(desc, scene, error));
+    TRY(read_anchors(desc, desc->before, false, before, error));
+    if (desc->after || desc->deformed)
+        TRY(read_anchors(desc, desc->after ? desc->after : desc->before, desc->deformed, after, error));
     turn_offsets(desc, &after->anchors);
     warn(desc, scene);
     return FFD_OK;

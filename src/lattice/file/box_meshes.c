@@ -17,6 +17,15 @@ static bool may_name_meshes(const file_input *input)
     return false;
 }
 
+static ffd_status add_mesh(const lattice_spec *spec, size_t i, path_list *meshes, ffd_error *error)
+{
+    char *mesh;
+    TRY(ffd_spec_mesh(spec, i, &mesh, error));
+    const ffd_status status = ffd_paths_add(meshes, mesh, error);
+    ffd_free(mesh);
+    return status;
+}
+
 ffd_status ffd_lattice_box_meshes(const char *path, const file_input *bytes, path_list *meshes,
                                   ffd_error *error)
 {
@@ -27,13 +36,9 @@ ffd_status ffd_lattice_box_meshes(const char *path, const file_input *bytes, pat
         ffd_spec_load(&(ffd_lattice_source){.path = path}, &rest_only, &spec, &size, NULL))
         return FFD_OK;
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < spec->mesh_count && !status; i++) {
-        char *mesh = NULL;
-        status = ffd_spec_mesh(spec, i, &mesh, error);
-        if (!status)
-            status = ffd_paths_add(meshes, mesh, error);
-        ffd_free(mesh);
-    }
+    for (size_t i = 0; i < spec->mesh_count; i++)
+        TRY_END(add_mesh(spec, i, meshes, error));
+end:
     ffd_spec_free(spec);
     return status;
 }

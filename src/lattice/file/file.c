@@ -36,8 +36,8 @@ ffd_status ffd_lattice_list_parameters(const char *text, size_t size, const char
 {
     const spec_settings settings = {.may_be_open = true};
     lattice_spec *spec;
-    const ffd_status status = ffd_spec_parse(text, size, name, &settings, &spec, error);
-    bool goes_on = !status;
+    bool goes_on = true;
+    TRY(ffd_spec_parse(text, size, name, &settings, &spec, error));
     for (size_t i = 0; goes_on && i < spec->parameter_count; i++) {
         const spec_parameter *const from = &spec->parameters[i];
         const ffd_parameter parameter = {sizeof parameter, from->name, from->value, from->unit,
@@ -45,7 +45,7 @@ ffd_status ffd_lattice_list_parameters(const char *text, size_t size, const char
         goes_on = function(user, &parameter);
     }
     ffd_spec_free(spec);
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_lattice_load(const char *path, ffd_lattice **lattice, ffd_error *error)
@@ -72,14 +72,15 @@ ffd_status ffd_spec_load(const ffd_lattice_source *source, const spec_settings *
     const ffd_bytes *const text = &source->text;
     *spec = NULL;
     *size = text->size;
-    ffd_status status = text->data
-                            ? ffd_spec_parse(text->data, text->size, source->path, settings, spec, error)
-                            : load_file(source->path, settings, spec, size, error);
-    if (!status && (*spec)->mesh_count > 0 && !ffd_lattice_file(source))
-        status = ffd_fail(
+    ffd_status status;
+    TRY_END(text->data ? ffd_spec_parse(text->data, text->size, source->path, settings, spec, error)
+                       : load_file(source->path, settings, spec, size, error));
+    if ((*spec)->mesh_count > 0 && !ffd_lattice_file(source))
+        TRY_END(ffd_fail(
             error, FFD_E_ARGUMENT,
             "the lattice's box goes round meshes named relative to its file: it cannot be read from %s",
-            text->data ? "memory" : ffd_file_display_name(source->path));
+            text->data ? "memory" : ffd_file_display_name(source->path)));
+end:
     if (status) {
         ffd_spec_free(*spec);
         *spec = NULL;
@@ -119,12 +120,14 @@ ffd_status ffd_lattice_list_open(const ffd_lattice_source *source, const ffd_set
     lattice_spec *spec;
     size_t size;
     uint32_t index;
-    ffd_status status = ffd_spec_load(source, &settings, &spec, &size, error);
-    for (uint32_t i = 0; !status && i < spec->open.count; i++) {
+    TRY(ffd_spec_load(source, &settings, &spec, &size, error));
+    ffd_status status = FFD_OK;
+    for (uint32_t i = 0; i < spec->open.count; i++) {
         const char *const name = ffd_intern_key(&spec->open, i);
         if (!ffd_intern(open, name, strlen(name), &index))
-            status = ffd_fail_memory(error);
+            TRY_END(ffd_fail_memory(error));
     }
+end:
     ffd_spec_free(spec);
     return status;
 }
@@ -165,13 +168,12 @@ ffd_status ffd_lattice_write(const ffd_lattice *lattice, file_output *output, co
 {
     size_t size;
     char *text;
-    ffd_status status = ffd_lattice_text(lattice, &text, &size, error);
-    if (!status)
-        status = ffd_output_begin(output, path, force, error);
-    if (!status)
-        status = ffd_output_write(output, text, size, error);
-    if (!status)
-        status = ffd_output_commit(output, error);
+    ffd_status status;
+    TRY_END(ffd_lattice_text(lattice, &text, &size, error));
+    TRY_END(ffd_output_begin(output, path, force, error));
+    TRY_END(ffd_output_write(output, text, size, error));
+    TRY_END(ffd_output_commit(output, error));
+end:
     ffd_free(text);
     return status;
 }
@@ -179,9 +181,8 @@ ffd_status ffd_lattice_write(const ffd_lattice *lattice, file_output *output, co
 ffd_status ffd_lattice_save(const ffd_lattice *lattice, const char *path, bool force, ffd_error *error)
 {
     file_output *output;
-    ffd_status status = ffd_output_create(&output, error);
-    if (!status)
-        status = ffd_lattice_write(lattice, output, path, force, error);
+    TRY(ffd_output_create(&output, error));
+    const ffd_status status = ffd_lattice_write(lattice, output, path, force, error);
     ffd_output_destroy(&output);
     return status;
 }

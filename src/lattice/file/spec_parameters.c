@@ -113,9 +113,8 @@ ffd_status ffd_spec_parse_parameters(json_cursor cursor, lattice_spec *spec)
     if (!spec->parameters)
         return ffd_fail_memory(cursor.file->error);
     spec->parameter_count = count;
-    ffd_status status = FFD_OK;
     json_cursor parameter = ffd_cursor_first(cursor);
-    for (size_t i = 0; i < count && !status; i++, parameter = ffd_cursor_next(parameter))
-        status = read_parameter(parameter, &spec->parameters[i]);
-    return status;
+    for (size_t i = 0; i < count; i++, parameter = ffd_cursor_next(parameter))
+        TRY(read_parameter(parameter, &spec->parameters[i]));
+    return FFD_OK;
 }

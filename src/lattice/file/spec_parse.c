@@ -59,12 +59,12 @@ static ffd_status read_direction_size(json_cursor cursor, lattice_spec *spec, si
 
 static ffd_status read_size(json_cursor cursor, lattice_spec *spec)
 {
-    ffd_status status = ffd_json_read_array(cursor, 3, "sizes");
+    TRY(ffd_json_read_array(cursor, 3, "sizes"));
     json_cursor size = ffd_cursor_first(cursor);
     spec->count = 1;
-    for (size_t a = 0; a < 3 && !status; a++, size = ffd_cursor_next(size))
-        status = read_direction_size(size, spec, a);
-    return status;
+    for (size_t a = 0; a < 3; a++, size = ffd_cursor_next(size))
+        TRY(read_direction_size(size, spec, a));
+    return FFD_OK;
 }
 
 static ffd_status read_direction_degree(json_cursor cursor, lattice_spec *spec, size_t a)
@@ -86,11 +86,11 @@ static ffd_status read_degree(json_cursor cursor, lattice_spec *spec)
         spec->degree[a] = spec->size[a] > 3 ? 3 : (int)spec->size[a] - 1;
     if (!ffd_cursor_exists(cursor))
         return FFD_OK;
-    ffd_status status = ffd_json_read_array(cursor, 3, "degrees");
+    TRY(ffd_json_read_array(cursor, 3, "degrees"));
     json_cursor degree = ffd_cursor_first(cursor);
-    for (size_t a = 0; a < 3 && !status; a++, degree = ffd_cursor_next(degree))
-        status = read_direction_degree(degree, spec, a);
-    return status;
+    for (size_t a = 0; a < 3; a++, degree = ffd_cursor_next(degree))
+        TRY(read_direction_degree(degree, spec, a));
+    return FFD_OK;
 }
 
 static ffd_status read_knot_list(json_cursor cursor, size_t count, const char *what, lattice_spec *spec,
@@ -155,32 +155,28 @@ static ffd_status read_knots(json_cursor cursor, lattice_spec *spec)
             spec->kind[1] = KNOTS_CLOSED;
         return FFD_OK;
     }
-    ffd_status status = ffd_json_read_array(cursor, 3, "knot vectors");
+    TRY(ffd_json_read_array(cursor, 3, "knot vectors"));
     json_cursor knots = ffd_cursor_first(cursor);
-    for (size_t a = 0; a < 3 && !status; a++, knots = ffd_cursor_next(knots)) {
-        status = read_direction_knots(knots, spec, a);
-        if (!status)
-            status = check_closed(knots, spec, a);
+    for (size_t a = 0; a < 3; a++, knots = ffd_cursor_next(knots)) {
+        TRY(read_direction_knots(knots, spec, a));
+        TRY(check_closed(knots, spec, a));
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status read_weights(json_cursor cursor, size_t count, double **weights)
 {
-    ffd_status status = ffd_json_read_array(cursor, count, "weights");
-    if (status)
-        return status;
+    TRY(ffd_json_read_array(cursor, count, "weights"));
     *weights = ffd_alloc(count, sizeof **weights);
     if (!*weights)
         return ffd_fail_memory(cursor.file->error);
     json_cursor weight = ffd_cursor_first(cursor);
-    for (size_t i = 0; i < count && !status; i++, weight = ffd_cursor_next(weight)) {
-        status = ffd_json_read_double(weight, *weights + i);
-        if (!status && !((*weights)[i] > 0))
-            status =
-                ffd_cursor_fail(weight, "weight %s is not positive", ffd_number_text((*weights)[i]).text);
+    for (size_t i = 0; i < count; i++, weight = ffd_cursor_next(weight)) {
+        TRY(ffd_json_read_double(weight, *weights + i));
+        if (!((*weights)[i] > 0))
+            return ffd_cursor_fail(weight, "weight %s is not positive", ffd_number_text((*weights)[i]).text);
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status read_deformed(json_cursor cursor, lattice_spec *spec)
@@ -233,16 +229,15 @@ static ffd_status read_members(json_cursor root, lattice_spec *spec)
         {"deformed", read_deformed, false, false},
         {"units", read_units, false, false},
     };
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < COUNT_OF(members) && !status; i++) {
+    for (size_t i = 0; i < COUNT_OF(members); i++) {
         const struct member *const member = &members[i];
         json_cursor cursor = ffd_cursor_member(root, member->key);
         if (member->required)
-            status = ffd_json_require(root, member->key, &cursor);
-        if (!status && (ffd_cursor_exists(cursor) || member->has_default))
-            status = member->read(cursor, spec);
+            TRY(ffd_json_require(root, member->key, &cursor));
+        if (ffd_cursor_exists(cursor) || member->has_default)
+            TRY(member->read(cursor, spec));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Checked first, because in a newer version anything else may have another meaning. */
@@ -269,18 +264,18 @@ static ffd_status read_tree(json_file *file, const spec_settings *settings, latt
 {
     spec_values values = {0};
     json_trace trace = {0};
-    ffd_status status = check_kind(ffd_cursor_top(file));
+    ffd_status status;
+    TRY_END(check_kind(ffd_cursor_top(file)));
     const json_cursor parameters = ffd_cursor_member(ffd_cursor_top(file), "parameters");
-    if (!status && ffd_cursor_exists(parameters))
-        status = ffd_spec_parse_parameters(parameters, spec);
-    if (!status)
-        status = ffd_spec_set(file, ffd_json_tree_member(file->tree, 0, "moves"), settings, spec, &values);
+    if (ffd_cursor_exists(parameters))
+        TRY_END(ffd_spec_parse_parameters(parameters, spec));
+    TRY_END(ffd_spec_set(file, ffd_json_tree_member(file->tree, 0, "moves"), settings, spec, &values));
     if (settings->derives)
         file->trace = &trace;
-    if (!status)
-        status = read_root(ffd_cursor_top(file), values.open.count == 0, spec);
-    if (!status && settings->derives)
-        status = ffd_spec_make_seeds(file, &values.origins, spec);
+    TRY_END(read_root(ffd_cursor_top(file), values.open.count == 0, spec));
+    if (settings->derives)
+        TRY_END(ffd_spec_make_seeds(file, &values.origins, spec));
+end:
     file->trace = NULL;
     ffd_free(trace.entries);
     spec->open = values.open;
@@ -299,25 +294,20 @@ ffd_status ffd_spec_parse(const char *text, size_t size, const char *name, const
     lattice_spec *result = NULL;
     *spec = NULL;
     ffd_status status = ffd_json_parse(&input, &tree, error);
-    if (status) {
-        ffd_stand_in_describe(text, size, error);
-        goto out;
-    }
-    result = ffd_alloc_zero(1, sizeof *result);
-    if (!result || !(result->name = ffd_text_copy(name))) {
-        status = ffd_fail_memory(error);
-        goto out;
-    }
-    json_file file = {.name = name, .tree = &tree, .error = error};
-    status = read_tree(&file, settings ? settings : &none, result);
-    if (!status) {
-        *spec = result;
-        result = NULL;
-    }
-out:
     if (status)
+        ffd_stand_in_describe(text, size, error);
+    TRY_END(status);
+    result = ffd_alloc_zero(1, sizeof *result);
+    if (!result || !(result->name = ffd_text_copy(name)))
+        TRY_END(ffd_fail_memory(error));
+    json_file file = {.name = name, .tree = &tree, .error = error};
+    TRY_END(read_tree(&file, settings ? settings : &none, result));
+    *spec = result;
+end:
+    if (status) {
         ffd_fail_name_file(error, name);
-    ffd_spec_free(result);
+        ffd_spec_free(result);
+    }
     ffd_json_tree_free(&tree);
     return status;
 }

@@ -24,13 +24,13 @@ static ffd_status read_index(json_cursor cursor, size_t size, size_t *index)
 static ffd_status read_range(json_cursor cursor, size_t size, size_t *first, size_t *last)
 {
     size_t *const ends[2] = {first, last};
-    ffd_status status = ffd_json_read_array(cursor, 2, "indices");
+    TRY(ffd_json_read_array(cursor, 2, "indices"));
     json_cursor index = ffd_cursor_first(cursor);
-    for (size_t i = 0; i < 2 && !status; i++, index = ffd_cursor_next(index))
-        status = read_index(index, size, ends[i]);
-    if (!status && *first > *last)
+    for (size_t i = 0; i < 2; i++, index = ffd_cursor_next(index))
+        TRY(read_index(index, size, ends[i]));
+    if (*first > *last)
         return ffd_cursor_fail(cursor, "the range from %zu to %zu is empty", *first, *last);
-    return status;
+    return FFD_OK;
 }
 
 /* Reads an index, an inclusive range [lo, hi], or "all". */
@@ -57,11 +57,11 @@ static ffd_status read_indices(json_cursor cursor, size_t size, size_t *first, s
 static ffd_status read_at(json_cursor cursor, const lattice_spec *spec, lattice_move *move)
 {
     move->has_at = true;
-    ffd_status status = ffd_json_read_array(cursor, 3, "selections");
+    TRY(ffd_json_read_array(cursor, 3, "selections"));
     json_cursor indices = ffd_cursor_first(cursor);
-    for (size_t a = 0; a < 3 && !status; a++, indices = ffd_cursor_next(indices))
-        status = read_indices(indices, spec->size[a], &move->at_first[a], &move->at_last[a]);
-    return status;
+    for (size_t a = 0; a < 3; a++, indices = ffd_cursor_next(indices))
+        TRY(read_indices(indices, spec->size[a], &move->at_first[a], &move->at_last[a]));
+    return FFD_OK;
 }
 
 static ffd_status read_within(json_cursor cursor, lattice_move *move)
@@ -303,11 +303,10 @@ static ffd_status read_mirror(json_cursor cursor, lattice_move *move)
     size_t axis;
     if (!ffd_cursor_exists(cursor))
         return FFD_OK;
-    const ffd_status status = ffd_json_read_word(cursor, names, COUNT_OF(names), &axis);
+    TRY(ffd_json_read_word(cursor, names, COUNT_OF(names), &axis));
     move->has_mirror = true;
-    if (!status)
-        move->mirror = (int)axis;
-    return status;
+    move->mirror = (int)axis;
+    return FFD_OK;
 }
 
 static ffd_status read_move(json_cursor cursor, const lattice_spec *spec, lattice_move *move)
@@ -335,11 +334,10 @@ ffd_status ffd_spec_parse_moves(json_cursor cursor, lattice_spec *spec)
     if (!spec->moves)
         return ffd_fail_memory(cursor.file->error);
     spec->move_count = count;
-    ffd_status status = FFD_OK;
     json_cursor move = ffd_cursor_first(cursor);
-    for (size_t i = 0; i < count && !status; i++, move = ffd_cursor_next(move)) {
+    for (size_t i = 0; i < count; i++, move = ffd_cursor_next(move)) {
         snprintf(spec->moves[i].pointer, sizeof spec->moves[i].pointer, "/moves/%zu", i);
-        status = read_move(move, spec, &spec->moves[i]);
+        TRY(read_move(move, spec, &spec->moves[i]));
     }
-    return status;
+    return FFD_OK;
 }

@@ -29,11 +29,11 @@ static ffd_status check_axes(json_cursor cursor, const double axes[9])
 
 static ffd_status read_axes(json_cursor cursor, double axes[9])
 {
-    ffd_status status = ffd_json_read_array(cursor, 3, "axes");
+    TRY(ffd_json_read_array(cursor, 3, "axes"));
     json_cursor row = ffd_cursor_first(cursor);
-    for (size_t r = 0; r < 3 && !status; r++, row = ffd_cursor_next(row))
-        status = ffd_json_read_doubles(row, 3, axes + 3 * r);
-    return status ? status : check_axes(cursor, axes);
+    for (size_t r = 0; r < 3; r++, row = ffd_cursor_next(row))
+        TRY(ffd_json_read_doubles(row, 3, axes + 3 * r));
+    return check_axes(cursor, axes);
 }
 
 static ffd_status check_sides(json_cursor cursor, const lattice_spec *spec)
@@ -64,33 +64,31 @@ static ffd_status read_box(json_cursor cursor, lattice_spec *spec)
 {
     static const char *const keys[] = {"min", "max", "spacing", "axes", "meshes", SPEC_NOTES};
     spec->rest = SPEC_BOX;
-    ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
-    if (!status)
-        status = ffd_spec_read_ends(cursor, spec->box_min, spec->box_max);
+    TRY(ffd_spec_read_object(cursor, keys, COUNT_OF(keys)));
+    TRY(ffd_spec_read_ends(cursor, spec->box_min, spec->box_max));
     const json_cursor spacing = ffd_cursor_member(cursor, "spacing"),
                       axes = ffd_cursor_member(cursor, "axes");
     spec->has_axes = ffd_cursor_exists(axes);
-    if (!status && ffd_cursor_exists(spacing))
-        status = read_spacing(spacing, &spec->spacing);
-    if (!status && spec->has_axes)
-        status = read_axes(axes, spec->box_axes);
-    return status ? status : check_sides(cursor, spec);
+    if (ffd_cursor_exists(spacing))
+        TRY(read_spacing(spacing, &spec->spacing));
+    if (spec->has_axes)
+        TRY(read_axes(axes, spec->box_axes));
+    return check_sides(cursor, spec);
 }
 
 /* Reads a margin: a number, or one for each direction. */
 static ffd_status read_margin(json_cursor cursor, double margin[3])
 {
-    ffd_status status;
     if (ffd_cursor_is(cursor, JSON_ARRAY)) {
-        status = ffd_json_read_doubles(cursor, 3, margin);
+        TRY(ffd_json_read_doubles(cursor, 3, margin));
     } else {
-        status = ffd_json_read_double(cursor, margin);
+        TRY(ffd_json_read_double(cursor, margin));
         margin[1] = margin[2] = margin[0];
     }
-    for (int a = 0; a < 3 && !status; a++)
+    for (int a = 0; a < 3; a++)
         if (margin[a] < 0)
             return ffd_cursor_fail(cursor, "margin %s is less than 0", ffd_number_text(margin[a]).text);
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status refuse_margin(json_cursor cursor)
@@ -125,12 +123,10 @@ static ffd_status read_meshes(json_cursor box, lattice_spec *spec)
 {
     static const char *const keys[] = {"meshes", SPEC_NOTES};
     const json_cursor list = ffd_cursor_member(box, "meshes");
-    ffd_status status = ffd_spec_read_object(box, keys, COUNT_OF(keys));
+    TRY(ffd_spec_read_object(box, keys, COUNT_OF(keys)));
     spec->rest = SPEC_BOX_MESH;
-    if (!status && !ffd_cursor_is(list, JSON_ARRAY))
+    if (!ffd_cursor_is(list, JSON_ARRAY))
         return ffd_cursor_fail(list, "is not a list of mesh files");
-    if (status)
-        return status;
     const size_t count = ffd_cursor_count(list);
     if (count == 0)
         return ffd_cursor_fail(list, "names no mesh");
@@ -138,11 +134,11 @@ static ffd_status read_meshes(json_cursor box, lattice_spec *spec)
     if (!spec->meshes)
         return ffd_fail_memory(box.file->error);
     json_cursor path = ffd_cursor_first(list);
-    for (; spec->mesh_count < count && !status; path = ffd_cursor_next(path)) {
-        status = ffd_spec_read_path(path, &spec->meshes[spec->mesh_count]);
-        spec->mesh_count += !status;
+    for (; spec->mesh_count < count; path = ffd_cursor_next(path)) {
+        TRY(ffd_spec_read_path(path, &spec->meshes[spec->mesh_count]));
+        spec->mesh_count++;
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Reads "box": {"min": ..}, or "box": "mesh" or {"meshes": ..} with a margin as the next member of "rest". */
@@ -151,19 +147,17 @@ static ffd_status read_any_box(json_cursor rest, lattice_spec *spec)
     static const char *const names[] = {"mesh"};
     const json_cursor box = ffd_cursor_member(rest, "box"), margin = ffd_cursor_member(rest, "margin");
     size_t index;
-    ffd_status status = refuse_misplaced(box);
-    if (status)
-        return status;
+    TRY(refuse_misplaced(box));
     if (ffd_cursor_is(box, JSON_STRING)) {
         spec->rest = SPEC_BOX_MESH;
-        status = ffd_json_read_word(box, names, COUNT_OF(names), &index);
+        TRY(ffd_json_read_word(box, names, COUNT_OF(names), &index));
     } else if (ffd_cursor_exists(ffd_cursor_member(box, "meshes"))) {
-        status = read_meshes(box, spec);
+        TRY(read_meshes(box, spec));
     } else {
-        status = read_box(box, spec);
+        TRY(read_box(box, spec));
     }
-    if (status || !ffd_cursor_exists(margin))
-        return status;
+    if (!ffd_cursor_exists(margin))
+        return FFD_OK;
     return spec->rest == SPEC_BOX_MESH ? read_margin(margin, spec->margin) : refuse_margin(margin);
 }
 

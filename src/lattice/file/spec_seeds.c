@@ -84,18 +84,17 @@ static ffd_status add_seed(const json_file *file, const spec_origin *origin, con
 ffd_status ffd_spec_make_seeds(const json_file *file, const spec_origins *origins, lattice_spec *spec)
 {
     const json_trace *const trace = file->trace;
-    ffd_status status = FFD_OK;
     spec->seeds = ffd_alloc(trace->count, sizeof *spec->seeds);
     if (!spec->seeds)
         return ffd_fail_memory(file->error);
-    for (size_t i = 0; i < origins->count && !status; i++) {
+    for (size_t i = 0; i < origins->count; i++) {
         const spec_origin *const origin = &origins->origins[i];
         const size_t before = spec->seed_count;
-        for (size_t t = 0; t < trace->count && !status; t++)
+        for (size_t t = 0; t < trace->count; t++)
             if (trace->entries[t].replaced == origin->value)
-                status = add_seed(file, origin, &trace->entries[t], spec);
-        if (!status && spec->seed_count == before)
-            status = refuse(file, origin, spec);
+                TRY(add_seed(file, origin, &trace->entries[t], spec));
+        if (spec->seed_count == before)
+            TRY(refuse(file, origin, spec));
     }
-    return status;
+    return FFD_OK;
 }

@@ -42,14 +42,14 @@ static ffd_status read_placeholder(json_cursor cursor, uint32_t text, spec_place
     placeholder->name = ffd_json_tree_string(cursor.tree, text, NULL);
     if (!placeholder->name)
         return ffd_fail_memory(cursor.file->error);
-    ffd_status status = ffd_spec_check_notes(cursor);
-    if (!status && ffd_cursor_exists(times))
-        status = ffd_json_read_double(times, &placeholder->factor);
+    TRY(ffd_spec_check_notes(cursor));
+    if (ffd_cursor_exists(times))
+        TRY(ffd_json_read_double(times, &placeholder->factor));
     if (placeholder->name[0] == '-' && placeholder->name[1]) {
         memmove(placeholder->name, placeholder->name + 1, strlen(placeholder->name));
         placeholder->factor = -placeholder->factor;
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Makes hash tables of the names of settings and of those of parameters, which are distinct, for fast lookup
@@ -226,16 +226,16 @@ static ffd_status fill(json_file *file, uint32_t v, uint32_t text, const spec_se
 {
     spec_placeholder placeholder = {0};
     const json_tree *value = NULL;
-    ffd_status status = read_placeholder((json_cursor){file, file->tree, v, JSON_NONE}, text, &placeholder);
-    if (!status)
-        status = find_value(&placeholder, settings, spec, values, &value);
-    if (!status && value && settings->derives)
-        status = ffd_spec_add_origin(file, (spec_origin){.value = v, .factor = placeholder.factor},
-                                     placeholder.name, value, spec, &values->origins);
-    if (!status && value && placeholder.factor != 1)
-        status = multiply(&placeholder, values, &value);
-    if (!status)
-        status = value ? add_substitute(file, v, value, values) : note_open(&placeholder, &values->open);
+    ffd_status status;
+    TRY_END(read_placeholder((json_cursor){file, file->tree, v, JSON_NONE}, text, &placeholder));
+    TRY_END(find_value(&placeholder, settings, spec, values, &value));
+    if (value && settings->derives)
+        TRY_END(ffd_spec_add_origin(file, (spec_origin){.value = v, .factor = placeholder.factor},
+                                    placeholder.name, value, spec, &values->origins));
+    if (value && placeholder.factor != 1)
+        TRY_END(multiply(&placeholder, values, &value));
+    TRY_END(value ? add_substitute(file, v, value, values) : note_open(&placeholder, &values->open));
+end:
     ffd_free(placeholder.name);
     return status;
 }
@@ -245,26 +245,26 @@ ffd_status ffd_spec_set(json_file *file, uint32_t moves, const spec_settings *se
 {
     const json_tree *const tree = file->tree;
     const uint32_t end = moves == JSON_NONE ? 0 : tree->values[moves].next;
-    ffd_status status = list_names(file, settings, spec, values);
     uint32_t first_open = JSON_NONE;
+    TRY(list_names(file, settings, spec, values));
     values->count = settings->count + spec->parameter_count;
     values->values = ffd_alloc_zero(values->count, sizeof *values->values);
-    if (!status && !values->values)
-        status = ffd_fail_memory(file->error);
+    if (!values->values)
+        return ffd_fail_memory(file->error);
     /* Descendants of "moves" follow it in the tree. */
-    for (uint32_t v = moves + 1; v < end && !status; v++) {
+    for (uint32_t v = moves + 1; v < end; v++) {
         const uint32_t text = placeholder_text(tree, v);
         if (text == JSON_NONE)
             continue;
-        status = fill(file, v, text, settings, spec, values);
+        TRY(fill(file, v, text, settings, spec, values));
         if (first_open == JSON_NONE && values->open.count > 0)
             first_open = v;
     }
-    if (!status && values->open.count > 0 && !settings->may_be_open)
-        status = refuse_open(file, first_open, &values->open);
+    if (values->open.count > 0 && !settings->may_be_open)
+        return refuse_open(file, first_open, &values->open);
     file->substitutes = values->substitutes;
     file->substitute_count = values->substitute_count;
-    return status;
+    return FFD_OK;
 }
 
 void ffd_spec_values_free(spec_values *values)

@@ -61,16 +61,14 @@ ffd_status ffd_spec_read_object(json_cursor cursor, const char *const *known, si
 
 ffd_status ffd_spec_read_points(json_cursor cursor, size_t count, double **points)
 {
-    ffd_status status = ffd_json_read_array(cursor, count, "points");
-    if (status)
-        return status;
+    TRY(ffd_json_read_array(cursor, count, "points"));
     *points = ffd_alloc(count, 3 * sizeof **points);
     if (!*points)
         return ffd_fail_memory(cursor.file->error);
     json_cursor point = ffd_cursor_first(cursor);
-    for (size_t i = 0; i < count && !status; i++, point = ffd_cursor_next(point))
-        status = ffd_json_read_doubles(point, 3, *points + 3 * i);
-    return status;
+    for (size_t i = 0; i < count; i++, point = ffd_cursor_next(point))
+        TRY(ffd_json_read_doubles(point, 3, *points + 3 * i));
+    return FFD_OK;
 }
 
 ffd_status ffd_spec_read_path(json_cursor cursor, char **path)
@@ -121,16 +119,14 @@ ffd_status ffd_spec_read_axis(json_cursor object, const char *key, double axis[3
 {
     static const char *const names[] = {"x", "y", "z"};
     json_cursor cursor;
-    ffd_status status = ffd_json_require(object, key, &cursor);
-    if (status)
-        return status;
+    TRY(ffd_json_require(object, key, &cursor));
     if (ffd_cursor_is(cursor, JSON_STRING)) {
         size_t index;
         TRY(refuse_sign(cursor));
-        status = ffd_json_read_word(cursor, names, COUNT_OF(names), &index);
+        TRY(ffd_json_read_word(cursor, names, COUNT_OF(names), &index));
         for (size_t c = 0; c < 3; c++)
             axis[c] = c == index;
-        return status;
+        return FFD_OK;
     }
     TRY(ffd_json_read_doubles(cursor, 3, axis));
     return ffd_direction_unit(axis) ? FFD_OK

@@ -154,9 +154,10 @@ ffd_status ffd_lattice_tangents_find(const ffd_lattice *lattice, lattice_tangent
 {
     tangent_work work = {.spec = lattice->spec, .tangents = tangents, .count = lattice->count};
     *tangents = (lattice_tangents){.columns = ffd_spec_column_count(lattice->spec)};
-    ffd_status status = make(lattice, &work, error);
-    if (!status)
-        status = ffd_lattice_replay(lattice, &(move_observer){see, &work}, error);
+    ffd_status status;
+    TRY_END(make(lattice, &work, error));
+    TRY_END(ffd_lattice_replay(lattice, &(move_observer){see, &work}, error));
+end:
     ffd_free(work.seeded);
     ffd_free(work.moves);
     ffd_free(work.parts);

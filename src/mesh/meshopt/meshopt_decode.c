@@ -63,9 +63,7 @@ ffd_status ffd_meshopt_decode(const meshopt_view *view, unsigned char *bytes, ff
 {
     /* The library is quicker, and all its versions know version 0. */
     const bool is_older = ffd_meshopt_version(view) == 0 && ffd_meshopt_library_ready(NULL) == FFD_OK;
-    const ffd_status status =
-        is_older ? ffd_meshopt_library_decode(view, bytes, error) : ffd_meshopt_read(view, bytes, error);
-    if (!status)
-        apply_filter(view, bytes);
-    return status;
+    TRY(is_older ? ffd_meshopt_library_decode(view, bytes, error) : ffd_meshopt_read(view, bytes, error));
+    apply_filter(view, bytes);
+    return FFD_OK;
 }

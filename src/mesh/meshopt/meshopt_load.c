@@ -20,7 +20,6 @@ ffd_status ffd_meshopt_simplify(const meshopt_mesh *mesh, size_t target, bool is
                                 size_t *count, ffd_error *error)
 {
     const module_head *head;
-    const ffd_status status = ffd_module_load(&meshopt, &head, error);
-    return status ? status
-                  : ((const meshopt_module *)head)->simplify(mesh, target, is_rough, result, count, error);
+    TRY(ffd_module_load(&meshopt, &head, error));
+    return ((const meshopt_module *)head)->simplify(mesh, target, is_rough, result, count, error);
 }

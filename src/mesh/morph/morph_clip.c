@@ -77,8 +77,7 @@ static ffd_status read_name(clip_parser *p, const char *ends)
         p->at += p->length;
     }
     p->word[p->length] = 0;
-    if (status)
-        return status;
+    TRY(status);
     if (p->length == 0) {
         p->at = begin;
         return refuse(p, "is where a name is missing");
@@ -159,20 +158,17 @@ static ffd_status read_time(clip_parser *p)
 static ffd_status read_key(clip_parser *p)
 {
     skip_blanks(p);
-    ffd_status status = read_time(p);
-    for (skip_blanks(p); !status && *p->at && *p->at != ','; skip_blanks(p))
-        status = read_weight(p);
-    if (!status)
-        p->clip->starts[p->clip->key_count] = p->clip->weight_count;
-    return status;
+    TRY(read_time(p));
+    for (skip_blanks(p); *p->at && *p->at != ','; skip_blanks(p))
+        TRY(read_weight(p));
+    p->clip->starts[p->clip->key_count] = p->clip->weight_count;
+    return FFD_OK;
 }
 
 static ffd_status parse(clip_parser *p)
 {
     skip_blanks(p);
-    ffd_status status = read_name(p, " \t=,:");
-    if (status)
-        return status;
+    TRY(read_name(p, " \t=,:"));
     skip_blanks(p);
     if (*p->at != ':')
         return refuse(p, "is where \":\" after the clip's name is missing");
@@ -182,9 +178,9 @@ static ffd_status parse(clip_parser *p)
     memcpy(p->clip->name, p->word, p->length + 1);
     do {
         p->at++;
-        status = read_key(p);
-    } while (!status && *p->at == ',');
-    return status;
+        TRY(read_key(p));
+    } while (*p->at == ',');
+    return FFD_OK;
 }
 
 ffd_status ffd_morph_clip_parse(const char *text, morph_clip *clip, ffd_error *error)
@@ -234,15 +230,16 @@ ffd_status ffd_morph_clips_check(const morph_clip *clips, size_t count, const in
 {
     intern_table names = {0};
     ffd_status status = FFD_OK;
-    for (size_t c = 0; c < count && !status; c++) {
-        status = check_name(&clips[c], c, &names, error);
-        for (uint32_t n = 0; n < clips[c].names.count && !status; n++) {
+    for (size_t c = 0; c < count; c++) {
+        TRY_END(check_name(&clips[c], c, &names, error));
+        for (uint32_t n = 0; n < clips[c].names.count; n++) {
             const char *const name = ffd_intern_key(&clips[c].names, n);
             uint32_t index;
             if (!ffd_intern_find(known, name, strlen(name), &index))
-                status = refuse_target(&clips[c], name, known, error);
+                TRY_END(refuse_target(&clips[c], name, known, error));
         }
     }
+end:
     ffd_intern_free(&names);
     return status;
 }

@@ -58,12 +58,10 @@ static ffd_status write_copy(const resource_copier *c, const resource_kind *kind
     if (!c->output)
         return FFD_OK;
     char *folder = ffd_path_folder(target);
-    ffd_status status = folder ? ffd_output_folder(c->output, folder, error) : ffd_fail_memory(error);
+    const ffd_status status = folder ? ffd_output_folder(c->output, folder, error) : ffd_fail_memory(error);
     ffd_free(folder);
-    if (!status)
-        status = begin_copy(c, target, &exists, error);
-    if (status)
-        return status;
+    TRY(status);
+    TRY(begin_copy(c, target, &exists, error));
     return exists ? compare_copy(kind, target, bytes, error)
                   : ffd_output_write(c->output, bytes->data, bytes->size, error);
 }
@@ -162,9 +160,10 @@ static ffd_status copy_loaded(const resource_copier *c, const mesh_resource *res
 {
     char *const target =
         c->sink_name ? ffd_path_sibling(c->sink_name, resource->path) : ffd_path_join(c->to, resource->path);
-    ffd_status status = target ? write_copy(c, resource->kind, target, bytes, error) : ffd_fail_memory(error);
-    if (!status)
-        status = ffd_resource_note(c, resource, error);
+    ffd_status status;
+    TRY_END(target ? write_copy(c, resource->kind, target, bytes, error) : ffd_fail_memory(error));
+    TRY_END(ffd_resource_note(c, resource, error));
+end:
     ffd_free(target);
     return status;
 }
@@ -199,13 +198,14 @@ ffd_status ffd_resource_check_target(const resource_copier *c, const mesh_resour
                                      const char *target, ffd_error *error)
 {
     char *source = ffd_path_join(c->from, resource->path), *copy = ffd_path_join(c->to, resource->path);
-    ffd_status status = source && copy ? FFD_OK : ffd_fail_memory(error);
-    if (!status &&
-        ((!c->mesh.resolve && meets(c, source, target)) ||
-         (is_copied && (strcmp(resource->path, ffd_path_name(target)) == 0 || meets(c, copy, target)))))
-        status = ffd_fail_file(error, FFD_E_EXISTS, target,
-                               "is also the path of the %s \"%s\": give the output another name",
-                               resource->kind->name, resource->path);
+    ffd_status status;
+    TRY_END(source && copy ? FFD_OK : ffd_fail_memory(error));
+    if ((!c->mesh.resolve && meets(c, source, target)) ||
+        (is_copied && (strcmp(resource->path, ffd_path_name(target)) == 0 || meets(c, copy, target))))
+        TRY_END(ffd_fail_file(error, FFD_E_EXISTS, target,
+                              "is also the path of the %s \"%s\": give the output another name",
+                              resource->kind->name, resource->path));
+end:
     ffd_free(source);
     ffd_free(copy);
     return status;
@@ -229,12 +229,12 @@ static ffd_status copy(const resource_copier *c, const mesh_resource *resource, 
     char shown[RESOURCE_SHOWN];
     if (ffd_path_leads_out(resource->path) && is_reached(c, resource->path))
         return FFD_OK;
-    const ffd_status status = ffd_resource_copy(c, resource, &refused, error);
+    TRY(ffd_resource_copy(c, resource, &refused, error));
     ffd_name_shown(resource->path, shown, sizeof shown);
-    if (!status && refused.status)
+    if (refused.status)
         ffd_log_line(c->log, FFD_LOG_WARNING, "the %s \"%s\" cannot be copied: %s", resource->kind->name,
                      shown, refused.message);
-    return status;
+    return FFD_OK;
 }
 
 static void log_unreached(const resource_copier *c, const mesh_resource *resource)
@@ -250,14 +250,13 @@ static void log_unreached(const resource_copier *c, const mesh_resource *resourc
 ffd_status ffd_resources_bring(const resource_copier *c, const resource_list *list, bool copies, bool is_stay,
                                const char *target, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < list->count && !status; i++)
-        status = ffd_resource_check_target(c, &list->resources[i], copies || is_stay, target, error);
-    for (size_t i = 0; i < list->count && !status && !is_stay; i++) {
+    for (size_t i = 0; i < list->count; i++)
+        TRY(ffd_resource_check_target(c, &list->resources[i], copies || is_stay, target, error));
+    for (size_t i = 0; i < list->count && !is_stay; i++) {
         if (copies)
-            status = copy(c, &list->resources[i], error);
+            TRY(copy(c, &list->resources[i], error));
         else
             log_unreached(c, &list->resources[i]);
     }
-    return status;
+    return FFD_OK;
 }

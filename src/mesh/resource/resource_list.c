@@ -1,4 +1,5 @@
 #include "mesh/resource/resource_list.h"
+#include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "mesh/resource/image_file.h"
 #include <stdlib.h>
@@ -43,4 +44,19 @@ void ffd_resources_free(resource_list *list)
     ffd_free(list->resources);
     ffd_intern_free(&list->known);
     *list = (resource_list){0};
+}
+
+ffd_status ffd_resource_add_named(const char *path, const char *relative, const mesh_named *named,
+                                  ffd_error *error)
+{
+    char *const file = ffd_path_sibling(path, relative);
+    ffd_status status;
+    TRY_END(file ? FFD_OK : ffd_fail_memory(error));
+    if (named->files)
+        TRY_END(ffd_paths_add(named->files, file, error));
+    if (named->copies && !ffd_path_leads_out(relative))
+        TRY_END(ffd_paths_add(named->copies, file, error));
+end:
+    ffd_free(file);
+    return status;
 }

@@ -5,6 +5,7 @@
 
 #include "base/fail.h"
 #include "base/memory/intern.h"
+#include "mesh/linked_files.h"
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -41,5 +42,9 @@ ffd_status ffd_resources_add(resource_list *list, const resource_kind *kind, siz
 void ffd_resources_sort(resource_list *list);
 /* Frees the files and empties the list. */
 void ffd_resources_free(resource_list *list);
+/* Adds a file that a mesh at a path names to what is asked for; one outside the mesh's folder is not copied.
+   Errors: FFD_E_MEMORY. */
+ffd_status ffd_resource_add_named(const char *path, const char *relative, const mesh_named *named,
+                                  ffd_error *error);
 
 #endif

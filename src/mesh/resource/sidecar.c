@@ -61,9 +61,11 @@ static ffd_status note_old(const sidecar_names *names, const char *target, path_
     sidecar_file file = {0};
     if (ffd_file_same(names->old, target))
         return FFD_OK;
-    ffd_status status = inspect(names, names->old, &file, error);
-    if (!status && file.others > 0)
-        status = note_users(names->old, "was", &file, passed, error);
+    ffd_status status;
+    TRY_END(inspect(names, names->old, &file, error));
+    if (file.others > 0)
+        TRY_END(note_users(names->old, "was", &file, passed, error));
+end:
     ffd_paths_free(&file.names);
     return status;
 }
@@ -78,31 +80,40 @@ static void log_passed_over(const sidecar_names *names, const path_list *passed,
 ffd_status ffd_sidecar_next(sidecar_names *names, sidecar_own_function *own, const void *context,
                             char **target, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     path_list passed = {0};
+    sidecar_file file = {0};
+    char *path = NULL;
     bool is_own = false, old_is_noted = !names->old;
+    ffd_status status = FFD_OK;
     *target = NULL;
-    while (!*target && !status) {
-        char *path = ffd_sidecar_name(names->options->path, names->index++);
-        sidecar_file file = {0};
-        status = path ? inspect(names, path, &file, error) : ffd_fail_memory(error);
-        if (!status && file.others > 0) {
-            status = note_users(path, "is", &file, &passed, error);
+    while (!*target) {
+        path = ffd_sidecar_name(names->options->path, names->index++);
+        TRY_END(path ? inspect(names, path, &file, error) : ffd_fail_memory(error));
+        if (file.others > 0) {
+            TRY_END(note_users(path, "is", &file, &passed, error));
             names->passes++;
             old_is_noted = old_is_noted || ffd_file_same(names->old, path);
-        } else if (!status) {
+        } else {
             is_own = names->in_place ? own(context, path) : file.is_own;
             const bool is_free = !file.exists || is_own || (!names->in_place && names->passes == 0);
             *target = is_free ? path : NULL;
-            path = is_free ? NULL : path;
         }
+        if (!*target)
+            ffd_free(path);
+        path = NULL;
         ffd_paths_free(&file.names);
-        ffd_free(path);
     }
-    if (!status && !old_is_noted)
-        status = note_old(names, *target, &passed, error);
-    if (!status && !is_own) /* else it has that name already */
+    if (!old_is_noted)
+        TRY_END(note_old(names, *target, &passed, error));
+    if (!is_own) /* else it has that name already */
         log_passed_over(names, &passed, *target);
+end:
+    if (status) {
+        ffd_free(*target);
+        *target = NULL;
+    }
+    ffd_free(path);
+    ffd_paths_free(&file.names);
     ffd_paths_free(&passed);
     return status;
 }

@@ -288,16 +288,13 @@ static ffd_status add_clip(clip_writer *w, const morph_clip *clip, uint32_t *nam
 {
     const gltf_document *const d = w->file->document;
     char shown[80];
-    ffd_status status = FFD_OK;
     w->clip = clip;
     w->input = GLTF_NONE;
     w->sampler_count = w->channel_count = w->sampler_text.size = w->channel_text.size = 0;
     for (size_t m = 0; m < d->model.mesh_count; m++)
         w->samplers[m] = GLTF_NONE;
-    for (size_t n = 0; n < d->model.node_count && !status; n++)
-        status = add_channel(w, n, names);
-    if (status)
-        return status;
+    for (size_t n = 0; n < d->model.node_count; n++)
+        TRY(add_channel(w, n, names));
     ffd_name_shown(clip->name, shown, sizeof shown);
     if (w->channel_count > 0)
         return place_clip(w, animations);

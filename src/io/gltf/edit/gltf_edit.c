@@ -44,13 +44,13 @@ size_t ffd_gltf_add_zeros(gltf_edit *edit, uint64_t count, bool bounded)
 ffd_status ffd_gltf_make_elements(gltf_edit *edit, gltf_content *content, ffd_error *error)
 {
     const size_t size = content->width * sizeof *content->values;
-    const ffd_status status = ffd_budget_take(&edit->document->base.budget, content->count, size, error);
-    content->values = status ? NULL : ffd_alloc(content->count, size);
-    if (!status && !content->values) {
-        ffd_budget_return(&edit->document->base.budget, content->count, size);
-        return ffd_fail_memory(error);
-    }
-    return status;
+    content->values = NULL;
+    TRY(ffd_budget_take(&edit->document->base.budget, content->count, size, error));
+    content->values = ffd_alloc(content->count, size);
+    if (content->values)
+        return FFD_OK;
+    ffd_budget_return(&edit->document->base.budget, content->count, size);
+    return ffd_fail_memory(error);
 }
 
 void ffd_gltf_free_elements(gltf_edit *edit, gltf_content *content)

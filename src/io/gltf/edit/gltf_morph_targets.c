@@ -225,9 +225,11 @@ ffd_status ffd_gltf_add_target(gltf_edit *edit, const gltf_morph *morph, const m
     }
     if (!edit->edits.failed)
         add_to_meshes(&w);
-    ffd_status status = edit->edits.failed ? ffd_fail_memory(error) : FFD_OK;
-    if (!status && w.replaces)
-        status = ffd_gltf_warn_of_left(d, w.users, count, morph->name, log, &edit->bytes_left, error);
+    ffd_status status;
+    TRY_END(edit->edits.failed ? ffd_fail_memory(error) : FFD_OK);
+    if (w.replaces)
+        TRY_END(ffd_gltf_warn_of_left(d, w.users, count, morph->name, log, &edit->bytes_left, error));
+end:
     ffd_free(w.users);
     for (int i = 0; i < ZEROS_KINDS; i++)
         ffd_free(w.zeros[i]);

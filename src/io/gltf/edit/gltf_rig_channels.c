@@ -186,19 +186,21 @@ static ffd_status follow_channels(channel_work *w, const gltf_animation *animati
 {
     bool *const taken = ffd_alloc_zero(animation->sampler_count, sizeof *taken);
     intern_table copies = {0};
-    ffd_status status = taken ? FFD_OK : ffd_fail_memory(w->error);
-    for (size_t c = 0; c < animation->channel_count && !status; c++) {
+    ffd_status status;
+    TRY_END(taken ? FFD_OK : ffd_fail_memory(w->error));
+    for (size_t c = 0; c < animation->channel_count; c++) {
         const gltf_channel *const channel = &animation->channels[c];
         size_t content = GLTF_NONE;
         change->channels[c] = channel->sampler;
         if (channel->sampler == GLTF_NONE)
             continue;
         if (is_concerned(w->rig, channel))
-            status = find_content(w, channel, &animation->samplers[channel->sampler], &content);
-        if (!status && !choose_sampler(animation, channel->sampler, content, taken, &copies, change,
-                                       &change->channels[c]))
-            status = ffd_fail_memory(w->error);
+            TRY_END(find_content(w, channel, &animation->samplers[channel->sampler], &content));
+        if (!choose_sampler(animation, channel->sampler, content, taken, &copies, change,
+                            &change->channels[c]))
+            TRY_END(ffd_fail_memory(w->error));
     }
+end:
     ffd_intern_free(&copies);
     ffd_free(taken);
     return status;
@@ -206,17 +208,16 @@ static ffd_status follow_channels(channel_work *w, const gltf_animation *animati
 
 static ffd_status follow_animation(channel_work *w, gltf_animation *animation, gltf_rig_animation *change)
 {
-    ffd_status status = ffd_gltf_load_animation(w->document, animation, w->error);
-    if (status)
-        return status;
+    TRY(ffd_gltf_load_animation(w->document, animation, w->error));
     change->contents = ffd_alloc(animation->sampler_count, sizeof *change->contents);
     change->channels = ffd_alloc(animation->channel_count, sizeof *change->channels);
+    ffd_status status = FFD_OK;
     if (!change->contents || !change->channels)
-        status = ffd_fail_memory(w->error);
-    for (size_t s = 0; s < animation->sampler_count && !status; s++)
+        TRY_END(ffd_fail_memory(w->error));
+    for (size_t s = 0; s < animation->sampler_count; s++)
         change->contents[s] = GLTF_NONE;
-    if (!status)
-        status = follow_channels(w, animation, change);
+    TRY_END(follow_channels(w, animation, change));
+end:
     ffd_gltf_unload_animation(w->document, animation);
     return status;
 }
@@ -239,13 +240,12 @@ ffd_status ffd_gltf_follow_animations(gltf_document *d, ffd_error *error)
 {
     gltf_rig *const rig = &d->edit->rig;
     channel_work w = {.document = d, .rig = rig, .error = error};
-    ffd_status status = ffd_gltf_list_animations(d, &rig->animations, error);
-    if (status)
-        return status;
+    TRY(ffd_gltf_list_animations(d, &rig->animations, error));
     rig->changes = ffd_alloc_zero(rig->animations.count, sizeof *rig->changes);
     if (!rig->changes)
         return ffd_fail_memory(error);
-    for (size_t a = 0; a < rig->animations.count && !status; a++) {
+    ffd_status status = FFD_OK;
+    for (size_t a = 0; a < rig->animations.count; a++) {
         gltf_animation *const animation = &rig->animations.list[a];
         bool concerned = false;
         for (size_t c = 0; c < animation->channel_count; c++) {
@@ -253,8 +253,9 @@ ffd_status ffd_gltf_follow_animations(gltf_document *d, ffd_error *error)
             rig->pointers_left += is_left(d, rig, &animation->channels[c]);
         }
         if (concerned)
-            status = follow_animation(&w, animation, &rig->changes[a]);
+            TRY_END(follow_animation(&w, animation, &rig->changes[a]));
     }
+end:
     ffd_intern_free(&w.keys);
     ffd_free(w.results);
     return status;

@@ -134,8 +134,7 @@ static ffd_status list_staying(const gltf_document *d, const mesh_places *places
                                ffd_error *error)
 {
     const bool is_old = ffd_gltf_has_extension(d, 0, "VRM");
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < places->count && !status; i++) {
+    for (size_t i = 0; i < places->count; i++) {
         const mesh_place *const place = &places->list[i];
         const bool has_shape = place->kinds & PLACE_BIT(FFD_BEHIND_PHYSICS_SHAPE);
         const size_t moved = rig->motions[place->index].moved;
@@ -152,9 +151,9 @@ static ffd_status list_staying(const gltf_document *d, const mesh_places *places
                       {moves && place->holds & PLACE_HOLDS_AIM, &found->aims},
                       /* Also nodes that stay below one that turns. */
                       {is_old && moved != GLTF_NONE && is_turned(d, &rig->nodes[moved]), &found->turned}};
-        for (size_t g = 0; g < sizeof groups / sizeof *groups && !status; g++)
+        for (size_t g = 0; g < sizeof groups / sizeof *groups; g++)
             if (groups[g].is_one)
-                status = add_place(d, place->index, groups[g].group, error);
+                TRY(add_place(d, place->index, groups[g].group, error));
         following->unscaled += groups[0].is_one || groups[1].is_one || groups[2].is_one || groups[3].is_one;
     }
     end_group(&found->splats);
@@ -163,7 +162,7 @@ static ffd_status list_staying(const gltf_document *d, const mesh_places *places
     end_group(&found->eyes);
     end_group(&found->aims);
     end_group(&found->turned);
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status find_staying(const gltf_document *d, const mesh_places *places, const gltf_rig *rig,
@@ -245,31 +244,32 @@ static ffd_status warn_of_left_skins(const gltf_document *d, const gltf_rig *rig
 {
     place_group left = {0};
     double most = 0;
-    ffd_status status = FFD_OK;
     bool *const listed = ffd_alloc_zero(d->model.node_count, sizeof *listed);
     if (!listed)
         return ffd_fail_memory(error);
-    for (size_t i = 0; i < d->base.part_count && !status; i++) {
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < d->base.part_count; i++) {
         double by;
         const size_t node = d->parts[i].node;
-        status = left_by_joints(d, rig, i, &by, error);
-        if (status || !(by > 0))
+        TRY_END(left_by_joints(d, rig, i, &by, error));
+        if (!(by > 0))
             continue;
         most = by > most ? by : most;
         if (!listed[node])
-            status = add_place(d, node, &left, error);
+            TRY_END(add_place(d, node, &left, error));
         listed[node] = true;
     }
-    ffd_free(listed);
     end_group(&left);
     following->unselected += left.count;
     following->unselected_by = most > following->unselected_by ? most : following->unselected_by;
-    if (!status && left.count > 0)
+    if (left.count > 0)
         ffd_log_line(log, FFD_LOG_WARNING, "%zu skinned %s, though joints %s on move, by up to %g%s",
                      left.count,
                      ffd_plural(left.count, SPELLED("mesh that {only} does not select stays where it is"),
                                 SPELLED("meshes that {only} does not select stay where they are")),
                      ffd_plural(left.count, "that it hangs", "that they hang"), most, left.names);
+end:
+    ffd_free(listed);
     return status;
 }
 
@@ -328,13 +328,12 @@ ffd_status ffd_gltf_follow(mesh_document *document, const mesh_places *places, m
     ffd_gltf_clear_edit(d);
     *following = (mesh_following){0};
     TRY(check_memory(d, error));
-    ffd_status status = ffd_gltf_follow_nodes(d, places, moves, following, error);
-    if (!status)
-        status = ffd_gltf_follow_skins(d, places, moves, error);
-    if (!status)
-        status = ffd_gltf_follow_animations(d, error);
-    if (!status)
-        status = warn_of_rig(d, places, rig, log, following, error);
+    ffd_status status;
+    TRY_END(ffd_gltf_follow_nodes(d, places, moves, following, error));
+    TRY_END(ffd_gltf_follow_skins(d, places, moves, error));
+    TRY_END(ffd_gltf_follow_animations(d, error));
+    TRY_END(warn_of_rig(d, places, rig, log, following, error));
+end:
     d->edit->any = rig->node_count > 0;
     if (status)
         ffd_gltf_clear_edit(d);

@@ -264,11 +264,10 @@ ffd_status ffd_gltf_follow_skins(gltf_document *d, const mesh_places *places, co
     bool *const shown = ffd_alloc_zero(count, sizeof *shown);
     bool *const staying = ffd_alloc_zero(count, sizeof *staying);
     rig->skin_contents = ffd_alloc(count, sizeof *rig->skin_contents);
-    const bool allocated = inverses && shown && staying && rig->skin_contents;
-    ffd_status status = allocated ? FFD_OK : ffd_fail_memory(error);
-    if (allocated)
-        mark_skins(d, shown, staying);
-    for (size_t s = 0; s < count && !status; s++) {
+    ffd_status status;
+    TRY_END(inverses && shown && staying && rig->skin_contents ? FFD_OK : ffd_fail_memory(error));
+    mark_skins(d, shown, staying);
+    for (size_t s = 0; s < count; s++) {
         affine similarity = still;
         const gltf_skin *const skin = &d->skins[s];
         const size_t first = skin->joint_count ? find_place(places, skin->joints[0]) : SIZE_MAX;
@@ -277,13 +276,13 @@ ffd_status ffd_gltf_follow_skins(gltf_document *d, const mesh_places *places, co
         if (shown[s] && !staying[s] && first != SIZE_MAX)
             find_similarity(&places->list[first], &moves[first], &similarity, &inverses[s]);
         if (shown[s] || (staying[s] && ffd_gltf_has_joint_matrices(d, skin)))
-            status = follow_skin(d, s, &similarity, error);
+            TRY_END(follow_skin(d, s, &similarity, error));
     }
-    if (!status)
-        carry_parts(d, rig, inverses);
-    for (size_t i = 0; i < d->base.part_count && !status; i++)
+    carry_parts(d, rig, inverses);
+    for (size_t i = 0; i < d->base.part_count; i++)
         if (d->mesh_parts[i].carried && d->mesh_parts[i].skipped)
-            status = ffd_gltf_add_results(d, i, error);
+            TRY_END(ffd_gltf_add_results(d, i, error));
+end:
     ffd_free(inverses);
     ffd_free(shown);
     ffd_free(staying);

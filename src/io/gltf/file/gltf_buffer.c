@@ -122,10 +122,7 @@ static ffd_status load_file(const loader *l, char *uri, size_t size, gltf_buffer
     if (!buffer->path)
         return ffd_fail_memory(l->error);
     buffer->flaws = ffd_folder_turn_slashes(l->model, buffer->path) ? BUFFER_BACKSLASH : 0;
-    const ffd_status status =
-        ffd_folder_load(l->model, buffer->path, l->name, l->most_read, &buffer->file, l->error);
-    if (status)
-        return status;
+    TRY(ffd_folder_load(l->model, buffer->path, l->name, l->most_read, &buffer->file, l->error));
     buffer->kind = BUFFER_FILE;
     buffer->data = buffer->file.data;
     buffer->size = buffer->file.size;
@@ -156,19 +153,20 @@ ffd_status ffd_gltf_load_buffer(const json_tree *tree, uint32_t value, const uns
     size_t padding = 0;
     ffd_status status = FFD_OK;
     if (l.uri != JSON_NONE) {
-        status = load_uri(&l, buffer);
+        TRY_END(load_uri(&l, buffer));
     } else if (bin) {
         padding = GLB_PADDING;
         buffer->kind = BUFFER_BIN;
         buffer->data = bin;
         buffer->size = bin_size;
     }
-    if (!status && buffer->kind != BUFFER_EMPTY && buffer->size < buffer->length) {
+    if (buffer->kind != BUFFER_EMPTY && buffer->size < buffer->length) {
         buffer->flaws |= BUFFER_SHORT;
         buffer->length = buffer->size;
     }
-    if (!status && buffer->kind != BUFFER_EMPTY && buffer->size - buffer->length > padding)
+    if (buffer->kind != BUFFER_EMPTY && buffer->size - buffer->length > padding)
         buffer->flaws |= BUFFER_LONG;
+end:
     if (status)
         ffd_gltf_free_buffer(buffer);
     return status;

@@ -150,13 +150,11 @@ uint32_t ffd_gltf_next_linked(const json_tree *tree, uint32_t v, uint32_t *exten
 ffd_status ffd_gltf_find_linked(const json_tree *tree, const file_folder *mesh, path_list *files,
                                 ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     uint32_t extension, v = ffd_gltf_next_linked(tree, 0, &extension);
-    for (; v != JSON_NONE && !status; v = ffd_gltf_next_linked(tree, v + 1, &extension)) {
+    for (; v != JSON_NONE; v = ffd_gltf_next_linked(tree, v + 1, &extension)) {
         char *relative;
-        status = ffd_gltf_uri_path(tree, v, mesh, &relative, error);
-        if (!status)
-            status = ffd_gltf_add_sibling(mesh, relative, files, error);
+        TRY(ffd_gltf_uri_path(tree, v, mesh, &relative, error));
+        TRY(ffd_gltf_add_sibling(mesh, relative, files, error));
     }
-    return status;
+    return FFD_OK;
 }

@@ -138,12 +138,12 @@ static size_t count_of(const gltf_document *d, uint32_t object, const char *key)
 }
 
 /* Takes memory from the document's budget until the list is freed. */
-static ffd_status take(gltf_document *d, gltf_animations *of, size_t count, size_t size, ffd_error *error)
+static ffd_status take(gltf_document *d, uint64_t *taken, size_t count, size_t size, ffd_error *error)
 {
     const uint64_t before = d->base.budget.taken;
-    const ffd_status status = ffd_budget_take(&d->base.budget, count, size, error);
-    of->taken += d->base.budget.taken - before;
-    return status;
+    TRY(ffd_budget_take(&d->base.budget, count, size, error));
+    *taken += d->base.budget.taken - before;
+    return FFD_OK;
 }
 
 static ffd_status make_arrays(gltf_document *d, gltf_animations *of, gltf_animation *animation,
@@ -151,8 +151,8 @@ static ffd_status make_arrays(gltf_document *d, gltf_animations *of, gltf_animat
 {
     const size_t samplers = count_of(d, animation->value, "samplers");
     const size_t channels = count_of(d, animation->value, "channels");
-    TRY(take(d, of, samplers, sizeof *animation->samplers, error));
-    TRY(take(d, of, channels, sizeof *animation->channels, error));
+    TRY(take(d, &of->taken, samplers, sizeof *animation->samplers, error));
+    TRY(take(d, &of->taken, channels, sizeof *animation->channels, error));
     animation->samplers = ffd_alloc_zero(samplers, sizeof *animation->samplers);
     animation->sampler_count = animation->samplers ? samplers : 0;
     animation->channels = ffd_alloc_zero(channels, sizeof *animation->channels);
@@ -165,9 +165,7 @@ static ffd_status read_animation(gltf_document *d, gltf_animations *of, gltf_ani
     const json_tree *const tree = &d->tree;
     const uint32_t name = ffd_json_tree_member(tree, animation->value, "name");
     size_t s = 0;
-    ffd_status status = make_arrays(d, of, animation, error);
-    if (status)
-        return status;
+    TRY(make_arrays(d, of, animation, error));
     if (name != JSON_NONE && tree->values[name].kind == JSON_STRING) {
         animation->name = ffd_json_tree_string(tree, name, NULL);
         if (!animation->name)
@@ -179,29 +177,27 @@ static ffd_status read_animation(gltf_document *d, gltf_animations *of, gltf_ani
                                                             .input = accessor_of(d, v, "input"),
                                                             .output = accessor_of(d, v, "output"),
                                                             .interpolation = interpolation_of(d, v)};
-    for (uint32_t v = ffd_gltf_first(d, animation->value, "channels"); v != JSON_NONE && !status;
+    for (uint32_t v = ffd_gltf_first(d, animation->value, "channels"); v != JSON_NONE;
          v = ffd_json_tree_after(tree, v))
-        status = read_channel(d, animation, v, error);
-    return status;
+        TRY(read_channel(d, animation, v, error));
+    return FFD_OK;
 }
 
 ffd_status ffd_gltf_list_animations(gltf_document *d, gltf_animations *animations, ffd_error *error)
 {
     const size_t count = count_of(d, 0, "animations");
     *animations = (gltf_animations){0};
-    ffd_status status = take(d, animations, count, sizeof *animations->list, error);
-    if (status)
-        return status;
+    TRY(take(d, &animations->taken, count, sizeof *animations->list, error));
     animations->list = ffd_alloc_zero(count, sizeof *animations->list);
     if (!animations->list)
         return ffd_fail_memory(error);
-    for (uint32_t v = ffd_gltf_first(d, 0, "animations"); v != JSON_NONE && !status;
+    for (uint32_t v = ffd_gltf_first(d, 0, "animations"); v != JSON_NONE;
          v = ffd_json_tree_after(&d->tree, v)) {
         gltf_animation *const animation = &animations->list[animations->count++];
         animation->value = v;
-        status = read_animation(d, animations, animation, error);
+        TRY(read_animation(d, animations, animation, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 static void free_animation(gltf_document *d, gltf_animation *animation)
@@ -340,13 +336,8 @@ static ffd_status load_sampler(gltf_document *d, gltf_animation *animation, gltf
         return FFD_OK;
     const size_t elements = (size_t)d->model.accessors[sampler->output].count;
     const size_t rows = (size_t)d->model.accessors[sampler->output].rows, keys = sampler->key_count;
-    const uint64_t before = d->base.budget.taken;
-    ffd_status status = ffd_budget_take(&d->base.budget, keys, sizeof *sampler->times, error);
-    if (!status)
-        status = ffd_budget_take(&d->base.budget, elements, rows * sizeof *sampler->values, error);
-    animation->taken += d->base.budget.taken - before;
-    if (status)
-        return status;
+    TRY(take(d, &animation->taken, keys, sizeof *sampler->times, error));
+    TRY(take(d, &animation->taken, elements, rows * sizeof *sampler->values, error));
     sampler->times = ffd_alloc(keys, sizeof *sampler->times);
     sampler->values = ffd_alloc(elements, rows * sizeof *sampler->values);
     if (!sampler->times || !sampler->values)
@@ -402,12 +393,12 @@ static void find_range(gltf_animation *animation)
 ffd_status ffd_gltf_load_animation(gltf_document *d, gltf_animation *animation, ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    for (size_t c = 0; c < animation->channel_count && !status; c++)
+    for (size_t c = 0; c < animation->channel_count; c++)
         if (ffd_gltf_channel_drives(&animation->channels[c]))
-            status = load_channel(d, animation, &animation->channels[c], error);
-    if (!status)
-        find_range(animation);
-    else
+            TRY_END(load_channel(d, animation, &animation->channels[c], error));
+    find_range(animation);
+end:
+    if (status)
         ffd_gltf_unload_animation(d, animation);
     ffd_gltf_forget(d);
     return status;

@@ -69,10 +69,9 @@ static ffd_status refuse_primitive(const gltf_document *d, const gltf_primitive 
 {
     if (primitive->accessor[GLTF_POSITION] < 0)
         return FFD_OK;
-    const ffd_status status =
-        ffd_gltf_refuse_unreadable(d, primitive, primitive->accessor[GLTF_POSITION], error);
-    if (status || primitive->indices < 0)
-        return status;
+    TRY(ffd_gltf_refuse_unreadable(d, primitive, primitive->accessor[GLTF_POSITION], error));
+    if (primitive->indices < 0)
+        return FFD_OK;
     return ffd_gltf_refuse_unreadable(d, primitive, primitive->indices, error);
 }
 
@@ -167,8 +166,9 @@ static ffd_status add_primitive(const gltf_document *d, const gltf_primitive *pr
         return FFD_OK;
     uint32_t *corners;
     size_t count;
-    const ffd_status status = ffd_gltf_read_corners(d, primitive, &corners, &count, error);
-    for (size_t n = 0; n < uses->node_count && !status; n++) {
+    ffd_status status;
+    TRY_END(ffd_gltf_read_corners(d, primitive, &corners, &count, error));
+    for (size_t n = 0; n < uses->node_count; n++) {
         const gltf_instance *instance = &ffd_gltf_instances(d, primitive)[n];
         for (size_t t = 0; t < counted.triangles; t++) {
             uint32_t *triangle = to + 3 * (*added)++;
@@ -177,6 +177,7 @@ static ffd_status add_primitive(const gltf_document *d, const gltf_primitive *pr
                 triangle[c] += (uint32_t)base[instance->part[GLTF_POSITION]];
         }
     }
+end:
     ffd_free(corners);
     return status;
 }
@@ -207,22 +208,19 @@ ffd_status ffd_gltf_faces(const mesh_document *document, mesh_state state, mesh_
     TRY(count_all(d, faces, error));
     for (size_t i = 0; i < d->base.part_count; i++)
         faces->vertex_count += d->mesh_parts[i].repeats_positions ? 0 : d->mesh_parts[i].vertex_count;
-    ffd_status status = check_budget(d, faces, error);
-    if (!status)
-        status = ffd_mesh_faces_make(document, faces, 3 * faces->face_count, error);
-    if (status)
-        return status;
+    TRY(check_budget(d, faces, error));
+    TRY(ffd_mesh_faces_make(document, faces, 3 * faces->face_count, error));
     size_t *base = ffd_alloc(d->base.part_count, sizeof *base);
+    ffd_status status = FFD_OK;
     if (!base)
-        status = ffd_fail_memory(error);
-    else {
-        fill_positions(d, state, faces, base);
-        for (size_t i = 0; i <= faces->face_count; i++)
-            faces->start[i] = 3 * i;
-    }
+        TRY_END(ffd_fail_memory(error));
+    fill_positions(d, state, faces, base);
+    for (size_t i = 0; i <= faces->face_count; i++)
+        faces->start[i] = 3 * i;
     size_t added = 0;
-    for (size_t i = 0; i < d->model.primitive_count && !status; i++)
-        status = add_primitive(d, &d->model.primitives[i], base, faces->corners, &added, error);
+    for (size_t i = 0; i < d->model.primitive_count; i++)
+        TRY_END(add_primitive(d, &d->model.primitives[i], base, faces->corners, &added, error));
+end:
     ffd_free(base);
     if (status)
         ffd_mesh_faces_free(faces);
@@ -249,20 +247,21 @@ ffd_status ffd_gltf_corner_normals(const mesh_document *document, const mesh_fac
 {
     const gltf_document *d = ffd_gltf_of(document);
     size_t *first_normals = ffd_alloc(d->base.part_count, sizeof *first_normals), *first_vertices = NULL;
-    ffd_status status =
-        first_normals ? ffd_first_vertices(document, &first_vertices, error) : ffd_fail_memory(error);
+    ffd_status status;
+    TRY_END(first_normals ? ffd_first_vertices(document, &first_vertices, error) : ffd_fail_memory(error));
     size_t index = 0, corner = 0;
-    for (size_t i = 0; i < d->base.part_count && !status; i++) {
+    for (size_t i = 0; i < d->base.part_count; i++) {
         first_normals[i] = index;
         index += d->mesh_parts[i].normal_count;
     }
-    for (size_t i = 0; i < d->instance_count && !status; i++) {
+    for (size_t i = 0; i < d->instance_count; i++) {
         const size_t count = 3 * count_drawing(d, d->instances[i].primitive).triangles;
         if (count > 0)
             set_normals(&d->instances[i], first_vertices, first_normals, faces->corners + corner, count,
                         normals + corner);
         corner += count;
     }
+end:
     ffd_free(first_normals);
     ffd_free(first_vertices);
     return status;
@@ -375,13 +374,12 @@ static ffd_status mark_primitive(gltf_document *d, const gltf_primitive *primiti
 ffd_status ffd_gltf_mark_used(mesh_document *document, ffd_error *error)
 {
     gltf_document *const d = (gltf_document *)document;
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < d->model.primitive_count && !status; i++)
-        status = mark_primitive(d, &d->model.primitives[i], error);
-    for (size_t i = 0; i < d->base.part_count && !status; i++)
+    for (size_t i = 0; i < d->model.primitive_count; i++)
+        TRY(mark_primitive(d, &d->model.primitives[i], error));
+    for (size_t i = 0; i < d->base.part_count; i++)
         if (d->parts[i].used && ffd_used_keep(document, d->mesh_parts[i].vertex_count, &d->parts[i].used))
             d->mesh_parts[i].used = d->parts[i].used;
-    return status;
+    return FFD_OK;
 }
 
 /* Triangles that a thread searches at a time, and triangles whose indices it reads at a time. */
@@ -521,16 +519,15 @@ ffd_status ffd_gltf_mixed_faces(const mesh_document *document, mesh_state state,
     mixed_work work = {.document = d, .marks = marks};
     mixed_lists all = {0};
     size_t *first;
-    ffd_status status = ffd_first_vertices(document, &first, error);
-    if (status)
-        return status;
+    TRY(ffd_first_vertices(document, &first, error));
     *faces = (mesh_faces){.vertex_count = marks->vertices};
+    ffd_status status = FFD_OK;
     if (search_all(&work, first, &all)) {
-        status = ffd_face_lists_narrow(document, all.lists, all.count, faces, error);
-        if (!status)
-            read_positions(d, state, first, faces);
+        TRY_END(ffd_face_lists_narrow(document, all.lists, all.count, faces, error));
+        read_positions(d, state, first, faces);
     } else
-        status = ffd_gltf_faces(document, state, faces, error);
+        TRY_END(ffd_gltf_faces(document, state, faces, error));
+end:
     for (size_t l = 0; l < all.count; l++)
         ffd_free(all.lists[l].words);
     ffd_free(all.lists);

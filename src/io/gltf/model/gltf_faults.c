@@ -80,18 +80,17 @@ static bool has_sound_weights(const gltf_document *d, uint32_t object, size_t ta
 static ffd_status warn_of_weights(const gltf_document *d, const mesh_log *log, ffd_error *error)
 {
     fault_list list = {.document = d};
-    ffd_status status = FFD_OK;
-    for (size_t m = 0; m < d->model.mesh_count && !status; m++)
+    char names[sizeof list.shown + 60];
+    for (size_t m = 0; m < d->model.mesh_count; m++)
         if (!has_sound_weights(d, d->mesh_values.values[m], d->mesh_uses[m].target_count))
-            status = add_name(&list, d->mesh_values.values[m], "mesh", m, error);
-    for (size_t n = 0; n < d->model.node_count && !status; n++) {
+            TRY(add_name(&list, d->mesh_values.values[m], "mesh", m, error));
+    for (size_t n = 0; n < d->model.node_count; n++) {
         const int mesh = d->model.nodes[n].mesh;
         if (!has_sound_weights(d, d->node_values.values[n], mesh < 0 ? 0 : d->mesh_uses[mesh].target_count))
-            status = add_name(&list, d->node_values.values[n], "node", n, error);
+            TRY(add_name(&list, d->node_values.values[n], "node", n, error));
     }
-    char names[sizeof list.shown + 60];
-    if (status || list.count == 0)
-        return status;
+    if (list.count == 0)
+        return FFD_OK;
     write_list(&list, names, sizeof names);
     ffd_log_line(log, FFD_LOG_WARNING,
                  "the default weights of %s are not one finite number for each morph target: a missing or "
@@ -165,17 +164,16 @@ static ffd_status check_animations(fault_list *list, ffd_error *error)
 {
     const gltf_document *const d = list->document;
     const json_tree *const tree = &d->tree;
-    ffd_status status = FFD_OK;
     for (uint32_t a = ffd_gltf_first(d, 0, "animations"); a != JSON_NONE; a = ffd_json_tree_after(tree, a))
-        for (uint32_t c = ffd_gltf_first(d, a, "channels"); c != JSON_NONE && !status;
+        for (uint32_t c = ffd_gltf_first(d, a, "channels"); c != JSON_NONE;
              c = ffd_json_tree_after(tree, c)) {
             size_t node;
             uint32_t fault;
-            status = ffd_gltf_animated_node(d, ffd_json_tree_member(tree, c, "target"), &node, &fault, error);
-            if (!status && fault != JSON_NONE)
+            TRY(ffd_gltf_animated_node(d, ffd_json_tree_member(tree, c, "target"), &node, &fault, error));
+            if (fault != JSON_NONE)
                 add_value(list, fault);
         }
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_gltf_warn_of_faults(const mesh_document *document, const mesh_log *log, ffd_error *error)
@@ -183,13 +181,12 @@ ffd_status ffd_gltf_warn_of_faults(const mesh_document *document, const mesh_log
     const gltf_document *const d = ffd_gltf_of(document);
     fault_list list = {.document = d};
     char places[sizeof list.shown + 60];
-    ffd_status status = warn_of_weights(d, log, error);
+    TRY(warn_of_weights(d, log, error));
     check_nodes(&list);
-    if (!status)
-        status = check_animations(&list, error);
+    TRY(check_animations(&list, error));
     check_textures(&list);
-    if (status || list.count == 0)
-        return status;
+    if (list.count == 0)
+        return FFD_OK;
     if (d->base.flaws.strict)
         return ffd_json_tree_fail(&d->tree, list.first, d->name, FFD_E_INVALID, error,
                                   "is not what glTF allows there");

@@ -81,13 +81,13 @@ static ffd_status find_instances(const gltf_document *d, size_t node, gltf_insta
     const uint32_t extension = ffd_gltf_extension(d, d->node_values.values[node], EXTENSION);
     const uint32_t attributes = ffd_json_tree_member(&d->tree, extension, "attributes");
     found->count = UINT64_MAX;
-    ffd_status status =
-        find_attribute(d, attributes, "TRANSLATION", 3, is_float, &found->translation, &found->count, error);
-    if (!status)
-        status =
-            find_attribute(d, attributes, "ROTATION", 4, is_rotation, &found->rotation, &found->count, error);
-    if (!status)
-        status = find_attribute(d, attributes, "SCALE", 3, is_float, &found->scale, &found->count, error);
+    ffd_status status;
+    TRY_END(
+        find_attribute(d, attributes, "TRANSLATION", 3, is_float, &found->translation, &found->count, error));
+    TRY_END(
+        find_attribute(d, attributes, "ROTATION", 4, is_rotation, &found->rotation, &found->count, error));
+    TRY_END(find_attribute(d, attributes, "SCALE", 3, is_float, &found->scale, &found->count, error));
+end:
     /* Only these attributes move vertices; without any of them the node has one instance. */
     if (found->count == UINT64_MAX)
         found->count = 1;
@@ -169,11 +169,12 @@ static ffd_status describe_instanced_nodes(survey *s, ffd_error *error)
 {
     gltf_document *d = s->document;
     ffd_status status = FFD_OK;
-    for (size_t n = 0; n < d->model.node_count && !status; n++)
+    for (size_t n = 0; n < d->model.node_count; n++)
         if (is_instanced(d, n)) {
             skip_node(d, n);
-            status = describe_instanced_node(s, n, &d->instanced_nodes[d->instanced_node_count++], error);
+            TRY_END(describe_instanced_node(s, n, &d->instanced_nodes[d->instanced_node_count++], error));
         }
+end:
     for (size_t i = 0; i < d->base.part_count; i++)
         d->mesh_parts[i].skipped = ffd_gltf_instanced_node(d, d->parts[i].node) != NULL;
     return status;

@@ -24,22 +24,20 @@ typedef struct part_table {
 
 static ffd_status count_instances(gltf_document *d, size_t *total, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     uint64_t targets = 0;
     *total = 0;
-    for (size_t m = 0; m < d->model.mesh_count && !status; m++) {
+    for (size_t m = 0; m < d->model.mesh_count; m++) {
         const uint64_t instances =
             (uint64_t)d->model.meshes[m].primitive_count * d->mesh_uses[m].node_count; /* each below 2^31 */
         d->mesh_uses[m].first_instance = *total;
-        status = ffd_budget_take(&d->base.budget, instances, INSTANCE_BYTES, error);
+        TRY(ffd_budget_take(&d->base.budget, instances, INSTANCE_BYTES, error));
         *total += (size_t)instances;
         for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, m, p));)
             targets += (uint64_t)p->target_count * d->mesh_uses[m].node_count;
         /* Each is looked at, and has an index in the end. */
-        if (!status)
-            status = ffd_budget_check(&d->base.budget, targets, sizeof *d->targets, error);
+        TRY(ffd_budget_check(&d->base.budget, targets, sizeof *d->targets, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Whether two parts of one node have equal joints and weights. */
@@ -250,10 +248,8 @@ ffd_status ffd_gltf_make_parts(gltf_document *d, ffd_error *error)
     d->instances = ffd_alloc(total, sizeof *d->instances);
     d->parts = ffd_alloc_zero(total, sizeof *d->parts);
     d->mesh_parts = ffd_alloc_zero(total, sizeof *d->mesh_parts);
-    if (!table.heads || !table.next || !d->instances || !d->parts || !d->mesh_parts) {
-        status = ffd_fail_memory(error);
-        goto done;
-    }
+    if (!table.heads || !table.next || !d->instances || !d->parts || !d->mesh_parts)
+        TRY_END(ffd_fail_memory(error));
     for (size_t i = 0; i < d->model.primitive_count; i++) {
         const gltf_mesh_uses *const uses = &d->mesh_uses[d->model.primitives[i].mesh];
         for (size_t n = 0; n < uses->node_count; n++)
@@ -261,7 +257,7 @@ ffd_status ffd_gltf_make_parts(gltf_document *d, ffd_error *error)
     }
     d->base.parts = d->mesh_parts;
     status = limit_vertices(d, error);
-done:
+end:
     ffd_free(table.heads);
     ffd_free(table.next);
     return status;

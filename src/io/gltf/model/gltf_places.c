@@ -109,13 +109,12 @@ static ffd_status mark_target(const survey *s, uint32_t target, ffd_error *error
 static ffd_status mark_animated(const survey *s, ffd_error *error)
 {
     const json_tree *tree = &s->document->tree;
-    ffd_status status = FFD_OK;
-    for (uint32_t a = ffd_gltf_first(s->document, 0, "animations"); a != JSON_NONE && !status;
+    for (uint32_t a = ffd_gltf_first(s->document, 0, "animations"); a != JSON_NONE;
          a = ffd_json_tree_after(tree, a))
-        for (uint32_t c = ffd_gltf_first(s->document, a, "channels"); c != JSON_NONE && !status;
+        for (uint32_t c = ffd_gltf_first(s->document, a, "channels"); c != JSON_NONE;
              c = ffd_json_tree_after(tree, c))
-            status = mark_target(s, ffd_json_tree_member(tree, c, "target"), error);
-    return status;
+            TRY(mark_target(s, ffd_json_tree_member(tree, c, "target"), error));
+    return FFD_OK;
 }
 
 static void mark_spring(const survey *s, size_t node)
@@ -297,16 +296,15 @@ ffd_status ffd_gltf_list_places(const mesh_document *document, bool all, mesh_pl
                 .nodes = ffd_alloc_zero(count, sizeof *s.nodes),
                 .holds = ffd_alloc_zero(count, sizeof *s.holds),
                 .pending = ffd_alloc(count, sizeof *s.pending)};
-    ffd_status status = s.nodes && s.holds && s.pending ? FFD_OK : ffd_fail_memory(error);
-    if (!status) {
-        mark_shown(&s);
-        mark_chosen(&s);
-        mark_shapes(&s);
-        ffd_gltf_visit_vrm(d, mark_vrm, &s);
-        status = mark_animated(&s, error);
-    }
-    if (!status)
-        status = list_nodes(&s, all, places, error);
+    ffd_status status;
+    TRY_END(s.nodes && s.holds && s.pending ? FFD_OK : ffd_fail_memory(error));
+    mark_shown(&s);
+    mark_chosen(&s);
+    mark_shapes(&s);
+    ffd_gltf_visit_vrm(d, mark_vrm, &s);
+    TRY_END(mark_animated(&s, error));
+    TRY_END(list_nodes(&s, all, places, error));
+end:
     ffd_free(s.nodes);
     ffd_free(s.holds);
     ffd_free(s.pending);

@@ -375,30 +375,26 @@ static ffd_status refuse_held(const gltf_document *d, ffd_error *error)
 
 ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
 {
-    ffd_status status = refuse_newer_version(d, error);
-    if (!status)
-        status = refuse_shared_child(d, error);
-    if (!status)
-        status = refuse_held(d, error);
-    if (!status)
-        status = refuse_required(d, error);
-    if (!status && d->skins_status) {
+    TRY(refuse_newer_version(d, error));
+    TRY(refuse_shared_child(d, error));
+    TRY(refuse_held(d, error));
+    TRY(refuse_required(d, error));
+    if (d->skins_status) {
         if (error)
             *error = d->skins_error;
         return d->skins_status;
     }
-    if (!status && d->instancing_status) {
+    if (d->instancing_status) {
         if (error)
             *error = d->instancing_error;
         return d->instancing_status;
     }
-    for (size_t i = 0; i < d->instance_count && !status; i++) {
+    for (size_t i = 0; i < d->instance_count; i++) {
         const gltf_instance *const instance = &d->instances[i];
-        status = refuse_primitive(d, instance->primitive, error);
-        if (!status)
-            status = refuse_skin(d, instance, error);
+        TRY(refuse_primitive(d, instance->primitive, error));
+        TRY(refuse_skin(d, instance, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Refuses accessors that cannot be read: results could be written neither in place nor into a copy. */

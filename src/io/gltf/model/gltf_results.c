@@ -141,32 +141,30 @@ static void drop_result(gltf_document *d, size_t part, gltf_semantic semantic)
 ffd_status ffd_gltf_add_results(gltf_document *d, size_t part, ffd_error *error)
 {
     const size_t shapes = d->base.part_count + d->parts[part].first_shape;
-    ffd_status status = FFD_OK;
     for (size_t k = 0; k <= d->mesh_parts[part].shape_count; k++)
-        for (int s = 0; s < GLTF_DEFORMED && !status; s++) {
+        for (int s = 0; s < GLTF_DEFORMED; s++) {
             const bool repeats = k == 0 && s == GLTF_POSITION && d->mesh_parts[part].repeats_positions;
             if (!repeats && (s == GLTF_POSITION || d->results.directions))
-                status = make_result(d, k == 0 ? part : shapes + k - 1, (gltf_semantic)s, error);
+                TRY(make_result(d, k == 0 ? part : shapes + k - 1, (gltf_semantic)s, error));
         }
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_gltf_begin_results(mesh_document *document, const mesh_results *results, ffd_error *error)
 {
     gltf_document *d = (gltf_document *)document;
-    ffd_status status = ffd_gltf_refuse_read(d, error);
-    if (!status)
-        status = ffd_gltf_refuse_store(d, results->directions, error);
+    TRY(ffd_gltf_refuse_read(d, error));
+    TRY(ffd_gltf_refuse_store(d, results->directions, error));
     d->results = *results;
     /* Converted meshes have no morph targets. */
     const bool targets = !d->morph_name && !results->converted;
     for (size_t i = 0; i < (targets ? ffd_gltf_shape_end(d) : d->base.part_count); i++)
-        for (int s = 0; s < GLTF_DEFORMED && !status; s++)
+        for (int s = 0; s < GLTF_DEFORMED; s++)
             if (s != GLTF_POSITION && !results->directions)
                 drop_result(d, i, (gltf_semantic)s);
             else if (!d->mesh_parts[i].skipped && !(s == GLTF_POSITION && d->mesh_parts[i].repeats_positions))
-                status = make_result(d, i, (gltf_semantic)s, error);
-    return status;
+                TRY(make_result(d, i, (gltf_semantic)s, error));
+    return FFD_OK;
 }
 
 /* Whether results are rounded to the accessor's type. Directions as integers that are not normalized or not

@@ -123,10 +123,11 @@ static ffd_status refuse_cycles(const gltf_document *d, const size_t *parents, s
         }
     }
     ffd_status status = FFD_OK;
-    for (size_t n = 0; n < d->model.node_count && reached < d->model.node_count && !status; n++)
+    for (size_t n = 0; n < d->model.node_count && reached < d->model.node_count; n++)
         if (!seen[n])
-            status = ffd_json_tree_fail(&d->tree, d->node_values.values[n], d->name, FFD_E_INVALID, error,
-                                        "the node is its own ancestor, or below one that is");
+            TRY_END(ffd_json_tree_fail(&d->tree, d->node_values.values[n], d->name, FFD_E_INVALID, error,
+                                       "the node is its own ancestor, or below one that is"));
+end:
     ffd_free(seen);
     return status;
 }
@@ -188,19 +189,18 @@ static ffd_status note_child(gltf_document *d, size_t root, size_t parent, ffd_e
 static ffd_status mark_named(gltf_document *d, const gltf_scene *scene, const size_t *parents,
                              const size_t *order, bool *named, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < scene->node_count && !status; i++) {
+    for (size_t i = 0; i < scene->node_count; i++) {
         const size_t root = (size_t)scene->nodes[i];
         if (named[root])
-            status = ffd_gltf_flaw(d, d->node_values.values[root], error, "the scene names the node twice");
+            TRY(ffd_gltf_flaw(d, d->node_values.values[root], error, "the scene names the node twice"));
         else if (parents[root] != GLTF_NONE)
-            status = note_child(d, root, parents[root], error);
+            TRY(note_child(d, root, parents[root], error));
         named[root] = true;
     }
     for (size_t i = 0; i < d->model.node_count; i++)
         if (parents[order[i]] != GLTF_NONE)
             named[order[i]] = named[order[i]] || named[parents[order[i]]];
-    return status;
+    return FFD_OK;
 }
 
 /* Adds the nodes that the scene lists, except those below another listed node. */
@@ -210,13 +210,15 @@ static ffd_status add_scene(gltf_document *d, const size_t *parents, size_t *pen
     bool *named = ffd_alloc_zero(d->model.node_count, sizeof *named);
     if (!named)
         return ffd_fail_memory(error);
-    const ffd_status status = mark_named(d, scene, parents, pending, named, error);
-    for (size_t i = 0; i < scene->node_count && !status; i++) {
+    ffd_status status;
+    TRY_END(mark_named(d, scene, parents, pending, named, error));
+    for (size_t i = 0; i < scene->node_count; i++) {
         const size_t root = (size_t)scene->nodes[i];
         const bool is_below = parents[root] != GLTF_NONE && named[parents[root]];
         if (!is_below && !d->in_scene[root])
             add_subtree(d, root, parents, pending);
     }
+end:
     ffd_free(named);
     return status;
 }
@@ -296,33 +298,31 @@ static ffd_status add_below(gltf_document *d, size_t n, size_t *parents, size_t 
 {
     const gltf_node *const node = &d->model.nodes[n];
     gltf_stand_ins walk = ffd_gltf_stand_ins(d, n);
-    ffd_status status = FFD_OK;
     for (size_t c = 0; c < node->child_count && d->stands_in[n]; c++) {
         const size_t child = (size_t)node->children[c];
         if (parents[child] == n && !d->in_scene[child])
             add_stand_in(d, child, parents, queue, added);
     }
-    for (size_t found; status == FFD_OK && (found = ffd_gltf_next_stand_in(&walk)) != GLTF_NONE;)
+    for (size_t found; (found = ffd_gltf_next_stand_in(&walk)) != GLTF_NONE;)
         if (walk.collides)
-            status = add_shape(d, n, found, parents, queue, added, error);
+            TRY(add_shape(d, n, found, parents, queue, added, error));
         else
             add_detail(d, n, found, parents, queue, added);
-    return status;
+    return FFD_OK;
 }
 
 /* Adds the coarser levels of detail of all nodes in the scene, and the shapes of their colliders. No scene
    lists them, since they are not shown together with these nodes. */
 static ffd_status add_stand_ins(gltf_document *d, size_t *parents, size_t *queue, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     size_t added = 0;
     for (size_t n = 0; n < d->model.node_count; n++)
         if (d->in_scene[n])
             queue[added++] = n;
-    for (size_t i = 0; i < added && !status; i++)
+    for (size_t i = 0; i < added; i++)
         if (!d->collides[queue[i]])
-            status = add_below(d, queue[i], parents, queue, &added, error);
-    return status;
+            TRY(add_below(d, queue[i], parents, queue, &added, error));
+    return FFD_OK;
 }
 
 static ffd_status refuse_infinite(const gltf_document *d, ffd_error *error)
@@ -400,17 +400,16 @@ static void count_targets(gltf_document *d)
    of a target that they lack. */
 static ffd_status note_unequal_targets(gltf_document *d, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < d->model.primitive_count && !status; i++) {
+    for (size_t i = 0; i < d->model.primitive_count; i++) {
         const gltf_primitive *const primitive = &d->model.primitives[i];
         const size_t count = primitive->target_count, most = d->mesh_uses[primitive->mesh].target_count;
         if (count < most)
-            status = ffd_gltf_flaw(d, primitive->value, error,
-                                   "the primitive has %zu %s, but another one of its mesh has %zu: the "
-                                   "further ones do not move it",
-                                   count, ffd_plural(count, "morph target", "morph targets"), most);
+            TRY(ffd_gltf_flaw(d, primitive->value, error,
+                              "the primitive has %zu %s, but another one of its mesh has %zu: the "
+                              "further ones do not move it",
+                              count, ffd_plural(count, "morph target", "morph targets"), most));
     }
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_gltf_make_scene(gltf_document *d, ffd_error *error)
@@ -425,41 +424,31 @@ ffd_status ffd_gltf_make_scene(gltf_document *d, ffd_error *error)
     d->stands_in = ffd_alloc_zero(count, sizeof *d->stands_in);
     d->collides = ffd_alloc_zero(count, sizeof *d->collides);
     d->mesh_uses = ffd_alloc_zero(d->model.mesh_count, sizeof *d->mesh_uses);
-    ffd_status status = d->parents && pending && d->world && d->in_scene && d->stands_in && d->collides &&
-                                d->scene_ranks && d->mesh_uses
-                            ? FFD_OK
-                            : ffd_fail_memory(error);
-    if (status)
-        goto done;
+    ffd_status status = FFD_OK;
+    if (!d->parents || !pending || !d->world || !d->in_scene || !d->stands_in || !d->collides ||
+        !d->scene_ranks || !d->mesh_uses)
+        TRY_END(ffd_fail_memory(error));
     count_targets(d);
     find_parents(d, &twice);
-    status = note_unequal_targets(d, error);
-    if (!status && twice != GLTF_NONE)
-        status = ffd_gltf_flaw(d, d->node_values.values[twice], error,
-                               "node %zu names the node twice as its child", d->parents[twice]);
-    if (!status)
-        status = refuse_cycles(d, d->parents, pending, error);
-    if (status)
-        goto done;
+    TRY_END(note_unequal_targets(d, error));
+    if (twice != GLTF_NONE)
+        TRY_END(ffd_gltf_flaw(d, d->node_values.values[twice], error,
+                              "node %zu names the node twice as its child", d->parents[twice]));
+    TRY_END(refuse_cycles(d, d->parents, pending, error));
     if (d->space == FFD_SPACE_MESH) {
         use_meshes_alone(d);
-        goto done;
+        goto end;
     }
     set_world_matrices(d, d->parents, pending);
-    status = find_hidden(d, d->parents, pending, error);
-    if (status)
-        goto done;
+    TRY_END(find_hidden(d, d->parents, pending, error));
     if (d->model.scene_count > 0)
-        status = add_scene(d, d->parents, pending, error);
+        TRY_END(add_scene(d, d->parents, pending, error));
     else
         add_roots(d, d->parents, pending);
-    if (!status)
-        status = add_stand_ins(d, d->parents, pending, error);
-    if (!status)
-        status = refuse_infinite(d, error);
-    if (!status)
-        status = list_nodes(d, error);
-done:
+    TRY_END(add_stand_ins(d, d->parents, pending, error));
+    TRY_END(refuse_infinite(d, error));
+    TRY_END(list_nodes(d, error));
+end:
     ffd_free(pending);
     return status;
 }

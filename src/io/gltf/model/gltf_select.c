@@ -106,11 +106,13 @@ static ffd_status draw_primitive(const surveying *s, const gltf_primitive *primi
     size_t corner_count;
     if (count == 0 || instances[first].part[GLTF_POSITION] == GLTF_NONE)
         return FFD_OK;
-    const ffd_status status = ffd_gltf_read_corners(d, primitive, &corners, &corner_count, s->error);
-    for (size_t n = first; n < first + count && !status; n++) {
+    ffd_status status;
+    TRY_END(ffd_gltf_read_corners(d, primitive, &corners, &corner_count, s->error));
+    for (size_t n = first; n < first + count; n++) {
         ffd_listing_draw(s->listing, instances[n].part[GLTF_POSITION], corners, corner_count);
         ffd_listing_draw_faces(s->listing, ffd_gltf_count_triangles(d, primitive));
     }
+end:
     ffd_free(corners);
     return status;
 }
@@ -118,11 +120,9 @@ static ffd_status draw_primitive(const surveying *s, const gltf_primitive *primi
 /* Draws a mesh for some of its uses. */
 static ffd_status draw_mesh(const surveying *s, size_t m, size_t first, size_t count)
 {
-    ffd_status status = FFD_OK;
-    for (const gltf_primitive *p = NULL;
-         status == FFD_OK && (p = ffd_gltf_next_primitive(s->document, m, p));)
-        status = draw_primitive(s, p, first, count);
-    return status;
+    for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(s->document, m, p));)
+        TRY(draw_primitive(s, p, first, count));
+    return FFD_OK;
 }
 
 static void add_pending(const surveying *s, size_t node, size_t *waiting)
@@ -147,19 +147,18 @@ static void add_stand_ins(const surveying *s, size_t node, size_t *waiting)
 static ffd_status draw_pending(const surveying *s, size_t waiting)
 {
     const gltf_document *d = s->document;
-    ffd_status status = FFD_OK;
-    while (waiting > 0 && !status) {
+    while (waiting > 0) {
         const size_t index = s->pending[--waiting];
         const gltf_node *const node = &d->model.nodes[index];
         const gltf_mesh_uses *const uses = node->mesh >= 0 ? &d->mesh_uses[node->mesh] : NULL;
         const size_t use = uses && uses->nodes ? ffd_gltf_find_use(uses, index) : 0;
         if (uses && use < uses->node_count)
-            status = draw_mesh(s, (size_t)node->mesh, use, 1);
+            TRY(draw_mesh(s, (size_t)node->mesh, use, 1));
         for (size_t i = 0; i < node->child_count; i++)
             add_pending(s, (size_t)node->children[i], &waiting);
         add_stand_ins(s, index, &waiting);
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status draw_node(const surveying *s, size_t node)
@@ -241,22 +240,23 @@ static void link_names(const kind_names *k, size_t *first)
 static ffd_status list_names(const surveying *s, const kind_names *k)
 {
     size_t *const first = ffd_alloc(k->names.count, sizeof *first);
-    ffd_status status = first ? FFD_OK : ffd_fail_memory(s->error);
-    if (first)
-        link_names(k, first);
-    for (uint32_t n = 0; n < k->names.count && !status; n++) {
+    if (!first)
+        return ffd_fail_memory(s->error);
+    link_names(k, first);
+    ffd_status status = FFD_OK;
+    for (uint32_t n = 0; n < k->names.count; n++) {
         const char *const name = ffd_intern_key(&k->names, n);
-        status = ffd_listing_add(s->listing, k->kind, name, strlen(name), 0, s->error);
-        for (size_t i = first[n]; i != GLTF_NONE && !status; i = k->next[i])
-            status = draw(s, k->kind, i);
+        TRY_END(ffd_listing_add(s->listing, k->kind, name, strlen(name), 0, s->error));
+        for (size_t i = first[n]; i != GLTF_NONE; i = k->next[i])
+            TRY_END(draw(s, k->kind, i));
     }
-    for (size_t i = 0; i < k->count && !status; i++) {
+    for (size_t i = 0; i < k->count; i++) {
         if (k->name[i] != NO_NAME)
             continue;
-        status = ffd_listing_add(s->listing, k->kind, NULL, 0, i, s->error);
-        if (!status)
-            status = draw(s, k->kind, i);
+        TRY_END(ffd_listing_add(s->listing, k->kind, NULL, 0, i, s->error));
+        TRY_END(draw(s, k->kind, i));
     }
+end:
     ffd_free(first);
     return status;
 }
@@ -273,24 +273,23 @@ static void read_materials(const surveying *s)
     }
 }
 
+static ffd_status list_kind(const surveying *s, selector_kind kind, const gltf_values *values)
+{
+    kind_names k = {.kind = kind};
+    const ffd_status status =
+        read_names(s->document, values, &k) ? list_names(s, &k) : ffd_fail_memory(s->error);
+    ffd_intern_free(&k.names);
+    ffd_free(k.name);
+    ffd_free(k.next);
+    return status;
+}
+
 static ffd_status list_all(const surveying *s)
 {
     const gltf_document *d = s->document;
-    const struct {
-        selector_kind kind;
-        const gltf_values *values;
-    } kinds[] = {{SELECT_NODE, &d->node_values},
-                 {SELECT_MESH, &d->mesh_values},
-                 {SELECT_MATERIAL, &d->material_values}};
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds && !status; i++) {
-        kind_names k = {.kind = kinds[i].kind};
-        status = read_names(d, kinds[i].values, &k) ? list_names(s, &k) : ffd_fail_memory(s->error);
-        ffd_intern_free(&k.names);
-        ffd_free(k.name);
-        ffd_free(k.next);
-    }
-    return status;
+    TRY(list_kind(s, SELECT_NODE, &d->node_values));
+    TRY(list_kind(s, SELECT_MESH, &d->mesh_values));
+    return list_kind(s, SELECT_MATERIAL, &d->material_values);
 }
 
 ffd_status ffd_gltf_list_parts(const mesh_document *document, mesh_listing *listing, ffd_error *error)
@@ -487,10 +486,12 @@ static ffd_status select_primitive(const selecting *s, const gltf_primitive *pri
         return FFD_OK;
     uint32_t *corners;
     size_t count;
-    ffd_status status = ffd_gltf_read_corners(d, primitive, &corners, &count, error);
-    for (size_t n = 0; n < uses->node_count && !status; n++)
+    ffd_status status;
+    TRY_END(ffd_gltf_read_corners(d, primitive, &corners, &count, error));
+    for (size_t n = 0; n < uses->node_count; n++)
         if (instances[n].selected)
-            status = mark_vertices(d, &instances[n], corners, count, error);
+            TRY_END(mark_vertices(d, &instances[n], corners, count, error));
+end:
     ffd_free(corners);
     return status;
 }
@@ -498,19 +499,16 @@ static ffd_status select_primitive(const selecting *s, const gltf_primitive *pri
 static ffd_status select_all(selecting *s, ffd_error *error)
 {
     gltf_document *d = s->document;
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < s->count && !status; i++)
-        status = mark_named(s, &s->selectors[i], error);
-    if (status)
-        return status;
+    for (size_t i = 0; i < s->count; i++)
+        TRY(mark_named(s, &s->selectors[i], error));
     mark_meshes_of_nodes(s);
     for (size_t i = 0; i < d->base.part_count; i++)
         d->mesh_parts[i].skipped = true;
     for (size_t i = 0; i < d->instanced_node_count; i++)
         d->instanced_nodes[i].deselected = true;
-    for (size_t i = 0; i < d->model.primitive_count && !status; i++)
-        status = select_primitive(s, &d->model.primitives[i], error);
-    return status;
+    for (size_t i = 0; i < d->model.primitive_count; i++)
+        TRY(select_primitive(s, &d->model.primitives[i], error));
+    return FFD_OK;
 }
 
 ffd_status ffd_gltf_select(mesh_document *document, const mesh_selector *selectors, size_t count,

@@ -244,20 +244,18 @@ ffd_status ffd_gltf_make_shapes(gltf_document *d, ffd_error *error)
 {
     size_t total;
     drop_shapes(d);
-    ffd_status status = count_targets(d, &total, error);
-    if (status || total == 0)
-        return status;
+    TRY(count_targets(d, &total, error));
+    if (total == 0)
+        return FFD_OK;
     target_table table = {.targets = ffd_alloc(total, sizeof *table.targets)};
     table.slots = ffd_slots_make(total, sizeof *table.slots, &table.mask);
     d->targets = ffd_alloc(total, sizeof *d->targets);
-    if (table.slots && table.targets && d->targets) {
-        find_targets(d, &table);
-        status = add_shapes(d, &table, total, error);
-        if (!status)
-            status = set_weights(d, error);
-    } else {
-        status = ffd_fail_memory(error);
-    }
+    ffd_status status;
+    TRY_END(table.slots && table.targets && d->targets ? FFD_OK : ffd_fail_memory(error));
+    find_targets(d, &table);
+    TRY_END(add_shapes(d, &table, total, error));
+    TRY_END(set_weights(d, error));
+end:
     ffd_free(table.slots);
     ffd_free(table.targets);
     return status;

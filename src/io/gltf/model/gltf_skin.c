@@ -39,19 +39,17 @@ static ffd_status settle_sets(gltf_document *d, gltf_primitive *primitive, ffd_e
         if (is_whole(&primitive->influences[i]))
             return FFD_OK;
     const gltf_influence first = primitive->influence_count ? primitive->influences[0] : none;
-    ffd_status status = FFD_OK;
-    for (size_t i = whole; i < primitive->influence_count && whole > 0 && !status; i++)
-        status = note_half(d, primitive->value, &primitive->influences[i], i, error);
+    for (size_t i = whole; i < primitive->influence_count && whole > 0; i++)
+        TRY(note_half(d, primitive->value, &primitive->influences[i], i, error));
     primitive->influence_count = whole;
-    if (whole == 0)
-        status =
-            ffd_gltf_flaw(d, primitive->value, error,
-                          "a node uses it with a skin, but it has no %s: it is placed by its node, without "
-                          "the skin",
-                          first.joints >= 0    ? "WEIGHTS_0"
-                          : first.weights >= 0 ? "JOINTS_0"
-                                               : "JOINTS_0 and WEIGHTS_0");
-    return status;
+    if (whole > 0)
+        return FFD_OK;
+    return ffd_gltf_flaw(d, primitive->value, error,
+                         "a node uses it with a skin, but it has no %s: it is placed by its node, without "
+                         "the skin",
+                         first.joints >= 0    ? "WEIGHTS_0"
+                         : first.weights >= 0 ? "JOINTS_0"
+                                              : "JOINTS_0 and WEIGHTS_0");
 }
 
 /* Takes the skins of the nodes of a mesh away if they move none of its primitives. */
@@ -76,17 +74,16 @@ static bool has_skin(const gltf_document *d, const gltf_mesh_uses *uses)
 
 ffd_status ffd_gltf_settle_skins(gltf_document *d, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t m = 0; m < d->model.mesh_count && !status; m++) {
+    for (size_t m = 0; m < d->model.mesh_count; m++) {
         gltf_mesh *const mesh = &d->model.meshes[m];
         if (!has_skin(d, &d->mesh_uses[m]))
             continue;
-        for (size_t p = 0; p < mesh->primitive_count && !status; p++)
+        for (size_t p = 0; p < mesh->primitive_count; p++)
             if (mesh->primitives[p].accessor[GLTF_POSITION] >= 0)
-                status = settle_sets(d, &mesh->primitives[p], error);
+                TRY(settle_sets(d, &mesh->primitives[p], error));
         settle_nodes(d, m);
     }
-    return status;
+    return FFD_OK;
 }
 
 bool ffd_gltf_places_mesh(const gltf_document *d, size_t node)
@@ -153,16 +150,14 @@ static ffd_status check_inverse_bind(const gltf_document *d, const gltf_skin *sk
 
 ffd_status ffd_gltf_list_skins(gltf_document *d, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     d->skins = ffd_alloc_zero(d->skin_values.count, sizeof *d->skins);
     if (!d->skins)
         return ffd_fail_memory(error);
-    for (size_t s = 0; s < d->skin_values.count && !status; s++) {
-        status = list_joints(d, d->skin_values.values[s], &d->skins[s], error);
-        if (!status)
-            status = find_inverse_bind(d, d->skin_values.values[s], &d->skins[s], error);
+    for (size_t s = 0; s < d->skin_values.count; s++) {
+        TRY(list_joints(d, d->skin_values.values[s], &d->skins[s], error));
+        TRY(find_inverse_bind(d, d->skin_values.values[s], &d->skins[s], error));
     }
-    return status;
+    return FFD_OK;
 }
 
 void ffd_gltf_free_skins(gltf_document *d)
@@ -240,16 +235,14 @@ bool ffd_gltf_has_joint_matrices(const gltf_document *d, const gltf_skin *skin)
 
 static ffd_status make_joint_matrices(gltf_document *d, gltf_skin *skin, ffd_error *error)
 {
-    const ffd_status taken =
-        ffd_budget_take(&d->base.budget, skin->joint_count, 12 * sizeof *skin->matrices, error);
-    if (taken)
-        return taken;
+    TRY(ffd_budget_take(&d->base.budget, skin->joint_count, 12 * sizeof *skin->matrices, error));
     skin->matrices = ffd_alloc_zero(skin->joint_count, 12 * sizeof *skin->matrices);
     if (!skin->matrices)
         return ffd_fail_memory(error);
-    const ffd_status status = skin->inverse_bind < 0 ? FFD_OK : check_inverse_bind(d, skin, error);
-    if (status || (skin->inverse_bind >= 0 && !d->layouts[skin->inverse_bind].readable))
-        return status; /* ffd_gltf_refuse_read refuses the skin where it is used */
+    if (skin->inverse_bind >= 0)
+        TRY(check_inverse_bind(d, skin, error));
+    if (skin->inverse_bind >= 0 && !d->layouts[skin->inverse_bind].readable)
+        return FFD_OK; /* ffd_gltf_refuse_read refuses the skin where it is used */
     return ffd_gltf_joint_matrices(d, skin, d->world, skin->matrices, error);
 }
 
@@ -349,31 +342,31 @@ static ffd_status check_primitive(gltf_document *d, const gltf_skin *skin, const
                                   size_t *largest, ffd_error *error)
 {
     const uint32_t value = primitive->value;
-    ffd_status status = FFD_OK;
     if (primitive->accessor[GLTF_POSITION] < 0)
         return FFD_OK;
     if (primitive->influence_count > MOST_SETS)
         return ffd_json_tree_fail(&d->tree, value, d->name, FFD_E_LIMIT, error,
                                   "%zu sets of joints are more than the %zu that are supported",
                                   primitive->influence_count, MOST_SETS);
-    for (size_t i = 0; i < primitive->influence_count && !status; i++)
-        status = check_set(d, skin, value, &primitive->influences[i], i, largest, error);
-    return status;
+    for (size_t i = 0; i < primitive->influence_count; i++)
+        TRY(check_set(d, skin, value, &primitive->influences[i], i, largest, error));
+    return FFD_OK;
 }
 
 ffd_status ffd_gltf_prepare_skins(gltf_document *d, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     size_t *largest = ffd_alloc_zero(d->model.accessor_count, sizeof *largest);
     if (!largest)
         return ffd_fail_memory(error);
-    for (size_t i = 0; i < d->instance_count && !status; i++) {
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < d->instance_count; i++) {
         gltf_skin *const skin = ffd_gltf_skin_of(d, &d->instances[i]);
         if (skin && !skin->matrices)
-            status = make_joint_matrices(d, skin, error);
-        if (skin && !status)
-            status = check_primitive(d, skin, d->instances[i].primitive, largest, error);
+            TRY_END(make_joint_matrices(d, skin, error));
+        if (skin)
+            TRY_END(check_primitive(d, skin, d->instances[i].primitive, largest, error));
     }
+end:
     ffd_free(largest);
     return status;
 }

@@ -98,21 +98,19 @@ static ffd_status find_flaws(gltf_document *d, const gltf_primitive *primitive, 
                              ffd_error *error)
 {
     const uint32_t attributes = ffd_json_tree_member(&d->tree, primitive->value, "attributes");
-    ffd_status status = FFD_OK;
     found->form.is_logarithmic = has_negative(d, found->accessors[GLTF_SPLAT_SCALE]);
     if (found->form.is_logarithmic)
-        status =
-            ffd_gltf_flaw(d, ffd_json_tree_member(&d->tree, attributes, SPLATTING ":SCALE"), error,
+        TRY(ffd_gltf_flaw(d, ffd_json_tree_member(&d->tree, attributes, SPLATTING ":SCALE"), error,
                           "scales of Gaussian splats are negative: they are read as logarithms, as in drafts "
-                          "of " SPLATTING);
-    for (int i = harmonics_count(found->form.degree); i < HARMONICS_MOST && !status; i++)
+                          "of " SPLATTING));
+    for (int i = harmonics_count(found->form.degree); i < HARMONICS_MOST; i++)
         if (found->accessors[GLTF_SPLAT_HARMONICS + i] != GLTF_NONE)
             return ffd_gltf_flaw(
                 d, attributes, error,
                 "spherical harmonics of Gaussian splats above degree %d are not complete: these are "
                 "not turned",
                 found->form.degree);
-    return status;
+    return FFD_OK;
 }
 
 /* Stores the accessors in the primitive, and marks their attributes as GLTF_SPLAT. */
@@ -170,19 +168,16 @@ static void mark_part(gltf_document *d, const gltf_primitive *primitive, const s
 /* Marks the parts of the primitives with splats. */
 static ffd_status mark_primitives(gltf_document *d, part_owner *owners, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     for (size_t i = 0; i < d->model.primitive_count; i++) {
         gltf_primitive *const primitive = &d->model.primitives[i];
         const gltf_instance *const instances = ffd_gltf_instances(d, primitive);
         if (!ffd_gltf_has_extension(d, primitive->value, SPLATTING))
             continue;
         splat_attributes found = find_attributes(d, primitive);
-        if (found.all_usable && d->mesh_uses[primitive->mesh].node_count > 0)
-            status = find_flaws(d, primitive, &found, error);
-        if (!status && found.all_usable && d->mesh_uses[primitive->mesh].node_count > 0)
-            status = keep_accessors(d, primitive, &found, error);
-        if (status)
-            return status;
+        if (found.all_usable && d->mesh_uses[primitive->mesh].node_count > 0) {
+            TRY(find_flaws(d, primitive, &found, error));
+            TRY(keep_accessors(d, primitive, &found, error));
+        }
         for (size_t n = 0; n < d->mesh_uses[primitive->mesh].node_count; n++)
             if (instances[n].part[GLTF_POSITION] != GLTF_NONE)
                 mark_part(d, primitive, &found, instances[n].part[GLTF_POSITION],
@@ -246,11 +241,11 @@ ffd_status ffd_gltf_find_splats(gltf_document *d, ffd_error *error)
     part_owner *const owners = ffd_alloc_zero(d->base.part_count, sizeof *owners);
     if (!owners)
         return ffd_fail_memory(error);
-    ffd_status status = mark_primitives(d, owners, error);
-    if (!status)
-        status = add_groups(d, owners, error);
-    if (!status)
-        find_results(d);
+    ffd_status status;
+    TRY_END(mark_primitives(d, owners, error));
+    TRY_END(add_groups(d, owners, error));
+    find_results(d);
+end:
     ffd_free(owners);
     return status;
 }
@@ -291,19 +286,18 @@ static void drop_result(gltf_document *d, size_t count, gltf_stream *stream)
 
 ffd_status ffd_gltf_begin_splats(gltf_document *d, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     atomic_store(&d->unturned, 0);
-    for (size_t i = 0; i < d->base.part_count && !status; i++) {
+    for (size_t i = 0; i < d->base.part_count; i++) {
         const mesh_part *const part = &d->mesh_parts[i];
         const bool follows = (!part->skipped || part->carried) && !part->singular &&
                              !part->repeats_positions && !d->morph_name && !d->results.converted;
-        for (size_t a = 0; part->has_ellipsoids && a < attribute_count(d, i) && !status; a++)
+        for (size_t a = 0; part->has_ellipsoids && a < attribute_count(d, i); a++)
             if (follows)
-                status = make_result(d, part->vertex_count, stream_of(d, i, a), error);
+                TRY(make_result(d, part->vertex_count, stream_of(d, i, a), error));
             else
                 drop_result(d, part->vertex_count, stream_of(d, i, a));
     }
-    return status;
+    return FFD_OK;
 }
 
 void ffd_gltf_warn_of_splats(const gltf_document *d, const mesh_log *log)

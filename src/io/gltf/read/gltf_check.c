@@ -58,12 +58,8 @@ static ffd_status check_view(gltf_document *d, size_t i, ffd_error *error)
 {
     const gltf_view *view = &d->model.views[i];
     const uint32_t value = d->view_values.values[i];
-    ffd_status status =
-        check_index(d, value, "buffer", view->buffer, d->buffer_values.count, "buffer", error);
-    if (!status)
-        status = read_stride(d, i, error);
-    if (status)
-        return status;
+    TRY(check_index(d, value, "buffer", view->buffer, d->buffer_values.count, "buffer", error));
+    TRY(read_stride(d, i, error));
     const gltf_buffer *const buffer = &d->buffers[view->buffer];
     const uint64_t length = buffer->length;
     const bool is_outside = view->offset > length || view->length > length - view->offset;
@@ -222,16 +218,15 @@ static ffd_status check_shape(const gltf_document *d, uint32_t value, const char
 static ffd_status check_shapes(const gltf_document *d, uint32_t value, int tangent_rows, const int *accessors,
                                ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (int s = 0; s < GLTF_DEFORMED && !status; s++)
+    for (int s = 0; s < GLTF_DEFORMED; s++)
         if (accessors[s] >= 0 &&
             ffd_json_tree_member(&d->tree, value, ffd_gltf_semantic_names[s]) == JSON_NONE)
-            status =
-                refuse(d, value, "", error, "tinygltf read a %s that it has not", ffd_gltf_semantic_names[s]);
+            TRY(refuse(d, value, "", error, "tinygltf read a %s that it has not",
+                       ffd_gltf_semantic_names[s]));
         else if (accessors[s] >= 0)
-            status = check_shape(d, value, ffd_gltf_semantic_names[s], s == GLTF_TANGENT ? tangent_rows : 3,
-                                 &d->model.accessors[accessors[s]], error);
-    return status;
+            TRY(check_shape(d, value, ffd_gltf_semantic_names[s], s == GLTF_TANGENT ? tangent_rows : 3,
+                            &d->model.accessors[accessors[s]], error));
+    return FFD_OK;
 }
 
 static ffd_status check_attributes(const gltf_document *d, uint32_t object, const gltf_attribute *attributes,
@@ -240,10 +235,7 @@ static ffd_status check_attributes(const gltf_document *d, uint32_t object, cons
     for (size_t i = 0; i < attribute_count; i++) {
         const char *key =
             attributes[i].semantic == GLTF_OTHER ? "" : ffd_gltf_semantic_names[attributes[i].semantic];
-        const ffd_status status =
-            check_index(d, object, key, attributes[i].accessor, d->model.accessor_count, "accessor", error);
-        if (status)
-            return status;
+        TRY(check_index(d, object, key, attributes[i].accessor, d->model.accessor_count, "accessor", error));
         const uint64_t count = d->model.accessors[attributes[i].accessor].count;
         if (*vertices == UINT64_MAX)
             *vertices = count;
@@ -298,18 +290,15 @@ static ffd_status check_primitive(gltf_document *d, gltf_primitive *primitive, f
     const uint32_t attributes = ffd_json_tree_member(&d->tree, value, "attributes");
     const uint32_t targets = ffd_json_tree_member(&d->tree, value, "targets");
     uint64_t vertices = UINT64_MAX;
-    ffd_status status =
-        check_attributes(d, attributes, primitive->attributes, primitive->attribute_count, &vertices, error);
-    if (!status)
-        status = check_attributes(d, targets, primitive->targets, primitive->target_attribute_count,
-                                  &vertices, error);
-    if (!status)
-        status = check_shapes(d, attributes, 4, primitive->accessor, error);
+    TRY(check_attributes(d, attributes, primitive->attributes, primitive->attribute_count, &vertices, error));
+    TRY(check_attributes(d, targets, primitive->targets, primitive->target_attribute_count, &vertices,
+                         error));
+    TRY(check_shapes(d, attributes, 4, primitive->accessor, error));
     const int *accessors = primitive->target_accessors;
-    for (uint32_t v = ffd_json_tree_first(&d->tree, targets); v != JSON_NONE && !status;
+    for (uint32_t v = ffd_json_tree_first(&d->tree, targets); v != JSON_NONE;
          v = ffd_json_tree_after(&d->tree, v), accessors += GLTF_DEFORMED)
-        status = check_shapes(d, v, 3, accessors, error);
-    return status ? status : check_indices(d, primitive, error);
+        TRY(check_shapes(d, v, 3, accessors, error));
+    return check_indices(d, primitive, error);
 }
 
 /* In a primitive compressed by Draco, the elements of accessors without a bufferView are in the compressed
@@ -332,18 +321,17 @@ static void mark_compressed(gltf_document *d, const gltf_primitive *primitive)
 static ffd_status limit_zeros(const gltf_document *d, ffd_error *error)
 {
     memory_budget budget = d->base.budget;
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < d->model.accessor_count && !status; i++) {
+    for (size_t i = 0; i < d->model.accessor_count; i++) {
         const gltf_accessor *accessor = &d->model.accessors[i];
         ffd_error problem = {0};
         if (accessor->view >= 0 || d->layouts[i].data || !d->layouts[i].readable)
             continue;
-        status = ffd_budget_take(&budget, accessor->count, ZERO_BYTES, &problem);
+        const ffd_status status = ffd_budget_take(&budget, accessor->count, ZERO_BYTES, &problem);
         if (status)
-            ffd_json_tree_fail(&d->tree, d->accessor_values.values[i], d->name, status, error, "%s",
-                               problem.message);
+            return ffd_json_tree_fail(&d->tree, d->accessor_values.values[i], d->name, status, error, "%s",
+                                      problem.message);
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status check_matrix(gltf_document *d, uint32_t value, const double *m, ffd_error *error)
@@ -365,53 +353,46 @@ static ffd_status check_node(gltf_document *d, size_t n, size_t skins, ffd_error
 {
     const gltf_node *node = &d->model.nodes[n];
     const uint32_t value = d->node_values.values[n];
-    ffd_status status = FFD_OK;
     if (ffd_json_tree_member(&d->tree, value, "mesh") != JSON_NONE)
-        status = check_index(d, value, "mesh", node->mesh, d->model.mesh_count, "mesh", error);
-    if (!status && ffd_json_tree_member(&d->tree, value, "skin") != JSON_NONE)
-        status = check_index(d, value, "skin", node->skin, skins, "skin", error);
-    for (size_t i = 0; i < node->child_count && !status; i++)
-        status = check_index(d, value, "children", node->children[i], d->model.node_count, "node", error);
-    if (!status && node->has_matrix)
-        status = check_matrix(d, value, node->matrix, error);
-    return status;
+        TRY(check_index(d, value, "mesh", node->mesh, d->model.mesh_count, "mesh", error));
+    if (ffd_json_tree_member(&d->tree, value, "skin") != JSON_NONE)
+        TRY(check_index(d, value, "skin", node->skin, skins, "skin", error));
+    for (size_t i = 0; i < node->child_count; i++)
+        TRY(check_index(d, value, "children", node->children[i], d->model.node_count, "node", error));
+    if (node->has_matrix)
+        TRY(check_matrix(d, value, node->matrix, error));
+    return FFD_OK;
 }
 
 static ffd_status check_scenes(const gltf_document *d, ffd_error *error)
 {
     const uint32_t scenes = ffd_json_tree_member(&d->tree, 0, "scenes");
-    ffd_status status = FFD_OK;
     uint32_t value = ffd_json_tree_first(&d->tree, scenes);
     for (size_t s = 0; s < d->model.scene_count; s++, value = ffd_json_tree_after(&d->tree, value))
-        for (size_t i = 0; i < d->model.scenes[s].node_count && !status; i++)
-            status = check_index(d, value, "nodes", d->model.scenes[s].nodes[i], d->model.node_count, "node",
-                                 error);
-    if (!status && ffd_json_tree_member(&d->tree, 0, "scene") != JSON_NONE)
-        status = check_index(d, 0, "scene", d->model.scene, d->model.scene_count, "scene", error);
-    return status;
+        for (size_t i = 0; i < d->model.scenes[s].node_count; i++)
+            TRY(check_index(d, value, "nodes", d->model.scenes[s].nodes[i], d->model.node_count, "node",
+                            error));
+    if (ffd_json_tree_member(&d->tree, 0, "scene") != JSON_NONE)
+        TRY(check_index(d, 0, "scene", d->model.scene, d->model.scene_count, "scene", error));
+    return FFD_OK;
 }
 
 ffd_status ffd_gltf_check(gltf_document *d, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < d->model.view_count && !status; i++)
-        status = check_view(d, i, error);
-    if (!status)
-        status = ffd_gltf_decode_views(d, error);
-    for (size_t i = 0; i < d->model.accessor_count && !status; i++)
-        status = check_accessor(d, i, error);
-    for (size_t i = 0; i < d->model.primitive_count && !status; i++) {
-        status = check_primitive(d, &d->model.primitives[i], error);
-        if (!status)
-            mark_compressed(d, &d->model.primitives[i]);
+    for (size_t i = 0; i < d->model.view_count; i++)
+        TRY(check_view(d, i, error));
+    TRY(ffd_gltf_decode_views(d, error));
+    for (size_t i = 0; i < d->model.accessor_count; i++)
+        TRY(check_accessor(d, i, error));
+    for (size_t i = 0; i < d->model.primitive_count; i++) {
+        TRY(check_primitive(d, &d->model.primitives[i], error));
+        mark_compressed(d, &d->model.primitives[i]);
     }
-    if (!status)
-        status = ffd_gltf_decode_draco(d, error);
-    if (!status)
-        status = limit_zeros(d, error);
+    TRY(ffd_gltf_decode_draco(d, error));
+    TRY(limit_zeros(d, error));
     const uint32_t skins = ffd_json_tree_member(&d->tree, 0, "skins");
     const size_t skin_count = ffd_json_tree_count(&d->tree, skins);
-    for (size_t i = 0; i < d->model.node_count && !status; i++)
-        status = check_node(d, i, skin_count, error);
-    return status ? status : check_scenes(d, error);
+    for (size_t i = 0; i < d->model.node_count; i++)
+        TRY(check_node(d, i, skin_count, error));
+    return check_scenes(d, error);
 }

@@ -25,7 +25,6 @@ static bool begins_with_other(const gltf_document *d, size_t buffer, const bool 
 
 ffd_status ffd_gltf_check_contents(const gltf_document *d, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     bool *is_read = ffd_alloc_zero(d->model.view_count, sizeof *is_read);
     if (!is_read)
         return ffd_fail_memory(error);
@@ -35,7 +34,8 @@ ffd_status ffd_gltf_check_contents(const gltf_document *d, ffd_error *error)
         mark_view(d, accessor->sparse.present ? accessor->sparse.indices_view : -1, is_read);
         mark_view(d, accessor->sparse.present ? accessor->sparse.values_view : -1, is_read);
     }
-    for (size_t i = 0; i < d->buffer_values.count && !status; i++) {
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < d->buffer_values.count; i++) {
         const gltf_buffer *const buffer = &d->buffers[i];
         const content_kind *const kind =
             buffer->data ? ffd_content_sure_kind(buffer->data, buffer->size) : NULL;
@@ -45,12 +45,13 @@ ffd_status ffd_gltf_check_contents(const gltf_document *d, ffd_error *error)
         if (!kind || (!kind->is_stand_in && begins_with_other(d, i, is_read)))
             continue;
         if (buffer->path)
-            status = ffd_json_tree_fail(&d->tree, uri, d->name, FFD_E_INVALID, error,
-                                        "the buffer \"%s\" seems to be %s", buffer->path, kind->name);
+            TRY_END(ffd_json_tree_fail(&d->tree, uri, d->name, FFD_E_INVALID, error,
+                                       "the buffer \"%s\" seems to be %s", buffer->path, kind->name));
         else
-            status = ffd_json_tree_fail(&d->tree, uri == JSON_NONE ? value : uri, d->name, FFD_E_INVALID,
-                                        error, "the buffer seems to be %s", kind->name);
+            TRY_END(ffd_json_tree_fail(&d->tree, uri == JSON_NONE ? value : uri, d->name, FFD_E_INVALID,
+                                       error, "the buffer seems to be %s", kind->name));
     }
+end:
     ffd_free(is_read);
     return status;
 }
@@ -226,17 +227,18 @@ static ffd_status check(gltf_document *d, int a, bool *is_checked, ffd_error *er
 
 ffd_status ffd_gltf_check_stated(gltf_document *d, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     bool *is_checked = ffd_alloc_zero(d->model.accessor_count, sizeof *is_checked);
     if (!is_checked)
         return ffd_fail_memory(error);
-    for (size_t i = 0; i < d->model.primitive_count && !status; i++) {
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < d->model.primitive_count; i++) {
         const gltf_primitive *const primitive = &d->model.primitives[i];
-        status = check(d, primitive->accessor[GLTF_POSITION], is_checked, error);
-        for (size_t t = 0; t < primitive->target_count && !status; t++)
-            status =
-                check(d, primitive->target_accessors[GLTF_DEFORMED * t + GLTF_POSITION], is_checked, error);
+        TRY_END(check(d, primitive->accessor[GLTF_POSITION], is_checked, error));
+        for (size_t t = 0; t < primitive->target_count; t++)
+            TRY_END(
+                check(d, primitive->target_accessors[GLTF_DEFORMED * t + GLTF_POSITION], is_checked, error));
     }
+end:
     ffd_free(is_checked);
     return status;
 }
@@ -312,18 +314,19 @@ static ffd_status judge_primitive(gltf_document *d, const gltf_primitive *primit
 
 ffd_status ffd_gltf_judge_weights(gltf_document *d, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     bool *const judged = ffd_alloc_zero(d->model.accessor_count, sizeof *judged);
     if (!judged)
         return ffd_fail_memory(error);
-    for (size_t i = 0; i < d->instance_count && !status; i++) {
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < d->instance_count; i++) {
         const gltf_primitive *const primitive = d->instances[i].primitive;
         if (!ffd_gltf_skin_of(d, &d->instances[i]) || !is_readable(d, primitive) ||
             judged[primitive->influences[0].weights])
             continue; /* primitives may share an accessor */
         judged[primitive->influences[0].weights] = true;
-        status = judge_primitive(d, primitive, error);
+        TRY_END(judge_primitive(d, primitive, error));
     }
+end:
     ffd_free(judged);
     return status;
 }

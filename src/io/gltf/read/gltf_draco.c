@@ -224,11 +224,9 @@ static bool same_claim(const draco_claim *a, const draco_claim *b)
 static ffd_status decode_primitive(gltf_document *d, const packed_primitive *packed, const draco_claim *claim,
                                    draco_mesh **mesh, ffd_error *error)
 {
-    ffd_status status = *mesh ? FFD_OK : decode_mesh(d, packed, claim, mesh, error);
+    TRY(*mesh ? FFD_OK : decode_mesh(d, packed, claim, mesh, error));
     const unpacker u = {d, *mesh, packed->view, error};
-    if (!status)
-        status = unpack_primitive(&u, packed);
-    return status;
+    return unpack_primitive(&u, packed);
 }
 
 static int compare_packed(const void *a, const void *b)
@@ -298,7 +296,7 @@ static ffd_status decode_all(gltf_document *d, const packed_primitive *list, siz
     draco_mesh *mesh = NULL;
     draco_claim last = {0, 0};
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < count && !status; i++) {
+    for (size_t i = 0; i < count; i++) {
         draco_claim claim = {0, 0};
         ffd_error problem = {0};
         status = read_claim(d, &list[i], &claim, &problem);
@@ -306,11 +304,11 @@ static ffd_status decode_all(gltf_document *d, const packed_primitive *list, siz
             ffd_draco_free(mesh);
             mesh = NULL;
         }
-        if (!status)
-            status = decode_primitive(d, &list[i], &claim, &mesh, &problem);
-        status = keep_problem(d, &list[i], status, &problem, error);
+        status = status ? status : decode_primitive(d, &list[i], &claim, &mesh, &problem);
+        TRY_END(keep_problem(d, &list[i], status, &problem, error));
         last = claim;
     }
+end:
     ffd_draco_free(mesh);
     return status;
 }
@@ -372,13 +370,13 @@ ffd_status ffd_gltf_decode_draco(gltf_document *d, ffd_error *error)
     packed_primitive *list = ffd_alloc(d->model.primitive_count, sizeof *list);
     d->draco_problems = ffd_alloc_zero(d->model.primitive_count, sizeof *d->draco_problems);
     d->unpacked = ffd_alloc_zero(d->model.accessor_count, sizeof *d->unpacked);
-    ffd_status status = list && d->draco_problems && d->unpacked ? FFD_OK : ffd_fail_memory(error);
-    if (!status) {
-        const size_t count = list_packed(d, list);
-        status = decode_all(d, list, count, error);
-        if (!status && count > 0)
-            status = mark_clashes(d, error);
-    }
+    ffd_status status;
+    TRY_END(list && d->draco_problems && d->unpacked ? FFD_OK : ffd_fail_memory(error));
+    const size_t count = list_packed(d, list);
+    TRY_END(decode_all(d, list, count, error));
+    if (count > 0)
+        TRY_END(mark_clashes(d, error));
+end:
     ffd_free(list);
     return status;
 }

@@ -126,24 +126,22 @@ static ffd_status unroll_drawing(gltf_document *d, gltf_primitive *primitive, ui
 {
     const size_t count = (size_t)d->model.accessors[primitive->indices].count;
     const uint32_t restart = restart_of(d, primitive);
-    ffd_status status = ffd_budget_check(&d->base.budget, count, sizeof(uint32_t), error);
-    uint32_t *const indices = status ? NULL : ffd_alloc(count, sizeof *indices);
     *largest = 0;
-    if (status || !indices)
-        return status ? status : ffd_fail_memory(error);
+    TRY(ffd_budget_check(&d->base.budget, count, sizeof(uint32_t), error));
+    uint32_t *const indices = ffd_alloc(count, sizeof *indices);
+    if (!indices)
+        return ffd_fail_memory(error);
     ffd_gltf_read_indices(d, (size_t)primitive->indices, 0, count, indices);
     for (size_t i = 0; i < count; i++)
         *largest = indices[i] != restart && indices[i] > *largest ? indices[i] : *largest;
     const size_t corners = unroll(primitive->mode, restart, indices, count, NULL);
-    status = ffd_budget_take(&d->base.budget, corners, sizeof *primitive->drawn, error);
-    if (!status) {
-        primitive->drawn = ffd_alloc(corners, sizeof *primitive->drawn);
-        status = primitive->drawn ? FFD_OK : ffd_fail_memory(error);
-    }
-    if (!status) {
-        primitive->drawn_count = unroll(primitive->mode, restart, indices, count, primitive->drawn);
-        primitive->mode = primitive->mode < MODE_TRIANGLES ? MODE_LINES : MODE_TRIANGLES;
-    }
+    ffd_status status;
+    TRY_END(ffd_budget_take(&d->base.budget, corners, sizeof *primitive->drawn, error));
+    primitive->drawn = ffd_alloc(corners, sizeof *primitive->drawn);
+    TRY_END(primitive->drawn ? FFD_OK : ffd_fail_memory(error));
+    primitive->drawn_count = unroll(primitive->mode, restart, indices, count, primitive->drawn);
+    primitive->mode = primitive->mode < MODE_TRIANGLES ? MODE_LINES : MODE_TRIANGLES;
+end:
     ffd_free(indices);
     return status;
 }
@@ -280,14 +278,15 @@ static ffd_status check_indices(gltf_document *d, gltf_primitive *primitive, uin
 
 ffd_status ffd_gltf_check_indices(gltf_document *d, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     uint64_t *largest = ffd_alloc(d->model.accessor_count, sizeof *largest);
     if (!largest)
         return ffd_fail_memory(error);
     for (size_t a = 0; a < d->model.accessor_count; a++)
         largest[a] = UINT64_MAX;
-    for (size_t i = 0; i < d->model.primitive_count && !status; i++)
-        status = check_indices(d, &d->model.primitives[i], largest, error);
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < d->model.primitive_count; i++)
+        TRY_END(check_indices(d, &d->model.primitives[i], largest, error));
+end:
     ffd_free(largest);
     return status;
 }

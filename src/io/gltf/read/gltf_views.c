@@ -104,8 +104,7 @@ static ffd_status read_compression(const gltf_document *d, size_t i, meshopt_vie
     TRY(find_bytes(d, value, view, error));
     ffd_error problem;
     ffd_status status = ffd_meshopt_check(view, &problem);
-    if (!status)
-        status = ffd_meshopt_ready(view, &problem);
+    status = status ? status : ffd_meshopt_ready(view, &problem);
     if (status)
         return ffd_json_tree_fail(&d->tree, value, d->name, status, error, "%s", problem.message);
     const uint64_t size = view->count * view->stride;

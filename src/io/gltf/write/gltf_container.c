@@ -150,20 +150,17 @@ static ffd_status give_name(gltf_saver *saver, size_t b, sidecar_names *names, f
     char *const old = has_old ? ffd_path_sibling(saver->document->path, buffer->path) : NULL;
     char *target = NULL;
     names->old = old;
-    ffd_status status =
+    const ffd_status status =
         old || !has_old ? ffd_sidecar_next(names, is_own_file, &of, &target, error) : ffd_fail_memory(error);
     names->old = NULL;
     ffd_free(old);
-    if (status) {
-        ffd_free(target);
-        return status;
-    }
+    TRY(status);
     saver->buffers[b].target = target;
     if (!saver->in_place)
-        status = refuse_own_file(saver, target, error);
-    if (!status && !saver->in_place && !saver->options->to_sink)
-        status = ffd_output_check(target, saver->options->force, error);
-    return status ? status : set_uri(saver, b, ffd_path_name(target), error);
+        TRY(refuse_own_file(saver, target, error));
+    if (!saver->in_place && !saver->options->to_sink)
+        TRY(ffd_output_check(target, saver->options->force, error));
+    return set_uri(saver, b, ffd_path_name(target), error);
 }
 
 /* If the output replaces the input, an unchanged buffer keeps its file. A changed buffer gets a new name
@@ -174,10 +171,9 @@ ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error)
     const gltf_document *d = saver->document;
     const bool stream = ffd_output_is_stream(saver->options->path);
     sidecar_names names = {.options = saver->options, .log = saver->log, .in_place = saver->in_place};
-    ffd_status status = FFD_OK;
     if (!stream && !saver->in_place)
-        status = refuse_own_file(saver, saver->options->path, error);
-    for (size_t b = 0; b < d->buffer_values.count && !status; b++) {
+        TRY(refuse_own_file(saver, saver->options->path, error));
+    for (size_t b = 0; b < d->buffer_values.count; b++) {
         if (saver->buffers[b].kind != BUFFER_FILE || (saver->in_place && !saver->buffers[b].changed))
             continue;
         if (stream)
@@ -185,9 +181,9 @@ ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error)
                 &d->tree, d->buffer_values.values[b], d->name, FFD_E_ARGUMENT, error,
                 "the buffer is a file of its own, which standard output cannot hold: give a file "
                 "name as output");
-        status = give_name(saver, b, &names, error);
+        TRY(give_name(saver, b, &names, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Counts the buffers as gltf_container.c places them if the model keeps its format, else as a converted model

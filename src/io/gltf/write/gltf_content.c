@@ -171,15 +171,13 @@ static ffd_status list_added(const gltf_saver *saver, ffd_error *error)
 
 static ffd_status list_unpacked(gltf_saver *saver, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < saver->unpacking_count && !status; i++) {
+    for (size_t i = 0; i < saver->unpacking_count; i++) {
         gltf_unpacking *u = &saver->unpackings[i];
         const gltf_append append = {.size = u->size, .version = GLTF_NONE, .bytes = u->bytes};
-        status = add_append(saver, u->buffer, append, error);
-        if (!status)
-            u->offset = saver->buffers[u->buffer].length - u->size;
+        TRY(add_append(saver, u->buffer, append, error));
+        u->offset = saver->buffers[u->buffer].length - u->size;
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status list_appends(gltf_saver *saver, ffd_error *error)

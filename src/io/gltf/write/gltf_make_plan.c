@@ -146,10 +146,8 @@ static ffd_status make_versions(const gltf_document *d, gltf_plan *plan, ffd_err
     plan->content_versions = ffd_alloc(contents, sizeof *plan->content_versions);
     plan->part_versions = ffd_alloc(most, sizeof *plan->part_versions);
     ffd_status status = FFD_OK;
-    if (!candidates || !indices || !plan->versions || !plan->part_versions || !plan->content_versions) {
-        status = ffd_fail_memory(error);
-        goto done;
-    }
+    if (!candidates || !indices || !plan->versions || !plan->part_versions || !plan->content_versions)
+        TRY_END(ffd_fail_memory(error));
     for (size_t i = 0; i < most; i++)
         plan->part_versions[i] = GLTF_NONE;
     join_candidates(candidates, list_candidates(d, candidates), plan);
@@ -163,7 +161,7 @@ static ffd_status make_versions(const gltf_document *d, gltf_plan *plan, ffd_err
         if (plan->part_versions[i] != GLTF_NONE)
             plan->part_versions[i] = indices[plan->part_versions[i]];
     add_contents(d->edit, plan);
-done:
+end:
     ffd_free(candidates);
     ffd_free(indices);
     return status;
@@ -265,13 +263,14 @@ static ffd_status split_meshes(const gltf_document *d, gltf_plan *plan, ffd_erro
     plan->changes = ffd_alloc(nodes, sizeof *plan->changes);
     ffd_status status = FFD_OK;
     if (!variants || !groups || !order || !plan->base_uses || !plan->copies || !plan->changes)
-        status = ffd_fail_memory(error);
-    for (size_t m = 0; m < d->model.mesh_count && !status; m++) {
+        TRY_END(ffd_fail_memory(error));
+    for (size_t m = 0; m < d->model.mesh_count; m++) {
         const size_t first_copy = plan->copy_count, first_change = plan->change_count;
         split_mesh(d, m, variants, plan);
         order_copies(plan, first_copy, first_change);
         ffd_gltf_join_uses(d, m, first_copy, first_change, plan, groups, order);
     }
+end:
     ffd_free(variants);
     ffd_free(groups);
     ffd_free(order);
@@ -356,15 +355,13 @@ static ffd_status append_rest(const gltf_document *d, gltf_plan *plan, ffd_error
 ffd_status ffd_gltf_make_plan(const gltf_document *d, gltf_plan *plan, ffd_error *error)
 {
     *plan = (gltf_plan){0};
-    ffd_status status = make_versions(d, plan, error);
-    if (!status)
-        status = split_meshes(d, plan, error);
-    if (!status)
-        status = choose_in_place(d, plan, error);
-    if (!status)
-        status = ffd_gltf_resolve_overlaps(d, plan, error);
-    if (!status)
-        status = append_rest(d, plan, error);
+    ffd_status status;
+    TRY_END(make_versions(d, plan, error));
+    TRY_END(split_meshes(d, plan, error));
+    TRY_END(choose_in_place(d, plan, error));
+    TRY_END(ffd_gltf_resolve_overlaps(d, plan, error));
+    TRY_END(append_rest(d, plan, error));
+end:
     if (status)
         ffd_gltf_free_plan(plan);
     return status;

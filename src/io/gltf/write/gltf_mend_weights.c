@@ -208,18 +208,16 @@ static bool set_mends(const mending *m, const gltf_influence *set)
 /* Opens the sets of a primitive. *mends: whether all are written decompressed, so that they can change. */
 static ffd_status open_sets(mending *m, const gltf_primitive *primitive, influences *of, bool *mends)
 {
-    ffd_status status = FFD_OK;
     of->set_count = primitive->influence_count <= MOST_SETS ? primitive->influence_count : 0;
     *mends = of->set_count > 0;
     for (size_t s = 0; s < of->set_count && *mends; s++)
         *mends = set_mends(m, &primitive->influences[s]);
-    for (size_t s = 0; s < of->set_count && *mends && !status; s++) {
-        status = open_list(m, (size_t)primitive->influences[s].joints, &of->joints[s]);
-        if (!status)
-            status = open_list(m, (size_t)primitive->influences[s].weights, &of->weights[s]);
+    for (size_t s = 0; s < of->set_count && *mends; s++) {
+        TRY(open_list(m, (size_t)primitive->influences[s].joints, &of->joints[s]));
+        TRY(open_list(m, (size_t)primitive->influences[s].weights, &of->weights[s]));
         m->done[primitive->influences[s].weights] = true;
     }
-    return status;
+    return FFD_OK;
 }
 
 static ffd_status mend_primitive(mending *m, const gltf_primitive *primitive)
@@ -243,17 +241,19 @@ ffd_status ffd_gltf_mend_weights(gltf_saver *saver, ffd_error *error)
     const size_t count = d->model.accessor_count;
     m.done = ffd_alloc_zero(count, sizeof *m.done);
     m.partner = ffd_alloc(count, sizeof *m.partner);
-    ffd_status status = m.done && m.partner ? FFD_OK : ffd_fail_memory(error);
-    for (size_t i = 0; i < count && !status; i++)
+    ffd_status status;
+    TRY_END(m.done && m.partner ? FFD_OK : ffd_fail_memory(error));
+    for (size_t i = 0; i < count; i++)
         m.partner[i] = GLTF_NONE;
-    for (size_t i = 0; i < d->model.primitive_count && !status; i++)
+    for (size_t i = 0; i < d->model.primitive_count; i++)
         note_partners(&m, &d->model.primitives[i]);
-    for (size_t i = 0; i < d->model.primitive_count && !status; i++)
-        status = mend_primitive(&m, &d->model.primitives[i]);
-    if (!status && m.mended > 0)
+    for (size_t i = 0; i < d->model.primitive_count; i++)
+        TRY_END(mend_primitive(&m, &d->model.primitives[i]));
+    if (m.mended > 0)
         ffd_log_line(saver->log, FFD_LOG_INFO,
                      "the skin weights of %zu %s, which were compressed, are written so that they sum to 1",
                      m.mended, ffd_plural(m.mended, "vertex", "vertices"));
+end:
     ffd_free(m.partner);
     ffd_free(m.done);
     return status;

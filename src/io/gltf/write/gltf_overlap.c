@@ -168,15 +168,11 @@ ffd_status ffd_gltf_resolve_overlaps(const gltf_document *d, gltf_plan *plan, ff
     user_list list = {0};
     bool *others = ffd_alloc_zero(d->model.view_count, sizeof *others);
     ffd_status status = FFD_OK;
-    if (!others) {
-        status = ffd_fail_memory(error);
-        goto done;
-    }
+    if (!others)
+        TRY_END(ffd_fail_memory(error));
     list_users(d, others, &list);
-    if (list.failed) {
-        status = ffd_fail_memory(error);
-        goto done;
-    }
+    if (list.failed)
+        TRY_END(ffd_fail_memory(error));
     if (list.count > 0)
         qsort(list.users, list.count, sizeof *list.users, compare_users);
     /* Withdrawing a version can end an agreement found before. */
@@ -186,7 +182,7 @@ ffd_status ffd_gltf_resolve_overlaps(const gltf_document *d, gltf_plan *plan, ff
     if (pairs > MOST_PAIRS)
         for (size_t a = 0; a < d->model.accessor_count; a++)
             plan->in_place[a] = GLTF_NONE;
-done:
+end:
     ffd_free(others);
     ffd_free(list.users);
     return status;

@@ -35,19 +35,16 @@ static ffd_status image_path(const gltf_document *d, size_t image, char **path, 
 static ffd_status find_images(const json_tree *tree, const file_folder *mesh, path_list *files,
                               ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     uint32_t image = ffd_json_tree_first(tree, ffd_json_tree_member(tree, 0, "images"));
-    for (; image != JSON_NONE && !status; image = ffd_json_tree_after(tree, image)) {
-        char *relative, *path = NULL;
-        status = ffd_gltf_file_path(tree, image, mesh, &relative, error);
-        if (relative && ffd_image_has_name(relative) && !ffd_image_is_hidden(relative)) {
-            path = ffd_path_sibling(mesh->file, relative);
-            status = path ? ffd_paths_add(files, path, error) : ffd_fail_memory(error);
-        }
-        ffd_free(path);
-        ffd_free(relative);
+    for (; image != JSON_NONE; image = ffd_json_tree_after(tree, image)) {
+        char *relative;
+        TRY(ffd_gltf_file_path(tree, image, mesh, &relative, error));
+        if (relative && ffd_image_has_name(relative) && !ffd_image_is_hidden(relative))
+            TRY(ffd_gltf_add_sibling(mesh, relative, files, error));
+        else
+            ffd_free(relative);
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Whether a JSON text has `letter` and then "ri" at the end of a string, or a character written as \u. */
@@ -89,15 +86,13 @@ static ffd_status parse(const char *path, const file_input *bytes, json_tree *tr
 static ffd_status find_files(const json_tree *tree, const char *array, const file_folder *mesh,
                              path_list *files, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
     uint32_t value = ffd_json_tree_first(tree, ffd_json_tree_member(tree, 0, array));
-    for (; value != JSON_NONE && !status; value = ffd_json_tree_after(tree, value)) {
+    for (; value != JSON_NONE; value = ffd_json_tree_after(tree, value)) {
         char *relative;
-        status = ffd_gltf_file_path(tree, value, mesh, &relative, error);
-        if (!status)
-            status = ffd_gltf_add_sibling(mesh, relative, files, error);
+        TRY(ffd_gltf_file_path(tree, value, mesh, &relative, error));
+        TRY(ffd_gltf_add_sibling(mesh, relative, files, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 ffd_status ffd_gltf_find_named(const char *path, const file_input *bytes, const mesh_named *named,
@@ -109,16 +104,16 @@ ffd_status ffd_gltf_find_named(const char *path, const file_input *bytes, const 
     ffd_status status = parse(path, bytes, &tree, &is_model, error);
     if (!is_model)
         return status;
-    if (named->files)
-        status = find_files(&tree, "buffers", &mesh, named->files, error);
-    if (!status && named->files)
-        status = find_files(&tree, "images", &mesh, named->files, error);
-    if (!status && named->files)
-        status = ffd_gltf_find_linked(&tree, &mesh, named->files, error);
-    if (!status && named->copies)
-        status = find_images(&tree, &mesh, named->copies, error);
-    if (!status && named->linked)
-        status = ffd_gltf_find_linked(&tree, &mesh, named->linked, error);
+    if (named->files) {
+        TRY_END(find_files(&tree, "buffers", &mesh, named->files, error));
+        TRY_END(find_files(&tree, "images", &mesh, named->files, error));
+        TRY_END(ffd_gltf_find_linked(&tree, &mesh, named->files, error));
+    }
+    if (named->copies)
+        TRY_END(find_images(&tree, &mesh, named->copies, error));
+    if (named->linked)
+        TRY_END(ffd_gltf_find_linked(&tree, &mesh, named->linked, error));
+end:
     ffd_json_tree_free(&tree);
     return status;
 }
@@ -182,9 +177,9 @@ static ffd_status put_data_uri(resources *r, size_t image, const file_input *byt
     const json_tree *const tree = &r->saver->document->tree;
     const uint32_t uri = ffd_json_tree_member(tree, r->saver->document->image_values.values[image], "uri");
     const size_t size = ffd_base64_length(bytes->size);
-    const ffd_status status = ffd_budget_take(&r->budget, size, 2, error); /* here, and among the edits */
-    if (status || uri == JSON_NONE)
-        return status;
+    TRY(ffd_budget_take(&r->budget, size, 2, error)); /* here, and among the edits */
+    if (uri == JSON_NONE)
+        return FFD_OK;
     char *const text = ffd_alloc(size, 1);
     if (!text)
         return ffd_fail_memory(error);
@@ -218,9 +213,10 @@ static ffd_status embed_image(resources *r, size_t index, char *path, ffd_error 
                      left);
         return FFD_OK;
     }
-    ffd_status status = put_data_uri(r, index, &bytes, error);
-    if (!status)
-        status = ffd_resource_note(&r->copier, &image, error);
+    ffd_status status;
+    TRY_END(put_data_uri(r, index, &bytes, error));
+    TRY_END(ffd_resource_note(&r->copier, &image, error));
+end:
     ffd_file_unload(&bytes);
     return status;
 }
@@ -273,14 +269,16 @@ static ffd_status refuse_image_name(const resources *r, size_t index, bool own_c
 {
     const gltf_saver *saver = r->saver;
     mesh_resource image = {.kind = &ffd_resource_image, .index = index};
-    ffd_status status = image_path(saver->document, index, &image.path, error);
-    if (status || !image.path)
-        return status;
+    TRY(image_path(saver->document, index, &image.path, error));
+    if (!image.path)
+        return FFD_OK;
+    ffd_status status = FFD_OK;
     if (!saver->in_place && !ffd_output_is_stream(saver->options->path))
-        status = ffd_resource_check_target(&r->copier, &image, own_copy, saver->options->path, error);
-    for (size_t b = 0; b < saver->document->buffer_values.count && !status; b++)
+        TRY_END(ffd_resource_check_target(&r->copier, &image, own_copy, saver->options->path, error));
+    for (size_t b = 0; b < saver->document->buffer_values.count; b++)
         if (saver->buffers[b].target)
-            status = ffd_resource_check_target(&r->copier, &image, own_copy, saver->buffers[b].target, error);
+            TRY_END(ffd_resource_check_target(&r->copier, &image, own_copy, saver->buffers[b].target, error));
+end:
     ffd_free(image.path);
     return status;
 }
@@ -292,9 +290,10 @@ static ffd_status leave_file(const resources *r, uint32_t uri, uint32_t extensio
 {
     const json_tree *const tree = &r->saver->document->tree;
     char *path;
-    ffd_status status = ffd_gltf_uri_path(tree, uri, &r->saver->document->base.folder, &path, error);
-    if (status || !path)
-        return status;
+    TRY(ffd_gltf_uri_path(tree, uri, &r->saver->document->base.folder, &path, error));
+    if (!path)
+        return FFD_OK;
+    ffd_status status = FFD_OK;
     char *const name = ffd_json_tree_key(tree, extension);
     const size_t before = known->count;
     uint32_t index;
@@ -315,10 +314,11 @@ static ffd_status leave_linked(const resources *r, left_out *left, ffd_error *er
 {
     const json_tree *const tree = &r->saver->document->tree;
     intern_table known = {0};
-    ffd_status status = FFD_OK;
     uint32_t extension, v = ffd_gltf_next_linked(tree, 0, &extension);
-    for (; v != JSON_NONE && !status; v = ffd_gltf_next_linked(tree, v + 1, &extension))
-        status = leave_file(r, v, extension, &known, left, error);
+    ffd_status status = FFD_OK;
+    for (; v != JSON_NONE; v = ffd_gltf_next_linked(tree, v + 1, &extension))
+        TRY_END(leave_file(r, v, extension, &known, left, error));
+end:
     ffd_intern_free(&known);
     return status;
 }
@@ -340,21 +340,21 @@ static ffd_status warn_of_stream(gltf_saver *saver, ffd_error *error)
     const resources r = {.saver = saver, .to = ffd_path_folder(saver->options->path)};
     left_out left = {0};
     resource_list images = {0};
-    ffd_status status = r.to ? FFD_OK : ffd_fail_memory(error);
-    for (size_t i = 0; i < d->image_values.count && !status; i++) {
+    ffd_status status;
+    TRY_END(r.to ? FFD_OK : ffd_fail_memory(error));
+    for (size_t i = 0; i < d->image_values.count; i++) {
         char *path;
-        status = image_path(d, i, &path, error);
+        TRY_END(image_path(d, i, &path, error));
         if (path)
-            status = ffd_resources_add(&images, &ffd_resource_image, i, path, error);
+            TRY_END(ffd_resources_add(&images, &ffd_resource_image, i, path, error));
     }
-    for (size_t i = 0; i < images.count && !status; i++)
-        status = ffd_left_add_unreached(&left, saver->options->to_sink ? NULL : r.to,
-                                        images.resources[i].path, "of images", error);
+    for (size_t i = 0; i < images.count; i++)
+        TRY_END(ffd_left_add_unreached(&left, saver->options->to_sink ? NULL : r.to, images.resources[i].path,
+                                       "of images", error));
+    TRY_END(leave_linked(&r, &left, error));
+    ffd_left_out_log_stream(&left, saver->log);
+end:
     ffd_resources_free(&images);
-    if (!status)
-        status = leave_linked(&r, &left, error);
-    if (!status)
-        ffd_left_out_log_stream(&left, saver->log);
     ffd_free(r.to);
     return status;
 }
@@ -380,18 +380,20 @@ ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error)
                                  .output = saver->output,
                                  .log = saver->log,
                                  .copied = saver->options->copied};
-    ffd_status status = r.from && r.to ? FFD_OK : ffd_fail_memory(error);
-    const bool stay = status == FFD_OK && (saver->in_place || ffd_save_meets(saver->options, r.from, r.to));
+    ffd_status status;
+    TRY_END(r.from && r.to ? FFD_OK : ffd_fail_memory(error));
+    const bool stay = saver->in_place || ffd_save_meets(saver->options, r.from, r.to);
     const bool own_copies = stay || (copies && !embeds);
-    for (size_t i = 0; i < d->image_values.count && !status; i++)
-        status = refuse_image_name(&r, i, own_copies, error);
-    for (size_t i = 0; i < d->image_values.count && !status && (!stay || embeds); i++)
-        status = bring_image(&r, i, error);
+    for (size_t i = 0; i < d->image_values.count; i++)
+        TRY_END(refuse_image_name(&r, i, own_copies, error));
+    for (size_t i = 0; i < d->image_values.count && (!stay || embeds); i++)
+        TRY_END(bring_image(&r, i, error));
     ffd_resources_sort(&r.copies);
-    for (size_t i = 0; i < r.copies.count && !status; i++)
-        status = copy_image(&r, &r.copies.resources[i], error);
-    if (!status && !stay && !ffd_output_is_stream(saver->options->path))
-        status = warn_of_left(&r, error);
+    for (size_t i = 0; i < r.copies.count; i++)
+        TRY_END(copy_image(&r, &r.copies.resources[i], error));
+    if (!stay && !ffd_output_is_stream(saver->options->path))
+        TRY_END(warn_of_left(&r, error));
+end:
     ffd_resources_free(&r.copies);
     ffd_free(r.from);
     ffd_free(r.to);

@@ -52,17 +52,16 @@ static ffd_status put_json(const gltf_saver *saver, size_t end, ffd_error *error
 {
     const char *text = saver->document->tree.text;
     size_t at = json_begin(saver);
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < saver->edits.count && !status; i++) {
+    for (size_t i = 0; i < saver->edits.count; i++) {
         const json_edit *edit = &saver->edits.edits[i];
         TRY(put(saver, text + at, edit->begin - at, error));
         if (edit->buffer != EDIT_NO_BUFFER)
-            status = ffd_gltf_write_content(saver, (size_t)edit->buffer, true, error);
+            TRY(ffd_gltf_write_content(saver, (size_t)edit->buffer, true, error));
         else if (edit->text_size > 0)
-            status = put(saver, saver->edits.pool.data + edit->text, edit->text_size, error);
+            TRY(put(saver, saver->edits.pool.data + edit->text, edit->text_size, error));
         at = edit->end;
     }
-    return status ? status : put(saver, text + at, end - at, error);
+    return put(saver, text + at, end - at, error);
 }
 
 /* Returns where a GLB's old JSON text ends. If its size changes, its padding is left out: the new text needs
@@ -132,22 +131,19 @@ static ffd_status put_glb(const gltf_saver *saver, ffd_error *error)
     store_u32(header, GLB_MAGIC);
     store_u32(header + 4, GLB_VERSION);
     store_u32(header + 8, (uint32_t)sizes.total);
-    ffd_status status = put(saver, header, sizeof header, error);
-    if (!status)
-        status = put_chunk_header(saver, sizes.json_chunk, GLB_CHUNK_JSON, error);
-    if (!status)
-        status = put_json(saver, sizes.json_end, error);
-    if (!status)
-        status = put_padding(saver, sizes.json_chunk - sizes.json, ' ', error);
-    if (!status && sizes.has_bin)
-        status = put_bin(saver, &sizes, error);
-    if (!status && d->binary)
-        status = put(saver, d->input.data + d->glb.rest_begin, sizes.rest, error);
+    TRY(put(saver, header, sizeof header, error));
+    TRY(put_chunk_header(saver, sizes.json_chunk, GLB_CHUNK_JSON, error));
+    TRY(put_json(saver, sizes.json_end, error));
+    TRY(put_padding(saver, sizes.json_chunk - sizes.json, ' ', error));
+    if (sizes.has_bin)
+        TRY(put_bin(saver, &sizes, error));
+    if (d->binary)
+        TRY(put(saver, d->input.data + d->glb.rest_begin, sizes.rest, error));
     /* Bytes beyond the stated length are kept only if nothing else changes. */
     const bool still = saver->plan.version_count == 0 && !d->edit->any;
-    if (!status && d->binary && still)
-        status = put(saver, d->input.data + d->glb.end, d->input.size - d->glb.end, error);
-    return status;
+    if (d->binary && still)
+        TRY(put(saver, d->input.data + d->glb.end, d->input.size - d->glb.end, error));
+    return FFD_OK;
 }
 
 static bool overwrites(const gltf_saver *saver)
@@ -170,12 +166,12 @@ static ffd_status put_files(gltf_saver *saver, ffd_error *error)
 {
     const gltf_document *d = saver->document;
     const char *path = saver->options->path;
-    ffd_status status = ffd_gltf_bring_images(saver, error);
-    if (!status && ffd_edits_failed(&saver->edits))
-        status = ffd_fail_memory(error);
+    TRY(ffd_gltf_bring_images(saver, error));
+    if (ffd_edits_failed(&saver->edits))
+        return ffd_fail_memory(error);
     ffd_edits_sort(&saver->edits);
-    if (status || !saver->output)
-        return status;
+    if (!saver->output)
+        return FFD_OK;
     TRY(put_buffer_files(saver, error));
     TRY(ffd_output_begin(saver->output, path, overwrites(saver), error));
     if (saver->binary)
@@ -203,21 +199,16 @@ ffd_status ffd_gltf_save_results(mesh_document *document, const mesh_save_option
                      ffd_save_meets(options, d->path, options->path);
     ffd_edits_join(&saver.edits, &d->edit->edits);
     ffd_edits_sort(&d->edit->edits);
-    ffd_status status = ffd_gltf_make_plan(d, &saver.plan, error);
-    if (!status)
-        status = ffd_gltf_make_content(&saver, error);
-    if (!status) {
-        ffd_gltf_choose_buffer_kinds(&saver);
-        warn_of_chunks(&saver);
-    }
-    if (!status)
-        status = ffd_gltf_make_edits(&saver, error);
-    if (!status)
-        status = ffd_gltf_name_buffers(&saver, error);
-    if (!status)
-        ffd_gltf_announce(&saver);
-    if (!status)
-        status = put_files(&saver, error);
+    ffd_status status;
+    TRY_END(ffd_gltf_make_plan(d, &saver.plan, error));
+    TRY_END(ffd_gltf_make_content(&saver, error));
+    ffd_gltf_choose_buffer_kinds(&saver);
+    warn_of_chunks(&saver);
+    TRY_END(ffd_gltf_make_edits(&saver, error));
+    TRY_END(ffd_gltf_name_buffers(&saver, error));
+    ffd_gltf_announce(&saver);
+    TRY_END(put_files(&saver, error));
+end:
     ((gltf_document *)document)->is_present = status == FFD_OK && d->keeps_pages;
     ffd_gltf_free_content(&saver);
     ffd_gltf_free_sparse(&saver);

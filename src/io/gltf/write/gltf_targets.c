@@ -61,11 +61,10 @@ ffd_status ffd_gltf_list_sparse(gltf_saver *saver, ffd_error *error)
 {
     const gltf_document *const d = saver->document;
     memory_budget budget = d->base.budget;
-    ffd_status status = FFD_OK;
     saver->sparse = ffd_alloc_zero(saver->plan.appended_count, sizeof *saver->sparse);
     if (!saver->sparse)
         return ffd_fail_memory(error);
-    for (size_t i = 0; i < saver->plan.appended_count && !status; i++) {
+    for (size_t i = 0; i < saver->plan.appended_count; i++) {
         const gltf_version *const version = &saver->plan.versions[saver->plan.appended[i]];
         gltf_stored_part *const sparse = &saver->sparse[i];
         if (!saver->options->sparse_targets || !may_be_sparse(d, version))
@@ -74,9 +73,9 @@ ffd_status ffd_gltf_list_sparse(gltf_saver *saver, ffd_error *error)
         for (size_t v = 0; v < count; v++)
             sparse->count += !is_zero(version->values + 3 * v);
         if (sparse->count <= count / 3)
-            status = store(version->values, count, &budget, sparse, error);
+            TRY(store(version->values, count, &budget, sparse, error));
     }
-    return status;
+    return FFD_OK;
 }
 
 /* Writes the member "sparse" of an accessor, followed by a comma. view: the bufferView of its indices and

@@ -104,13 +104,11 @@ ffd_status ffd_mtl_list_maps(const unsigned char *bytes, size_t size, const char
     text_scan scan;
     text_word word;
     mtl_map map;
-    ffd_status status = FFD_OK;
     ffd_text_begin(&scan, bytes, ffd_text_size(bytes, size), false);
     do {
         if (!ffd_text_word(&scan, &word) || !names_map(word) || !ffd_mtl_read_map(&scan, &map))
             continue;
-        status =
-            ffd_obj_add_name(names, map.name.first, (size_t)(map.name.last - map.name.first), path, error);
-    } while (!status && ffd_text_next_line(&scan));
-    return status;
+        TRY(ffd_obj_add_name(names, map.name.first, (size_t)(map.name.last - map.name.first), path, error));
+    } while (ffd_text_next_line(&scan));
+    return FFD_OK;
 }

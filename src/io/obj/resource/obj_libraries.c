@@ -36,9 +36,8 @@ static ffd_status add_words(intern_table *names, const name_words *name, const f
     const char *end = name->last_word;
     while (ffd_text_is_blank(end[-1]))
         end--;
-    const ffd_status status =
-        ffd_obj_add_name(names, name->first, (size_t)(end - name->first), mesh->file, error);
-    return status ? status : ffd_obj_add_name(names, name->last_word, last, mesh->file, error);
+    TRY(ffd_obj_add_name(names, name->first, (size_t)(end - name->first), mesh->file, error));
+    return ffd_obj_add_name(names, name->last_word, last, mesh->file, error);
 }
 
 static bool ends_library(text_word word)
@@ -55,7 +54,6 @@ static ffd_status split(intern_table *names, const char *text, size_t size, cons
 {
     text_scan scan;
     text_word word;
-    ffd_status status = FFD_OK;
     name_words name = {0};
     while (size > 0 && ffd_text_is_blank(text[size - 1]))
         size--;
@@ -66,16 +64,16 @@ static ffd_status split(intern_table *names, const char *text, size_t size, cons
     if (is_file(mesh, text, size))
         return ffd_obj_add_name(names, text, size, mesh->file, error);
     ffd_text_begin(&scan, text, size, false);
-    while (!status && ffd_text_word(&scan, &word)) {
+    while (ffd_text_word(&scan, &word)) {
         name = (name_words){name.first ? name.first : word.first, word.first, word.last};
         if (ends_library(word)) {
-            status = add_words(names, &name, mesh, error);
+            TRY(add_words(names, &name, mesh, error));
             name.first = NULL;
         }
     }
-    if (!status && name.first)
-        status = ffd_obj_add_name(names, name.first, (size_t)(name.end - name.first), mesh->file, error);
-    return status;
+    if (name.first)
+        TRY(ffd_obj_add_name(names, name.first, (size_t)(name.end - name.first), mesh->file, error));
+    return FFD_OK;
 }
 
 bool ffd_obj_names_libraries(const file_input *input)
@@ -87,11 +85,13 @@ ffd_status ffd_obj_list_libraries(const file_input *input, const file_folder *me
                                   ffd_error *error)
 {
     intern_table statements = {0};
-    ffd_status status = ffd_obj_list_statements(input, mesh->file, "mtllib", &statements, error);
-    for (uint32_t i = 0; i < statements.count && !status; i++) {
+    ffd_status status;
+    TRY_END(ffd_obj_list_statements(input, mesh->file, "mtllib", &statements, error));
+    for (uint32_t i = 0; i < statements.count; i++) {
         const char *const text = ffd_intern_key(&statements, i);
-        status = split(names, text, strlen(text), mesh, error);
+        TRY_END(split(names, text, strlen(text), mesh, error));
     }
+end:
     ffd_intern_free(&statements);
     return status;
 }

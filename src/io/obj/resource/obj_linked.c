@@ -30,17 +30,16 @@ static ffd_status add_names(const char *arguments, name_form form, const char *f
 {
     text_scan scan;
     text_word word, line = {0};
-    ffd_status status = FFD_OK;
     ffd_text_begin(&scan, arguments, strlen(arguments), true);
-    for (bool goes_on = true; goes_on && !status && ffd_text_word(&scan, &word);) {
+    for (bool goes_on = true; goes_on && ffd_text_word(&scan, &word);) {
         line = (text_word){line.first ? line.first : word.first, word.last};
         goes_on = form != NAME_FIRST;
         if (form != NAME_LINE)
-            status = ffd_obj_add_name(names, word.first, (size_t)(word.last - word.first), file, error);
+            TRY(ffd_obj_add_name(names, word.first, (size_t)(word.last - word.first), file, error));
     }
-    if (!status && form == NAME_LINE && line.first)
-        status = ffd_obj_add_name(names, line.first, (size_t)(line.last - line.first), file, error);
-    return status;
+    if (form == NAME_LINE && line.first)
+        TRY(ffd_obj_add_name(names, line.first, (size_t)(line.last - line.first), file, error));
+    return FFD_OK;
 }
 
 /* Lists the names of statements of one kind, each once. */
@@ -48,31 +47,42 @@ static ffd_status list_names(const file_input *input, const char *file, int stat
                              ffd_error *error)
 {
     intern_table found = {0};
-    ffd_status status = ffd_obj_list_statements(input, file, statements[statement].keyword, &found, error);
-    for (uint32_t i = 0; i < found.count && !status; i++)
-        status = add_names(ffd_intern_key(&found, i), statements[statement].form, file, names, error);
+    ffd_status status;
+    TRY_END(ffd_obj_list_statements(input, file, statements[statement].keyword, &found, error));
+    for (uint32_t i = 0; i < found.count; i++)
+        TRY_END(add_names(ffd_intern_key(&found, i), statements[statement].form, file, names, error));
+end:
     ffd_intern_free(&found);
+    return status;
+}
+
+ffd_status ffd_obj_leave_name(const file_folder *from, const char *name, const char *to, left_out *left,
+                              const char *why, ffd_error *error)
+{
+    char *path;
+    TRY(ffd_obj_find_path(from, "", name, &path, error));
+    if (!path) /* an absolute name leads there from everywhere */
+        return FFD_OK;
+    const ffd_status status = ffd_left_add_unreached(left, to, path, why, error);
+    ffd_free(path);
     return status;
 }
 
 ffd_status ffd_obj_leave_linked(const file_input *input, const char *name, const file_folder *from,
                                 const char *to, left_out *left, ffd_error *error)
 {
+    intern_table names = {0};
     ffd_status status = FFD_OK;
-    for (int s = 0; s < STATEMENTS && !status; s++) {
-        intern_table names = {0};
+    for (int s = 0; s < STATEMENTS; s++) {
         char why[40];
         snprintf(why, sizeof why, "of %s", statements[s].keyword);
-        status = list_names(input, name, s, &names, error);
-        for (uint32_t i = 0; i < names.count && !status; i++) {
-            char *path;
-            status = ffd_obj_find_path(from, "", ffd_intern_key(&names, i), &path, error);
-            if (!status && path) /* an absolute name leads there from everywhere */
-                status = ffd_left_add_unreached(left, to, path, why, error);
-            ffd_free(path);
-        }
+        TRY_END(list_names(input, name, s, &names, error));
+        for (uint32_t i = 0; i < names.count; i++)
+            TRY_END(ffd_obj_leave_name(from, ffd_intern_key(&names, i), to, left, why, error));
         ffd_intern_free(&names);
     }
+end:
+    ffd_intern_free(&names);
     return status;
 }
 
@@ -94,10 +104,11 @@ ffd_status ffd_obj_find_linked(const file_input *input, const char *path, path_l
     const file_folder mesh = {.file = path};
     intern_table names = {0};
     ffd_status status = FFD_OK;
-    for (int s = 0; s < STATEMENTS && !status; s++)
-        status = list_names(input, path, s, &names, error);
-    for (uint32_t i = 0; i < names.count && !status; i++)
-        status = add_sibling(&mesh, ffd_intern_key(&names, i), files, error);
+    for (int s = 0; s < STATEMENTS; s++)
+        TRY_END(list_names(input, path, s, &names, error));
+    for (uint32_t i = 0; i < names.count; i++)
+        TRY_END(add_sibling(&mesh, ffd_intern_key(&names, i), files, error));
+end:
     ffd_intern_free(&names);
     return status;
 }

@@ -102,20 +102,22 @@ static ffd_status load_map(reader *r, const char *library, text_word name, uint3
     bool is_known;
     ffd_buffer_append(&text, name.first, (size_t)(name.last - name.first));
     char *const named = ffd_buffer_finish(&text);
-    ffd_status status = named ? ffd_obj_find_map(&r->images.mesh, library, named, &path, r->error)
-                              : ffd_fail_memory(r->error);
-    if (!status && path) {
-        status = ffd_images_load(&r->images, path, image, r->error);
-    } else if (!status) {
-        status = ffd_images_find(&r->images, named, &is_known, image, r->error);
-        if (!status && !is_known)
+    ffd_status status;
+    TRY_END(named ? ffd_obj_find_map(&r->images.mesh, library, named, &path, r->error)
+                  : ffd_fail_memory(r->error));
+    if (path) {
+        TRY_END(ffd_images_load(&r->images, path, image, r->error));
+    } else {
+        TRY_END(ffd_images_find(&r->images, named, &is_known, image, r->error));
+        if (!is_known)
             ffd_left_add(&r->images.left, named, "is outside the model's folder");
     }
+    if (r->images.known.count > OBJ_RESOURCES_MAX)
+        TRY_END(ffd_fail_file(r->error, FFD_E_LIMIT, r->images.mesh.file, "names more than %d maps",
+                              OBJ_RESOURCES_MAX));
+end:
     ffd_free(named);
     ffd_free(path);
-    if (!status && r->images.known.count > OBJ_RESOURCES_MAX)
-        status = ffd_fail_file(r->error, FFD_E_LIMIT, r->images.mesh.file, "names more than %d maps",
-                               OBJ_RESOURCES_MAX);
     return status;
 }
 
@@ -141,20 +143,18 @@ static ffd_status read_statements(reader *r, const char *library, const file_inp
     text_scan scan;
     text_word keyword;
     definition d = {0};
-    ffd_status status = FFD_OK;
     ffd_text_begin(&scan, bytes->data, ffd_text_size(bytes->data, bytes->size), false);
     do {
         if (!ffd_text_word(&scan, &keyword))
             continue;
         if (ffd_text_is_any_case(keyword, "newmtl")) {
-            status = end(r, library, &d);
-            if (!status)
-                status = begin(r, &scan, &d);
+            TRY(end(r, library, &d));
+            TRY(begin(r, &scan, &d));
         } else {
             take_statement(&scan, keyword, &d);
         }
-    } while (!status && ffd_text_next_line(&scan));
-    return status ? status : end(r, library, &d);
+    } while (ffd_text_next_line(&scan));
+    return end(r, library, &d);
 }
 
 static ffd_status read_file(reader *r, const char *path)
@@ -180,9 +180,8 @@ static ffd_status read_library(reader *r, const char *name)
         ffd_left_add(&r->left, name, "is a file, and standard input has no folder");
         return FFD_OK;
     }
-    ffd_status status = ffd_obj_find_path(&r->images.mesh, "", name, &path, r->error);
-    if (status)
-        return status;
+    TRY(ffd_obj_find_path(&r->images.mesh, "", name, &path, r->error));
+    ffd_status status = FFD_OK;
     if (path)
         status = read_file(r, path);
     else
@@ -205,9 +204,11 @@ ffd_status ffd_obj_list_materials(mesh_document *document, const mesh_log *log, 
                            .mesh = mesh,
                            .has_folder = file->path},
                 .error = error};
-    ffd_status status = ffd_obj_list_libraries(&file->input, &mesh, &libraries, error);
-    for (uint32_t i = 0; i < libraries.count && !status; i++)
-        status = read_library(&r, ffd_intern_key(&libraries, i));
+    ffd_status status;
+    TRY_END(ffd_obj_list_libraries(&file->input, &mesh, &libraries, error));
+    for (uint32_t i = 0; i < libraries.count; i++)
+        TRY_END(read_library(&r, ffd_intern_key(&libraries, i)));
+end:
     ffd_left_out_log(&r.left, "material library cannot be read, and its materials are unknown",
                      "material libraries cannot be read, and their materials are unknown", log);
     ffd_images_end(&r.images, log);

@@ -18,8 +18,8 @@ static ffd_status add_file(const file_folder *mesh, resource_list *list, const c
                            const char *name, ffd_error *error)
 {
     char *path;
-    const ffd_status status = ffd_obj_find_map(mesh, library, name, &path, error);
-    return status || !path ? status : ffd_resources_add(list, &ffd_resource_image, list->count, path, error);
+    TRY(ffd_obj_find_map(mesh, library, name, &path, error));
+    return path ? ffd_resources_add(list, &ffd_resource_image, list->count, path, error) : FFD_OK;
 }
 
 /* Adds those tiles of a map that exist. */
@@ -27,17 +27,18 @@ static ffd_status add_tiles(const file_folder *mesh, resource_list *list, const 
                             const char *name, ffd_error *error)
 {
     const size_t before = list->count;
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < IMAGE_TILES && !status; i++) {
+    for (size_t i = 0; i < IMAGE_TILES; i++) {
         char *path = NULL, *const tile = ffd_image_tile(name, i);
-        status = tile ? ffd_obj_find_map(mesh, library, tile, &path, error) : ffd_fail_memory(error);
+        const ffd_status status =
+            tile ? ffd_obj_find_map(mesh, library, tile, &path, error) : ffd_fail_memory(error);
         ffd_free(tile);
-        if (!status && path && ffd_folder_has(mesh, path))
-            status = ffd_resources_add(list, &ffd_resource_image, list->count, path, error);
+        TRY(status);
+        if (path && ffd_folder_has(mesh, path))
+            TRY(ffd_resources_add(list, &ffd_resource_image, list->count, path, error));
         else
             ffd_free(path);
     }
-    return status || list->count > before ? status : add_file(mesh, list, library, name, error);
+    return list->count > before ? FFD_OK : add_file(mesh, list, library, name, error);
 }
 
 /* Adds a map of a library. */
@@ -59,14 +60,16 @@ static ffd_status add_maps(const file_folder *mesh, resource_list *list, const m
     TRY(ffd_resource_load(mesh, library, &bytes, &left, &refused, error));
     if (left || refused.status)
         return FFD_OK;
-    ffd_status status = ffd_mtl_list_maps(bytes.data, bytes.size, library->path, &names, error);
+    ffd_status status;
+    TRY_END(ffd_mtl_list_maps(bytes.data, bytes.size, library->path, &names, error));
     size_t tiled = 0;
-    for (uint32_t i = 0; i < names.count && !status; i++) {
+    for (uint32_t i = 0; i < names.count; i++) {
         tiled += ffd_image_has_tiles(ffd_intern_key(&names, i));
-        status = tiled <= TILED_MAX ? add_map(mesh, list, library->path, ffd_intern_key(&names, i), error)
-                                    : ffd_fail_file(error, FFD_E_LIMIT, library->path,
-                                                    "names more than %d maps with tiles", TILED_MAX);
+        TRY_END(tiled <= TILED_MAX ? add_map(mesh, list, library->path, ffd_intern_key(&names, i), error)
+                                   : ffd_fail_file(error, FFD_E_LIMIT, library->path,
+                                                   "names more than %d maps with tiles", TILED_MAX));
     }
+end:
     ffd_intern_free(&names);
     ffd_file_unload(&bytes);
     return status;
@@ -77,23 +80,24 @@ static ffd_status list_all(const file_folder *mesh, const file_input *input, boo
                            resource_list *list, ffd_error *error)
 {
     intern_table names = {0};
-    ffd_status status = ffd_obj_list_libraries(input, mesh, &names, error);
-    for (uint32_t i = 0; i < names.count && !status; i++) {
+    ffd_status status;
+    TRY_END(ffd_obj_list_libraries(input, mesh, &names, error));
+    for (uint32_t i = 0; i < names.count; i++) {
         char *path;
-        status = ffd_obj_find_path(mesh, "", ffd_intern_key(&names, i), &path, error);
-        if (!status && path)
-            status = ffd_resources_add(list, &ffd_resource_library, i, path, error);
+        TRY_END(ffd_obj_find_path(mesh, "", ffd_intern_key(&names, i), &path, error));
+        if (path)
+            TRY_END(ffd_resources_add(list, &ffd_resource_library, i, path, error));
     }
-    ffd_intern_free(&names);
-    const size_t libraries = list->count;
-    for (size_t i = 0; i < libraries && with_maps && !status; i++) {
+    for (size_t i = 0, libraries = list->count; i < libraries && with_maps; i++) {
         const mesh_resource library = list->resources[i]; /* the list moves as it grows */
-        status = add_maps(mesh, list, &library, error);
-        if (!status && list->count > OBJ_RESOURCES_MAX)
-            status =
-                ffd_fail_file(error, FFD_E_LIMIT, mesh->file, "names more than %d maps", OBJ_RESOURCES_MAX);
+        TRY_END(add_maps(mesh, list, &library, error));
+        if (list->count > OBJ_RESOURCES_MAX)
+            TRY_END(
+                ffd_fail_file(error, FFD_E_LIMIT, mesh->file, "names more than %d maps", OBJ_RESOURCES_MAX));
     }
     ffd_resources_sort(list);
+end:
+    ffd_intern_free(&names);
     return status;
 }
 
@@ -103,9 +107,10 @@ static ffd_status bring(const resource_copier *c, const file_input *input, const
 {
     const bool copies = options->resources == FFD_RESOURCES_COPY;
     resource_list list = {0};
-    ffd_status status = list_all(&c->mesh, input, copies || is_stay, &list, error);
-    if (!status)
-        status = ffd_resources_bring(c, &list, copies, is_stay, options->path, error);
+    ffd_status status;
+    TRY_END(list_all(&c->mesh, input, copies || is_stay, &list, error));
+    TRY_END(ffd_resources_bring(c, &list, copies, is_stay, options->path, error));
+end:
     ffd_resources_free(&list);
     return status;
 }
@@ -117,14 +122,11 @@ static ffd_status leave_libraries(const file_input *input, const char *name, con
 {
     intern_table names = {0};
     const file_folder mesh = {.file = name}, there = {.file = output};
-    ffd_status status = ffd_obj_list_libraries(input, &mesh, &names, error);
-    for (uint32_t i = 0; i < names.count && !status; i++) {
-        char *path;
-        status = ffd_obj_find_path(&there, "", ffd_intern_key(&names, i), &path, error);
-        if (!status && path)
-            status = ffd_left_add_unreached(left, to, path, "of mtllib", error);
-        ffd_free(path);
-    }
+    ffd_status status;
+    TRY_END(ffd_obj_list_libraries(input, &mesh, &names, error));
+    for (uint32_t i = 0; i < names.count; i++)
+        TRY_END(ffd_obj_leave_name(&there, ffd_intern_key(&names, i), to, left, "of mtllib", error));
+end:
     ffd_intern_free(&names);
     return status;
 }
@@ -138,12 +140,12 @@ static ffd_status warn_of_stream(const file_input *input, bool names_files, cons
     const char *const output = options->to_sink ? NULL : options->path;
     char *const to = output ? ffd_path_folder(output) : NULL;
     const file_folder there = {.file = output};
-    ffd_status status =
-        to || !output ? leave_libraries(input, mesh, output, to, &left, error) : ffd_fail_memory(error);
-    if (!status && names_files)
-        status = ffd_obj_leave_linked(input, mesh, &there, to, &left, error);
-    if (!status)
-        ffd_left_out_log_stream(&left, log);
+    ffd_status status;
+    TRY_END(to || !output ? leave_libraries(input, mesh, output, to, &left, error) : ffd_fail_memory(error));
+    if (names_files)
+        TRY_END(ffd_obj_leave_linked(input, mesh, &there, to, &left, error));
+    ffd_left_out_log_stream(&left, log);
+end:
     ffd_free(to);
     return status;
 }
@@ -152,12 +154,10 @@ static ffd_status warn_of_stream(const file_input *input, bool names_files, cons
 static ffd_status warn_of_linked(const resource_copier *c, const file_input *input, ffd_error *error)
 {
     left_out left = {0};
-    const ffd_status status =
-        ffd_obj_leave_linked(input, c->mesh.file, &c->mesh, c->sink_name ? NULL : c->to, &left, error);
-    if (!status)
-        ffd_left_out_log(&left, "file that a statement names is not copied",
-                         "files that statements name are not copied", c->log);
-    return status;
+    TRY(ffd_obj_leave_linked(input, c->mesh.file, &c->mesh, c->sink_name ? NULL : c->to, &left, error));
+    ffd_left_out_log(&left, "file that a statement names is not copied",
+                     "files that statements name are not copied", c->log);
+    return FFD_OK;
 }
 
 ffd_status ffd_obj_bring_resources(const file_input *input, const file_folder *folder, bool names_files,
@@ -176,13 +176,15 @@ ffd_status ffd_obj_bring_resources(const file_input *input, const file_folder *f
     char *const from = ffd_path_folder(mesh), *const to = ffd_path_folder(options->path);
     const resource_copier copier = {
         *folder, from, to, options->to_sink ? options->path : NULL, output, log, options->copied};
-    ffd_status status = from && to ? FFD_OK : ffd_fail_memory(error);
-    const bool is_stay = !status && ffd_save_meets(options, from, to);
+    ffd_status status;
+    TRY_END(from && to ? FFD_OK : ffd_fail_memory(error));
+    const bool is_stay = ffd_save_meets(options, from, to);
     /* In its own folder an output of another ending meets none of the names. */
-    if (!status && (!is_stay || ffd_mtl_has_name(options->path) || ffd_image_has_name(options->path)))
-        status = bring(&copier, input, options, is_stay, error);
-    if (!status && !is_stay && names_files)
-        status = warn_of_linked(&copier, input, error);
+    if (!is_stay || ffd_mtl_has_name(options->path) || ffd_image_has_name(options->path))
+        TRY_END(bring(&copier, input, options, is_stay, error));
+    if (!is_stay && names_files)
+        TRY_END(warn_of_linked(&copier, input, error));
+end:
     ffd_free(from);
     ffd_free(to);
     return status;
@@ -193,17 +195,12 @@ ffd_status ffd_obj_find_named(const char *path, const file_input *bytes, const m
 {
     resource_list list = {0};
     const file_folder mesh = {.file = path};
-    ffd_status status = list_all(&mesh, bytes, true, &list, error);
-    for (size_t i = 0; i < list.count && !status; i++) {
-        char *const file = ffd_path_sibling(path, list.resources[i].path);
-        const bool is_outside = ffd_path_leads_out(list.resources[i].path);
-        status = file ? FFD_OK : ffd_fail_memory(error);
-        if (!status && named->files && !is_outside)
-            status = ffd_paths_add(named->files, file, error);
-        if (!status && named->copies && !is_outside)
-            status = ffd_paths_add(named->copies, file, error);
-        ffd_free(file);
-    }
+    ffd_status status;
+    TRY_END(list_all(&mesh, bytes, true, &list, error));
+    for (size_t i = 0; i < list.count; i++)
+        if (!ffd_path_leads_out(list.resources[i].path))
+            TRY_END(ffd_resource_add_named(path, list.resources[i].path, named, error));
+end:
     ffd_resources_free(&list);
     return status;
 }

@@ -106,21 +106,22 @@ ffd_status ffd_obj_list_statements(const file_input *input, const char *path, co
     const char *first = (const char *)input->data;
     const char *const last = first + ffd_text_size(first, input->size);
     size_t released = 0;
-    ffd_status status = FFD_OK;
     if (ffd_text_has_mark(first, input->size))
         first += TEXT_MARK_SIZE;
-    for (const char *at = first; at < last && !status;) {
+    ffd_status status = FFD_OK;
+    for (const char *at = first; at < last;) {
         const char *const end = (size_t)(last - at) > PIECE ? at + PIECE : last;
         const char *statement;
         if (input->mapped)
             ffd_file_prefault(at, (size_t)(end - at));
-        while (!status && (statement = find_statement(first, at, end, last, keyword))) {
+        while ((statement = find_statement(first, at, end, last, keyword))) {
             at = statement;
-            status = take_statement(statements, keyword, &at, last, path, error);
+            TRY_END(take_statement(statements, keyword, &at, last, path, error));
         }
         at = at < end ? end : at;
         ffd_file_release_until(input, at, &released);
     }
+end:
     ffd_file_release_pages(input, input->data + released, input->size - released);
     return status;
 }
