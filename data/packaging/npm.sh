@@ -41,6 +41,7 @@ fi
 
 if [ ! -f "$build/build.ninja" ]; then
     # Meson reads it again where a build file has changed.
+    mkdir -p "$(dirname "$build")"
     printf "[constants]\nroot = '%s'\n" "$root" >"$build.ini"
     meson setup "$build" "$root" --cross-file "$root/data/packaging/npm/emscripten.ini" --cross-file "$build.ini" \
         --wrap-mode=forcefallback -Dbuildtype=release -Doptimization=2 -Dstatic=true -Ddefault_library=static -Dtests=disabled >&2
