@@ -107,7 +107,7 @@ def main():
         elif what == "types":
             code = run_types(package, folder)
         elif what == "jobs":
-            code = subprocess.run([sys.executable, os.path.join(HERE, "..", "release", "run_jobs.py"), "--every", "4", "--without", "batch",
+            code = subprocess.run([sys.executable, os.path.join(HERE, "..", "release", "run_jobs.py"), "--every", "7", "--without", "batch",
                                    "node", os.path.join(package, "bin", "ffd-mesh.mjs")], check=False).returncode
         elif what == "page":
             code = run_page(package, folder, ffd, root)
