@@ -247,7 +247,8 @@ typedef struct ffd_job_result {
        the witness of the first lattice that has one. */
     ffd_folds folds;
     uint64_t folds_room[8];
-    bool has_flipped; /* with ffd_check_run and ffd_deform_desc.quality: faces are counted */
+    bool has_flipped; /* with ffd_check_run and ffd_deform_desc.quality, and of a mesh of at most 1,000
+                         vertices: faces are counted */
     uint64_t faces, flipped_faces;
     ffd_tear_figures tear;
     /* With ffd_check_run and ffd_deform_desc.quality: the volume that all visible faces enclose, selected or

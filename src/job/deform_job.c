@@ -179,7 +179,7 @@ static ffd_status prepare_arrays(deform_job *job, figure_arrays *arrays, figure_
                                  ffd_error *error)
 {
     const bool both = ffd_job_judged(job) != ffd_job_written(job);
-    if (ffd_figures_wanted(job) || (job->recomputes && !both))
+    if (ffd_figures_count_flipped(job) || (job->recomputes && !both))
         TRY(ffd_figures_prepare(job, ffd_job_judged(job), arrays, error));
     if (!job->recomputes || !both)
         return FFD_OK;
@@ -281,7 +281,7 @@ static ffd_status judge(deform_job *job, figure_arrays *arrays, ffd_job_result *
     if (ffd_figures_wanted(job) || desc->fail_on & FFD_GATE_FOLDS)
         TRY_END(ffd_figures_folds(&job->chain, job->threads, result, error));
     TRY_END(ffd_tear_figures_find(job, arrays, result, error));
-    if (ffd_figures_wanted(job))
+    if (ffd_figures_count_flipped(job))
         TRY_END(ffd_figures_faces(job, arrays, result, error));
     if (job->details) /* check late, so that the picture can be drawn all the same */
         TRY_END(check_unknown(job, error));

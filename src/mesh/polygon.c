@@ -13,8 +13,8 @@ bool ffd_polygon_normal(const double *xyz, const uint32_t *corners, size_t count
         if (!vec_is_finite(p))
             return false;
         for (int a = 0; a < 3; a++) {
-            reach = fmax(reach, fabs(p[a]));
-            largest = fmax(largest, fabs(p[a] - first[a]));
+            reach = larger_of(reach, fabs(p[a]));
+            largest = larger_of(largest, fabs(p[a] - first[a]));
         }
     }
     if (!(largest > 0 && isfinite(largest)))

@@ -185,7 +185,7 @@ def figures_of_a_run_without_a_report(run):
     batch(run, "m.jsonl", "--resume", done=1)
     batch(run, "m.jsonl", "--resume", "--report", "r.json", kept=1)
     entry = report(run)[0]
-    equal([entry[name] for name in ("status", "vertices", "inside", "moved", "folds", "flipped_faces")], ["skipped", 8, 8, 8, None, None])
+    equal([entry[name] for name in ("status", "vertices", "inside", "moved", "folds", "flipped_faces")], ["skipped", 8, 8, 8, None, 0])
     equal(entry["bounds"]["after"]["max"], [1.5, 1.25, 1.125])
 
 

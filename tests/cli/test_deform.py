@@ -4,6 +4,7 @@ import json
 import math
 import os
 import re
+from random import Random
 
 from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, NO, OK, PNG, USAGE, case, check, equal, glb,
                      glb_positions, glb_split, gltf_json, gltf_vectors, lattice, main, near, obj_of, obj_vertices)
@@ -144,6 +145,75 @@ def a_mesh_that_is_turned_inside_out_is_told(run):
     # In a lattice of which a part folds, the vertices in that part.
     start(run, [{"at": [1, 0, 0], "by": [-9, 0, 0]}], size=(2, 2, 2), degree=[1, 1, 1])
     run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--force", err=re.compile("turns inside out at [1-7] of 8 vertices"))
+
+
+# Slides the upper part of a space through the lower one: rigidly at the corners of a cube, whose det F is 1.
+SLIDE = lattice(size=(2, 2, 33), low=(-4, -4, -4), high=(4, 4, 4), moves=[{"at": [[0, 1], [0, 1], [17, 32]], "by": [0, 0, -6]}])
+
+
+@case
+def faces_that_are_turned_over_are_told(run):
+    """Though det F > 0 at every vertex, in each format, with the count of check; and where no vertex moves none is."""
+    run.write("a.obj", CUBE)
+    run.write("l.json", SLIDE)
+    run.write("shift.json", lattice(moves=[{"by": [0.25, 0, 0]}], low=(-9, -9, -9), high=(9, 9, 9)))
+    for ending in ("obj", "off", "ply", "stl", "gltf", "glb"):
+        name = f"in.{ending}"
+        run.ffd("deform", "a.obj", name, "-l", "shift.json", "-q")
+        job = json.loads(run.ffd("check", name, "-l", "l.json", "--report", "-", data=True, err=lambda said: None).out)["jobs"][0]
+        faces = 6 if ending in ("obj", "off", "ply") else 12
+        equal([job["flipped_faces"], job["det"]["min"] > 0], [faces * 2 // 3, True], name)
+        told = f"{name}: {job['flipped_faces']} of {faces} faces are turned over"
+        count = lambda said: equal([line for line in said if "turned over" in line], [told])
+        run.ffd("deform", name, f"out.{ending}", "-l", "l.json", err=count)
+        run.ffd("deform", name, "morph.glb", "-l", "l.json", "--as-morph", "slide", "--force", err=count)
+        run.ffd("deform", name, "normals.obj", "-l", "l.json", "--normals", "recompute", "--force", err=count)
+        run.ffd("deform", name, f"out.{ending}", "-l", "l.json", "--force", "-q")
+        run.ffd("deform", name, "--in-place", "-l", "l.json", err=count)
+    run.ffd("deform", "a.obj", "m.glb", "--morph", "near=shift.json", "--morph", "far=l.json",
+            err=lambda said: equal([line for line in said if "turned over" in line],
+                                   ['a.obj: morph target "far": 4 of 6 faces are turned over']))
+    run.write("jobs.jsonl", json.dumps({"in": "a.obj", "out": "batch.ply", "lattice": "l.json"}) + "\n")
+    done = run.ffd("batch", "jobs.jsonl", err=lambda said: None)
+    equal(len([line for line in done.err if "4 of 6 faces are turned over" in line]), 1, done.err)
+    run.write("still.json", lattice(moves=[]))
+    run.ffd("deform", "a.obj", "b.obj", "-l", "still.json")
+
+
+@case
+def turned_faces_are_counted_as_check_counts_them(run):
+    """In random lattices, which end in a sheet of triangles and quads with slivers, or hold it."""
+    side = 20
+    points = [[x / side, y / side, 0.2 * math.sin(0.9 * x) * math.cos(y)] for y in range(side + 1) for x in range(side + 1)]
+    faces = []
+    for y in range(side):
+        for x in range(side):
+            v = y * (side + 1) + x + 1
+            quad = [v, v + 1, v + side + 2, v + side + 1]
+            faces += [quad] if x % 2 else [quad[:3], [quad[0], *quad[2:]]]
+    for seed in range(150):  # slivers, which a gentle bend turns over
+        random = Random(seed)
+        first, way = [random.uniform(0.1, 0.6) for _ in range(2)], [random.uniform(0.02, 0.3) for _ in range(2)]
+        off = random.choice((1e-4, 1e-3, 1e-2)) * random.choice((-1, 1))
+        points += [[*first, 0], [first[0] + way[0] / 2 - off * way[1], first[1] + way[1] / 2 + off * way[0], 0],
+                   [first[0] + way[0], first[1] + way[1], 0]]
+        faces.append([len(points) - 2, len(points) - 1, len(points)])
+    run.write("a.obj", obj_of(points) + "".join("f " + " ".join(map(str, f)) + "\n" for f in faces))
+    found = []
+    for seed in range(24):
+        random = Random(seed)
+        size = [random.choice((3, 4, 6)) for _ in range(3)]
+        bend, degrees = random.choice((0.002, 0.01, 0.4)), random.choice((0.5, 3, 200))
+        moves = [{"at": [random.randrange(n) for n in size], "by": [random.uniform(-bend, bend) for _ in range(3)]} for _ in range(3)]
+        moves += [{"twist": {"axis": random.choice("xyz"), "degrees": degrees}}] * random.randrange(2)
+        run.write("l.json", lattice(size, (0, 0, -0.3), (random.choice((0.7, 1)), 1, 0.3), moves))
+        options = random.choice(([], [], ["--outside", "extend"]))
+        job = json.loads(run.ffd("check", "a.obj", "-l", "l.json", *options, "--report", "-", data=True, err=lambda said: None).out)["jobs"][0]
+        told = [f"a.obj: {job['flipped_faces']} of {len(faces)} faces are turned over"]
+        run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", *options, "--force",
+                err=lambda said: equal([line for line in said if "turned over" in line], told if job["flipped_faces"] else [], f"seed {seed}"))
+        found.append(job["flipped_faces"])
+    check(0 < found.count(0) < len(found), found)
 
 
 @case

@@ -71,8 +71,8 @@ def each_gate_finds_its_own_violation(run):
 
 
 def warnings(command, violated):
-    """Lines about statuses; and deform speaks of what it tears and turns inside out."""
-    return int(violated != "folds") + int(violated in ("outside", "folds") and command[0] == "deform")
+    """Lines about statuses; and deform speaks of what it tears, turns inside out and turns over."""
+    return int(violated != "folds") + {"outside": 1, "folds": 2}.get(violated, 0) * int(command[0] == "deform")
 
 
 @case
@@ -135,10 +135,11 @@ def a_proof_that_ends_in_unknown(run):
 
 @case
 def a_fold_is_told_with_a_report_only(run):
-    """The proof costs time: a plain deform does without, and tells of the vertices that it turns inside out."""
+    """The proof costs time: a plain deform does without, and tells of the vertices and faces that it turns."""
     start(run, *VIOLATIONS["folds"][:2])
     run.ffd("deform", "a.obj", "b.obj", "-l", "bad.json",
-            err="a.obj: the mesh turns inside out at 8 of 8 vertices: det F falls to -1, at vertex 0")
+            err=lambda said: check(len(said) == 2 and said[0] == "a.obj: the mesh turns inside out at 8 of 8 vertices: det F falls to -1, at vertex 0"
+                                   and re.fullmatch("a.obj: (6 of 6|12 of 12) faces are turned over", said[1]), said))
     done = run.ffd("deform", "a.obj", "c.obj", "-l", "bad.json", "--report", "r.json", lines=1)
     check(re.match("a.obj: the deformed volume folds in 1 of 1 cell.*; (6 of 6|12 of 12) faces are turned over$", done.err[0]), done.err)
     run.ffd("deform", "a.obj", "d.obj", "-l", "bad.json", "--report", "r.json", "-q")

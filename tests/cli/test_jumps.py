@@ -386,6 +386,9 @@ def edges_in_a_lattice_that_folds_are_left_out_if_nobody_asks(run):
         left = rf"^{name}: torn edges of which both ends move are not counted: .*see --report"
         (one_line if name == "many.obj" else no_line)(done, left)
         one_line(done, "stay; the largest step to a neighbour is")
+    run.write("normals.obj", obj_of(places) + "vn 0 0 1\n" + "".join(f"f {v}//1 {v + 1}//1 {v + 2}//1\n" for v in range(1, 398)))
+    one_line(run.ffd("deform", "normals.obj", "out.obj", "-l", "l.json", "--force", "--normals", "recompute", err=anything),
+             "^normals.obj: torn edges of which both ends move are not counted")
     threaded = run.ffd("deform", "many.obj", "out.obj", "-l", "l.json", "--force", "-j3", err=anything)
     untimed = [[line for line in one.err if ": the search for " not in line] for one in (threaded, done)]  # a slow machine is told so
     equal(*untimed, "of any threads")

@@ -39,6 +39,21 @@ class Files(unittest.TestCase):
         self.assertIsNone(result.folds)
         self.assertEqual(ffd.deform_file(SPOT, "ours.obj", TWIST, force=True, quality=True).folds.verdict, "none")
 
+    def test_faces_that_are_turned_over_are_told(self):
+        """Of a tetrahedron whose tip slides through its base: det F > 0 at its corners."""
+        points = ((0, 0, -1), (1, 0, -1), (0, 1, -1), (0, 0, 1))
+        faces = ((1, 3, 2), (1, 2, 4), (2, 3, 4), (3, 1, 4))
+        with open("tip.obj", "w", encoding="ascii") as file:
+            file.write("".join("v %d %d %d\n" % p for p in points) + "".join("f %d %d %d\n" % f for f in faces))
+        lattice = ffd.Lattice.box((-4, -4, -4), (4, 4, 4), size=(2, 2, 33))
+        offsets = lattice.offsets.copy()
+        offsets[:, :, 17:] = (0, 0, -6)
+        lattice = lattice.moved(offsets=offsets)
+        turned = ffd.deform_file("tip.obj", "turned.obj", lattice)
+        self.assertEqual(ffd.check_file("tip.obj", lattice).flipped_faces, 3)
+        self.assertEqual(turned.flipped_faces, 3)
+        self.assertEqual([line for line in turned.warnings if "3 of 4 faces are turned over" in line], turned.warnings[-1:])
+
     def test_options_are_those_of_the_program(self):
         lattice = part_of_spot()
         lattice.save("part.json", force=True)

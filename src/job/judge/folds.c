@@ -24,15 +24,20 @@ void ffd_folds_describe(const ffd_job_result *result, const ffd_lattice_source *
                  lattices[result->folds.witness.lattice].path, xyz[0], xyz[1], xyz[2]);
 }
 
-/* Says how many faces are turned over, or if that is not known at how many vertices the mesh is inside out.
-   text becomes "" if there are none. */
-static void write_turned(const ffd_job_result *result, const pass_totals *totals, char *text, size_t capacity)
+/* Says how many faces are turned over. text becomes "" if there are none, or it is not known. */
+static void write_turned(const ffd_job_result *result, char *text, size_t capacity)
 {
     *text = 0;
     if (result->has_flipped && result->flipped_faces)
         snprintf(text, capacity, "%" PRIu64 " of %" PRIu64 " %s turned over", result->flipped_faces,
                  result->faces, ffd_plural(result->faces, "face is", "faces are"));
-    else if (totals->inverted)
+}
+
+/* Says at how many vertices the mesh is inside out. text becomes "" if there are none. */
+static void write_inverted(const pass_totals *totals, char *text, size_t capacity)
+{
+    *text = 0;
+    if (totals->inverted)
         snprintf(text, capacity,
                  "the mesh turns inside out at %" PRIu64 " of %" PRIu64
                  " %s: det F falls to %g, at vertex %" PRIu64,
@@ -43,13 +48,19 @@ static void write_turned(const ffd_job_result *result, const pass_totals *totals
 void ffd_folds_warn(const ffd_job_result *result, const pass_totals *totals,
                     const ffd_lattice_source *lattices, const mesh_log *log)
 {
-    char text[400], turned[200];
-    write_turned(result, totals, turned, sizeof turned);
+    char text[400], turned[200], inverted[200];
+    write_turned(result, turned, sizeof turned);
+    write_inverted(totals, inverted, sizeof inverted);
     if (result->folds.is_known && result->folds.verdict != FFD_FOLDS_NONE) {
+        const char *const more = *turned ? turned : inverted;
         ffd_folds_describe(result, lattices, text, sizeof text);
-        ffd_log_line(log, FFD_LOG_WARNING, "the deformed volume %s%s%s", text, *turned ? "; " : "", turned);
-    } else if (*turned) {
-        ffd_log_line(log, FFD_LOG_WARNING, "%s", turned);
+        ffd_log_line(log, FFD_LOG_WARNING, "the deformed volume %s%s%s", text, *more ? "; " : "", more);
+    } else {
+        /* Where the proof is known, it says more than det F at vertices. */
+        if (*inverted && !(result->folds.is_known && *turned))
+            ffd_log_line(log, FFD_LOG_WARNING, "%s", inverted);
+        if (*turned)
+            ffd_log_line(log, FFD_LOG_WARNING, "%s", turned);
     }
     if (result->det.outside <= 0)
         ffd_log_line(log, FFD_LOG_WARNING,

@@ -3,6 +3,7 @@
 #include "base/text/words.h"
 #include "io/openmesh/half_edges.h"
 #include "job/figures/figure_values.h"
+#include "job/input/deform_desc.h"
 #include "job/input/selection.h"
 #include "job/measure/edge_list.h"
 #include "job/measure/extent.h"
@@ -15,12 +16,22 @@
 /* Memory of the arrays for each vertex, in bytes. */
 #define ARRAY_BYTES (12 * sizeof(double))
 
+/* Of a mesh with more vertices a face hardly turns over without det F <= 0 at some vertex, which is counted
+   in any case. To count its faces as well would take as long as to deform it. */
+#define UNASKED_VERTICES 1000
+
 /* Gates that need the faces. */
 #define NEED_FACES (FFD_GATE_TEAR | FFD_GATE_FLIPPED | FFD_GATE_EDGES)
 
 bool ffd_figures_wanted(const deform_job *job)
 {
     return job->check || job->desc->quality || job->desc->fail_on & (FFD_GATE_FLIPPED | FFD_GATE_EDGES);
+}
+
+bool ffd_figures_count_flipped(const deform_job *job)
+{
+    return ffd_figures_wanted(job) ||
+           (ffd_deform_desc_writes(job->desc) && ffd_mesh_vertex_count(job->document) <= UNASKED_VERTICES);
 }
 
 /* Checks that the budget suffices for recomputing normals. */
@@ -70,6 +81,8 @@ end:
             *error = own;
         return status;
     }
+    if (!ffd_figures_wanted(job))
+        return FFD_OK;
     ffd_error_format(&own, line, sizeof line);
     ffd_log_line(&job->log, FFD_LOG_WARNING, "flipped faces are not counted: %s", line);
     return FFD_OK;
@@ -127,9 +140,11 @@ ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_j
                              ffd_error *error)
 {
     edge_quality edges;
-    result->det.is_known = job->totals.det_min <= job->totals.det_max;
-    result->det.min = job->totals.det_min;
-    result->det.max = job->totals.det_max;
+    if (ffd_figures_wanted(job)) {
+        result->det.is_known = job->totals.det_min <= job->totals.det_max;
+        result->det.min = job->totals.det_min;
+        result->det.max = job->totals.det_max;
+    }
     if (!arrays->has_faces)
         return FFD_OK;
     measure_extent(job, arrays, result);

@@ -275,9 +275,11 @@ ffd_status ffd_tear_figures_find(deform_job *job, figure_arrays *arrays, ffd_job
         return FFD_OK;
     }
     mark_left(job);
-    if (arrays->has_faces)
+    if (arrays->has_faces && is_asked_for(job))
         return count_torn(job, &arrays->faces, arrays, &arrays->budget, result, error);
-    if (!is_asked_for(job) && count_vertices(job) > UNASKED_VERTICES)
+    if (arrays->has_faces)
+        status = count_torn(job, &arrays->faces, arrays, &arrays->budget, result, &own);
+    else if (!is_asked_for(job) && count_vertices(job) > UNASKED_VERTICES)
         status =
             ffd_fail(&own, FFD_E_LIMIT, "more than %" PRIu64 " vertices (see {quality})", UNASKED_VERTICES);
     else
