@@ -36,12 +36,16 @@ def words(command):
 
 
 def chosen(jobs, every, without):
-    """The indices of the jobs to run: every n-th, and before them those that made a file which they name."""
+    """The indices of the jobs to run: every n-th, and before them those that made a file which they name, or have copied what
+    belongs to the same model."""
     allowed = [i for i, (_, command) in enumerate(jobs) if not without & set(words(command))]
     wanted = set(allowed[::every])
     for i in sorted(allowed, reverse=True):
         if i in wanted:
             read = {word for word in words(jobs[i][1]) if not word.startswith("-") and "/" not in word}
+            models = {word for word in words(jobs[i][1]) if word.startswith("models/")}
+            for model in models:
+                wanted.add(next((k for k in allowed if jobs[k][1].startswith(f"deform {model} ")), i))
             for other in allowed:
                 if other < i and read & makes(jobs[other][1]):
                     wanted.add(other)
