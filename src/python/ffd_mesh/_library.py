@@ -27,6 +27,8 @@ for _name, (_result, _arguments) in declared.FUNCTIONS.items():
     _function.restype, _function.argtypes = _result, _arguments
 lib = _LIBRARY
 lib.ffd_spell_members(_native.spell)
+_native.connect(*(ctypes.cast(function, ctypes.c_void_p).value
+                  for function in (lib.ffd_output_list_count, lib.ffd_output_list_name)))
 
 
 def _words(names: dict[str, int]) -> dict[str, int]:
