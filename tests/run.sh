@@ -1,11 +1,11 @@
 #!/bin/sh
 # Builds ffd and runs its tests, in build folders of its own under .build-test/.
-#     sh tests/run.sh                 the gcc build, every quick suite (all but slow, soak, python and packages)
+#     sh tests/run.sh                 the gcc build, every quick suite (all but slow, soak, npm, python and packages)
 #     sh tests/run.sh --suite NAME    the gcc build, one suite (unit property oracle fuzz golden cli rules python packages bench
-#                                     slow)
+#                                     slow npm)
 #                                     or one tag (threads compilers text), or peers (other packages; fetches 280 MB)
 #     sh tests/run.sh --all           in a bare root of Debian 12: data/demo.sh, then this script, then its other stages (tests/install/all.sh)
-#     sh tests/run.sh --stages        the stages that only --all has: slow suites, release, clang with sanitizers, valgrind, fuzzing, the wraps
+#     sh tests/run.sh --stages        the stages that only --all has: slow suites, release, clang with sanitizers, valgrind, fuzzing, npm, the wraps
 #     sh tests/run.sh --release       every artefact of data/packaging/release.sh, made twice: the same bytes, and the whole job list
 #     sh tests/run.sh --soak          the gcc build, what takes hours, with other random numbers every time
 #     --keep                          keeps the build folders of the stages that only --all has, and its root
@@ -64,7 +64,7 @@ logs=$work/logs
 mkdir -p "$logs" || exit 1
 case "$mode$suite" in
 --suitepeers | --soak) needs=peers ;;
---suiteslow | --suitepython | --suitepackages | --stages | --release) needs=stages ;;
+--suiteslow | --suitepython | --suitepackages | --suitenpm | --stages | --release) needs=stages ;;
 *) needs=test ;;
 esac
 sh "$root/.ci/setup" $needs || exit 1
@@ -250,6 +250,28 @@ compare_pages() {
     done
 }
 
+# The package for npm, made by emscripten from the sources that .ci/wraps gets, beside the program of the gcc build.
+test_npm() {
+    clock=$(date +%s)
+    if ! command -v emcc >/dev/null 2>&1; then
+        skipped=$((skipped + 1))
+        say npm 'skipped: emscripten is not installed'
+        return
+    fi
+    if ! sh "$root/.ci/wraps" >"$logs/npm-sources.log" 2>&1 </dev/null; then
+        skipped=$((skipped + 1))
+        say npm "skipped: $(tail -n 1 "$logs/npm-sources.log")"
+        return
+    fi
+    rm -rf "$work/npm-out"
+    if step npm build sh "$root/data/packaging/npm.sh" "$work/npm-out" "$work/npm"; then
+        say npm built
+        FFD_NPM=$(echo "$work/npm-out"/*.tgz)
+        export FFD_NPM
+        suites npm gcc --suite npm
+    fi
+}
+
 # The libraries that a system may lack, each compiled by its wrap, from sources that .ci/wraps gets: every module links, and the
 # program, with modules and as one static file, gives the bytes that the golden suite remembers. A machine may not reach the sources.
 wraps='--wrap-mode=nodownload --force-fallback-for=draco,meshoptimizer,openmesh,tinygltf'
@@ -284,7 +306,7 @@ test_release() {
     rm -rf "$work/artefacts" "$work/artefacts-again"
     step release setup sh "$root/.ci/setup" release || return
     case_of release twice release_twice || return
-    for name in sums sbom wheel wheel-musl static source deb; do
+    for name in sums sbom wheel wheel-musl static npm source deb; do
         case_of release "$name" python3 "$root/tests/release/test_artefacts.py" "$work/artefacts" "$name"
     done
     sed 's/^/    /' "$work/artefacts/SHA256SUMS"
@@ -298,11 +320,15 @@ step node npm install_node_packages
 if [ "$mode" != --release ] && build gcc '' gcc g++ -Dbuildtype=debugoptimized -Dc_args=-g1 -Dcpp_args=-g1; then
     if [ "$suite" = peers ]; then
         suites gcc gcc --suite peers
+    elif [ "$suite" = npm ]; then
+        test_npm
     elif [ -n "$suite" ]; then
         suites gcc gcc --suite "$suite" --no-suite soak
     elif [ -n "$all" ]; then
         ahead release
         suites slow gcc --suite slow --no-suite python --no-suite packages --no-suite soak
+        test_npm
+        drop npm
     elif [ -n "$soak" ]; then
         FFD_SEED=${FFD_SEED-$started}
         export FFD_SEED
@@ -315,7 +341,7 @@ if [ "$mode" != --release ] && build gcc '' gcc g++ -Dbuildtype=debugoptimized -
             drop asan
         fi
     else
-        suites gcc gcc --no-suite python --no-suite packages --no-suite slow --no-suite soak
+        suites gcc gcc --no-suite python --no-suite packages --no-suite npm --no-suite slow --no-suite soak
     fi
 fi
 
@@ -340,7 +366,7 @@ if [ -n "$all" ]; then
     if build_stage asan; then
         ahead clang
         suites asan asan --no-suite oracle --no-suite rules --no-suite bench --no-suite node --no-suite slow \
-            --no-suite packages --no-suite soak --timeout-multiplier 6
+            --no-suite packages --no-suite npm --no-suite soak --timeout-multiplier 6
 
         # The fuzz targets themselves, for a moment and always the same one: a search for what is new takes hours, and
         # is not what a change is judged by. Their corpus was replayed by every suite `fuzz` above.

@@ -63,7 +63,7 @@ missing() {
 export_source() {
     mkdir "$1"
     git -C "$root" archive HEAD | tar -x -C "$1"
-    git -C "$root" rev-parse --short=12 HEAD >"$1/.commit"
+    git -C "$root" rev-parse --short=12 HEAD >"$1/COMMIT"
 }
 # add_libraries FOLDER: the sources of the libraries, which Debian's packages take from the system
 add_libraries() {

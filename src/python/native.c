@@ -1,5 +1,5 @@
-/* native.c - the Python extension that contains the library and its callbacks. All other calls go through
-   ctypes.
+/* native.c - the Python extension, which holds the callbacks that the library is given. All calls of the
+   library go through ctypes.
 
    The callbacks are in C because a KeyboardInterrupt inside a Python callback of ctypes could not be caught
    by the caller. Each callback acquires the GIL and stores its results, or an exception, in a list. */
@@ -194,12 +194,16 @@ static ffd_status next_job(void *user, uint64_t index, const char **line)
     return status;
 }
 
+/* Functions of the library (connect). */
+static size_t (*list_count)(const ffd_output_list *);
+static const char *(*list_name)(const ffd_output_list *, size_t);
+
 /* Returns a list of the names of a job's outputs; NULL with an exception. */
 static PyObject *names_of(const ffd_output_list *outputs)
 {
     PyObject *const names = PyList_New(0);
-    for (size_t i = 0; names && i < ffd_output_list_count(outputs); i++) {
-        PyObject *const name = file_name(ffd_output_list_name(outputs, i));
+    for (size_t i = 0; names && i < list_count(outputs); i++) {
+        PyObject *const name = file_name(list_name(outputs, i));
         if (name)
             PyList_Append(names, name);
         Py_XDECREF(name);
@@ -228,7 +232,6 @@ static int add_address(PyObject *module, const char *name, uintptr_t address)
     return failed;
 }
 
-/* The module's attributes are the addresses of the functions above. */
 /* Arguments of Python that are not called as the members are, or take no keyword. */
 static const char *const others[][2] = {
     {"input.format", "input_format="},
@@ -255,13 +258,29 @@ static void spell(const char *member, const char *value, char *text, size_t capa
     snprintf(text, capacity, value ? "%s='%s'" : "%s=", dot ? dot + 1 : member, value);
 }
 
+/* connect(ffd_output_list_count, ffd_output_list_name): the addresses of what callbacks call. */
+static PyObject *connect(PyObject *module, PyObject *arguments)
+{
+    unsigned long long count, name;
+    (void)module;
+    if (!PyArg_ParseTuple(arguments, "KK", &count, &name))
+        return NULL;
+    list_count = (size_t(*)(const ffd_output_list *))(uintptr_t)count;
+    list_name = (const char *(*)(const ffd_output_list *, size_t))(uintptr_t)name;
+    return Py_NewRef(Py_None);
+}
+
+/* The module's attributes are the addresses of the callbacks above. */
 PyMODINIT_FUNC PyInit__native(void);
 PyMODINIT_FUNC PyInit__native(void)
 {
-    static PyModuleDef definition = {PyModuleDef_HEAD_INIT, .m_name = "_native", .m_doc = "The library ffd."};
+    static PyMethodDef methods[] = {{.ml_name = "connect", .ml_meth = connect, .ml_flags = METH_VARARGS},
+                                    {0}};
+    static PyModuleDef definition = {PyModuleDef_HEAD_INIT, .m_methods = methods, .m_name = "_native",
+                                     .m_doc = "Callbacks of the library ffd."};
     PyObject *const module = PyModule_Create(&definition);
-    ffd_spell_members(spell);
     if (!module || (add_address(module, "progress", (uintptr_t)progress) == 0 &&
+                    add_address(module, "spell", (uintptr_t)spell) == 0 &&
                     add_address(module, "log", (uintptr_t)take_line) == 0 &&
                     add_address(module, "resolve", (uintptr_t)resolve) == 0 &&
                     add_address(module, "sink", (uintptr_t)take_file) == 0 &&

@@ -109,6 +109,10 @@ class Batches(unittest.TestCase):
         self.assertEqual(os.listdir(), [])
 
     def test_without_the_program_the_message_names_it(self):
+        """The package brings the program; it may have lost it."""
+        program = os.path.join(os.path.dirname(ffd.__file__), "ffd")
+        os.rename(program, program + ".away")
+        self.addCleanup(os.rename, program + ".away", program)
         with mock.patch.dict(os.environ, PATH="/nowhere"), self.assertRaisesRegex(ffd.UnsupportedError, '"ffd"'):
             ffd.batch(jobs_of("a.obj"))
         with open("ffd", "w", encoding="utf-8") as file:

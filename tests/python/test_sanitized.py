@@ -3,8 +3,7 @@
 
     test_sanitized.py SOURCE BUILD-FOLDER ABI CC [CASE...]       CASE: as unittest names it, "case_results.Bits"
 
-The package is put together here: its extension is a few lines, compiled with the options of the sanitizers and linked with what the
-build folder has. Leaks are not looked for: what an interpreter leaves at its end is no leak of ours. The wheels are those of
+The package is put together here: its library is linked of what the build folder has, with the options of the sanitizers. Leaks are not looked for: what an interpreter leaves at its end is no leak of ours. The wheels are those of
 test_package.py, and without them it is skipped.
 """
 
@@ -35,8 +34,9 @@ def build_package(folder, source, build, abi, compiler, python):
     archives += glob.glob(os.path.join(build, "src", "libffd_kernels_*.a"))
     test_package.run(*compiler, *FLAGS, "-shared", "-shared-libasan", "-DPy_LIMITED_API=0x030B0000",
                      "-I", os.path.join(source, "include"), "-I", sysconfig.get_paths()["include"],
-                     os.path.join(source, "src", "python", "native.c"), layout, "-Wl,--whole-archive", *archives, "-Wl,--no-whole-archive",
-                     "-lm", "-lpthread", "-ldl", "-o", os.path.join(package, "_native.abi3.so"))
+                     os.path.join(source, "src", "python", "native.c"), layout, "-o", os.path.join(package, "_native.abi3.so"))
+    test_package.run(*compiler, *FLAGS, "-shared", "-shared-libasan", "-Wl,--whole-archive", *archives, "-Wl,--no-whole-archive",
+                     "-lm", "-lpthread", "-ldl", "-o", os.path.join(package, "libffd.so"))
     modules = os.path.join(package, f"ffd-{abi}")
     os.mkdir(modules)
     for module in glob.glob(os.path.join(build, "src", "ffd-*.so")):

@@ -21,7 +21,7 @@ import zlib
 
 # In the order in which a reader comes to them: a page may use the files of those before it.
 PAGES = ("README.md", "data/tutorial.md", "data/promises.md", "data/reference.md")
-LINKED = PAGES + ("CONTRIBUTING.md", "data/README.md", "data/python.md", "data/schema/formats.md", "data/schema/lattice.md", "src/README.md",
+LINKED = PAGES + ("CONTRIBUTING.md", "data/README.md", "data/python.md", "data/npm.md", "data/schema/formats.md", "data/schema/lattice.md", "src/README.md",
                   "tests/README.md")
 MOST_WORDS = 2500
 

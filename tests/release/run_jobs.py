@@ -36,12 +36,16 @@ def words(command):
 
 
 def chosen(jobs, every, without):
-    """The indices of the jobs to run: every n-th, and before them those that made a file which they name."""
+    """The indices of the jobs to run: every n-th, and before them those that made a file which they name, or have copied what
+    belongs to the same model."""
     allowed = [i for i, (_, command) in enumerate(jobs) if not without & set(words(command))]
     wanted = set(allowed[::every])
     for i in sorted(allowed, reverse=True):
         if i in wanted:
             read = {word for word in words(jobs[i][1]) if not word.startswith("-") and "/" not in word}
+            models = {word for word in words(jobs[i][1]) if word.startswith("models/")}
+            for model in models:
+                wanted.add(next((k for k in allowed if jobs[k][1].startswith(f"deform {model} ")), i))
             for other in allowed:
                 if other < i and read & makes(jobs[other][1]):
                     wanted.add(other)
@@ -70,19 +74,38 @@ def snapshot(folder):
     return found
 
 
+def remove_copies(folder, files, jobs):
+    """Removes what no command of the list names, nor a file with the same stem: copies of materials and images, which the next job
+    copies again, whichever jobs ran before it. Returns the other files."""
+    named = {stem(word) for _, command in jobs for word in words(command) if "/" not in word}
+    for name in [name for name in files if stem(name) not in named]:
+        os.remove(os.path.join(folder, name))
+        del files[name]
+    return files
+
+
+def stem(path):
+    return os.path.basename(path).split(".")[0]
+
+
+def without_version(text, version):
+    """version: "0.3.0", or with the commit behind it, which some outputs leave out"""
+    return text.replace(version, b"VERSION").replace(version.split()[0], b"VERSION")
+
+
 def run(program, command, folder, version, before):
     """The sum of what a command does, and what it did as text."""
     done = subprocess.run([*program, *words(command)], cwd=folder, capture_output=True, stdin=subprocess.DEVNULL, timeout=SECONDS,
                           check=False)
     after = snapshot(folder)
     # What differs from one version, or one run, to the next.
-    told = [re.sub(rb"\b\d+\.\d+ s\b", b"N s", text).replace(version, b"VERSION") for text in (done.stdout, done.stderr)]
+    told = [without_version(re.sub(rb"\b\d+\.\d+ s\b", b"N s", text), version) for text in (done.stdout, done.stderr)]
     digest = hashlib.sha256()
     for part in (str(done.returncode).encode(), *told):
         digest.update(b"%d:" % len(part) + part)
     changed = sorted(name for name in after if before.get(name) != after[name])
     for name in changed:
-        content = after[name].replace(version, b"VERSION") if not name.endswith(".journal") else b""
+        content = without_version(after[name], version) if not name.endswith(".journal") else b""
         digest.update(name.encode() + hashlib.sha256(content).digest())
     return digest.hexdigest()[:16], after, f"exit {done.returncode}, files: {' '.join(changed) or 'none'}; " + \
         told[1].decode(errors="replace").strip()[:300]
@@ -108,6 +131,7 @@ def main():
         for i in indices:
             wanted, command = jobs[i]
             found, files, did = run(options.program, command, folder, version, files)
+            files = remove_copies(folder, files, jobs)
             if options.verbose:
                 print(f"{found} {command}\n    {did}")
             if options.write:

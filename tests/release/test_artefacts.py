@@ -2,7 +2,7 @@
 """What data/packaging/release.sh has made is what its page says: names, sums, SBOMs, sizes, what it needs of a system and shows to it;
 and does the jobs of the list.
 
-    test_artefacts.py OUT [wheel|wheel-musl|static|source|deb|sums|sbom]...     default: all that OUT holds
+    test_artefacts.py OUT [wheel|wheel-musl|static|npm|source|deb|sums|sbom]...     default: all that OUT holds
 
 The tools are those of `sh .ci/setup release`; numpy comes from the wheels of the suite python.
 """
@@ -190,9 +190,16 @@ def test_deb(out):
         do_jobs("deb", os.path.join(folder, "usr/bin/ffd"))
 
 
+def test_npm(out):
+    with tempfile.TemporaryDirectory() as folder:
+        with tarfile.open(os.path.join(out, NAMES["npm"])) as archive:
+            archive.extractall(folder)
+        do_jobs("npm", "node", os.path.join(folder, "package/bin/ffd-mesh.mjs"), options=("--without", "batch"))
+
+
 def main():
     out, *chosen = sys.argv[1:]
-    chosen = chosen or [name for name, file in NAMES.items() if os.path.exists(os.path.join(out, file)) and name != "npm"] + ["sums", "sbom"]
+    chosen = chosen or [name for name, file in NAMES.items() if os.path.exists(os.path.join(out, file))] + ["sums", "sbom"]
     for name in chosen:
         globals()["test_" + name.replace("-", "_")](out)
     for finding in findings:

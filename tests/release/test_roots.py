@@ -30,16 +30,21 @@ NEXT = """{ffd} deform models/knight.glb /tmp/knight.glb -l lattices/twist.json
 {ffd} deform models/spot.obj /tmp/fatter.obj -l lattices/fatter.json
 {ffd} compare models/spot.obj /tmp/fatter.obj --tolerance 10
 """
-# Without the interpreter's symbols a library is loaded by ctypes, which has them.
+# The library and its declarations, without the package, which needs a newer Python.
 OLD = r"""
-import ctypes, glob, sys
-lib = ctypes.PyDLL(glob.glob("/wheel/ffd_mesh/_native*.so")[0])
-class Error(ctypes.Structure):
-    _fields_ = [("bytes", ctypes.c_char * 8192)]
-lattice, error = ctypes.c_void_p(), Error()
-assert lib.ffd_lattice_load(b"/src/ffd/data/lattices/big-head.json", ctypes.byref(lattice), ctypes.byref(error)) == 0
-lib.ffd_version.restype = ctypes.c_char_p
-print(lib.ffd_version().decode())
+import ctypes, importlib.util
+spec = importlib.util.spec_from_file_location("declared", "/wheel/ffd_mesh/_declarations.py")
+declared = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(declared)
+lib = ctypes.CDLL("/wheel/ffd_mesh/libffd.so")
+desc, error = declared.ffd_deform_desc(), declared.ffd_error()
+lib.ffd_deform_desc_init(ctypes.byref(desc), ctypes.sizeof(desc))
+desc.input.path, desc.output = b"models/knight.glb", b"/tmp/by_ctypes.glb"
+lattices = (declared.ffd_lattice_source * 1)()
+lattices[0].path = b"lattices/twist.json"
+desc.lattices, desc.lattice_count = lattices, 1
+status = lib.ffd_deform_run(ctypes.byref(desc), None, ctypes.byref(error))
+assert status == 0, error.message
 """
 
 
@@ -80,8 +85,8 @@ def old(folder, out):
     make(folder, "bullseye", ["python3", "unzip"], out)
     with open(os.path.join(folder, "old.py"), "w", encoding="utf-8") as file:
         file.write(OLD)
-    code, text = enter(folder, "mkdir /wheel; cd /wheel; unzip -q /dist/*manylinux*.whl; python3 /old.py && cd /src/ffd/data && "
-                               "/wheel/ffd_mesh/ffd deform models/knight.glb /tmp/k.glb -l lattices/twist.json; ls -l /tmp/k.glb")
+    code, text = enter(folder, "mkdir /wheel; cd /wheel; unzip -q /dist/*manylinux*.whl; cd /src/ffd/data && python3 /old.py && "
+                               "/wheel/ffd_mesh/ffd deform models/knight.glb /tmp/k.glb -l lattices/twist.json && cmp /tmp/k.glb /tmp/by_ctypes.glb")
     print(f"old: exit {code}, {text.strip()[-2000:]}")
     return code == 0
 

@@ -112,8 +112,8 @@ def circles(edges, what):
 
 
 def main():
-    # src/python is in no build but that of the wheel.
-    paths = [path for path in tree.files() if path.startswith("src/") and not path.startswith("src/python/")
+    # src/python is in no build but that of the wheel, src/wasm in none but that of the package for npm.
+    paths = [path for path in tree.files() if path.startswith("src/") and not path.startswith(("src/python/", "src/wasm/"))
              and path.endswith((".c", ".cpp", ".h"))]
     edges = includes(paths)
     called, seen = calls(sys.argv[1], paths)

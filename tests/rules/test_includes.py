@@ -121,6 +121,7 @@ LAYERS = {
     "cli": set(),
     "cli/pages": {"cli"},
     "python": set(),
+    "wasm": {"base"},
     "job": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io", "io/npy",
         "io/openmesh", "io/write", "job/chain", "job/figures", "job/input", "job/judge", "job/measure", "job/pass", "job/report", "json",

@@ -1,3 +1,3 @@
 # The package for npm. Read by release.sh.
 set -eu
-sh "$root/data/packaging/npm.sh" "$made"
+sh "$source/data/packaging/npm.sh" "$made" "$work/npm"

@@ -35,4 +35,4 @@ export _PYTHON_HOST_PLATFORM="$platform"
 cd "$source"
 PATH=$tools/bin:$PATH CC="$ccache$work/zig/$target/cc" CXX="$ccache$work/zig/$target/c++" "$tools/bin/python3" -c "
 import sys, mesonpy
-mesonpy.build_wheel(sys.argv[1], {'setup-args': ['--wrap-mode=forcefallback', '-Doptimization=2', '-Dc_args=-I$work/python', '-Dc_link_args=-s', '-Dcpp_link_args=-s']})" "$made"
+mesonpy.build_wheel(sys.argv[1], {'setup-args': ['--wrap-mode=forcefallback', '-Dc_args=-I$work/python', '-Dc_link_args=-s', '-Dcpp_link_args=-s']})" "$made"

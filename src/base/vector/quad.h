@@ -8,7 +8,11 @@
 #include <stdint.h>
 #include <string.h>
 #if FFD_LANES > 1
+#ifdef __wasm_simd128__
+#include <wasm_simd128.h>
+#else
 #include <immintrin.h>
+#endif
 #endif
 
 #if FFD_LANES == 1
@@ -77,6 +81,10 @@ static ALWAYS_INLINE quad quad_magnitude(const quad *a)
 #if FFD_LANES == 1
 #define QUAD_LARGER(a, b) ((a) > (b) ? (a) : (b))
 #define QUAD_LESSER(a, b) ((a) < (b) ? (a) : (b))
+#elif defined(__wasm_simd128__)
+/* Named by its other operand: if neither is larger, the result is the first one. */
+#define QUAD_LARGER(a, b) wasm_f64x2_pmax(b, a)
+#define QUAD_LESSER(a, b) wasm_f64x2_pmin(b, a)
 #elif FFD_LANES == 2
 #define QUAD_LARGER(a, b) _mm_max_pd(a, b)
 #define QUAD_LESSER(a, b) _mm_min_pd(a, b)

@@ -21,11 +21,14 @@ Progress = Callable[[float], "bool | None"]
 LOG = logging.getLogger("ffd_mesh")
 LOG.addHandler(logging.NullHandler())
 
-_LIBRARY = ctypes.CDLL(_native.__file__)
+_LIBRARY = ctypes.CDLL(os.path.join(os.path.dirname(os.path.abspath(__file__)), "libffd.so"))
 for _name, (_result, _arguments) in declared.FUNCTIONS.items():
     _function = getattr(_LIBRARY, _name)
     _function.restype, _function.argtypes = _result, _arguments
 lib = _LIBRARY
+lib.ffd_spell_members(_native.spell)
+_native.connect(*(ctypes.cast(function, ctypes.c_void_p).value
+                  for function in (lib.ffd_output_list_count, lib.ffd_output_list_name)))
 
 
 def _words(names: dict[str, int]) -> dict[str, int]:

@@ -1,0 +1,29 @@
+// The types of the package: compiled, never run. A line behind "expect-error" must be wrong.
+import {FfdError, init, type Lattice} from 'ffd-mesh';
+import {ffd as transform} from 'ffd-mesh/gltf-transform';
+import {Document} from '@gltf-transform/core';
+
+const ffd = await init({wasm: new URL('core.wasm', 'file:///'), programWasm: new Uint8Array(8)});
+const lattice: Lattice = ffd.Lattice.parse({format: 'ffd-lattice'});
+const box: Lattice = ffd.Lattice.box({min: [0, 0, 0], max: new Float32Array(3), size: [4, 4, 5], knots: ['open', 'clamped', {closed: [0, 1]}]});
+const e = box.embed(new Float32Array(9), {outside: 'extend', falloff: 1});
+const single: Float32Array = box.deform(e, new Float32Array(9));
+const double: Float64Array = box.deform(e, new Float32Array(9), new Float64Array(9));
+const affected: Uint32Array = e.affected(new Set([1, 2]));
+const verdict: 'none' | 'some' | 'unknown' = box.folds().verdict;
+const {bytes, files, report} = await ffd.deform({name: 'a.glb', bytes: new ArrayBuffer(1)}, [lattice, '{}', {}], {asMorph: 'a', failOn: ['folds'], only: 'node:a'});
+const text: string = lattice.text() + report.jobs[0].status + bytes.length + Object.keys(files).join();
+await new Document().transform(transform({lattice, normals: 'keep', only: ['node:a']}));
+try {
+  await ffd.check({name: 'a.obj', bytes: ''}, lattice);
+} catch (problem) {
+  if (problem instanceof FfdError) console.log(problem.code + 1, problem.file?.length, problem.pointer, single, double, affected, verdict, text);
+}
+// @ts-expect-error
+ffd.fit(single, single);
+// @ts-expect-error
+box.embed([0, 0, 0]);
+// @ts-expect-error
+await ffd.deform({bytes: 'a'}, lattice);
+// @ts-expect-error
+box.embed(single, {outside: 'stay'});
