@@ -119,18 +119,20 @@ def main():
     parser.add_argument("--verbose", action="store_true")
     parser.add_argument("program", nargs=argparse.REMAINDER)
     options = parser.parse_args()
+    # The commands run in another folder.
+    program = [os.path.abspath(word) if os.path.exists(word) else word for word in options.program]
     jobs = read_list()
     indices = chosen(jobs, options.every, set(filter(None, options.without.split(","))))
     failed = 0
     with tempfile.TemporaryDirectory() as folder:
         for name, path in (("models", "data/models"), ("lattices", "data/lattices"), ("inputs", "tests/release/inputs")):
             shutil.copytree(os.path.join(ROOT, path), os.path.join(folder, name))
-        first = subprocess.run([*options.program, "--version"], capture_output=True, check=True, cwd=folder).stdout
+        first = subprocess.run([*program, "--version"], capture_output=True, check=True, cwd=folder).stdout
         version = first.split(b"\n")[0].removeprefix(b"ffd ")
         files = {}
         for i in indices:
             wanted, command = jobs[i]
-            found, files, did = run(options.program, command, folder, version, files)
+            found, files, did = run(program, command, folder, version, files)
             files = remove_copies(folder, files, jobs)
             if options.verbose:
                 print(f"{found} {command}\n    {did}")
