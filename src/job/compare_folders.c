@@ -92,14 +92,13 @@ ffd_status ffd_compare_folders(const ffd_compare_desc *callers, ffd_compared_fun
     TRY(ffd_struct_take(&desc, sizeof desc, callers, "ffd_compare_desc", error));
     TRY(ffd_struct_check(sizeof own, result, "ffd_folder_comparison", error));
     const walk w = {&desc, file, user, &own};
-    ffd_status status = check_desc(&desc, error);
-    if (!status)
-        status = list_meshes(desc.a.path, &a, error);
-    if (!status)
-        status = list_meshes(desc.b.path, &b, error);
-    if (!status)
-        status = compare_lists(&w, &a, &b, error);
-    own.equal = !status && own.different + own.failed + own.only_a + own.only_b == 0;
+    ffd_status status;
+    TRY_END(check_desc(&desc, error));
+    TRY_END(list_meshes(desc.a.path, &a, error));
+    TRY_END(list_meshes(desc.b.path, &b, error));
+    TRY_END(compare_lists(&w, &a, &b, error));
+    own.equal = own.different + own.failed + own.only_a + own.only_b == 0;
+end:
     ffd_paths_free(&a);
     ffd_paths_free(&b);
     ffd_struct_give(&own, sizeof own, result, result->struct_size);

@@ -9,8 +9,10 @@ import random
 import re
 import struct
 
-from harness import (INVALID, MODELS, OK, SANITIZED, UNSUPPORTED, case, check, equal, float32, glb, glb_positions, glb_split,
+from harness import (INVALID, MODELS, OK, SANITIZED, UNSUPPORTED, announce, case, check, equal, float32, glb, glb_positions, glb_split,
                      gltf_json, gltf_vectors, lattice, main, near, obj_of, obj_vertices, threaded_case)
+
+announce("(face is|faces are) turned over$")
 
 SEED = int(os.environ.get("FFD_SEED") or struct.unpack("<I", os.urandom(4))[0])
 # The instruction sets that kernels are compiled for, as far as this processor has them.

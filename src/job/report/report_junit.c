@@ -300,24 +300,19 @@ static ffd_status add_file(junit_suite *all, const char *path, ffd_error *error)
 static ffd_status write_all(const junit_suite *all, const char *path, bool force, ffd_error *error)
 {
     byte_buffer head = {0};
-    file_output *output;
+    file_output *output = NULL;
+    ffd_status status;
     ffd_buffer_text(&head, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"ffd\"");
     put_counts(&head, all);
     ffd_buffer_text(&head, ">\n");
-    ffd_status status = all->cases.failed || head.failed ? ffd_fail_memory(error) : FFD_OK;
-    output = NULL;
-    if (!status)
-        status = ffd_output_create(&output, error);
-    if (!status)
-        status = ffd_output_begin(output, path, force, error);
-    if (!status)
-        status = ffd_output_write(output, head.data, head.size, error);
-    if (!status)
-        status = ffd_output_write(output, all->cases.data, all->cases.size, error);
-    if (!status)
-        status = ffd_output_write(output, "</testsuites>\n", strlen("</testsuites>\n"), error);
-    if (!status)
-        status = ffd_output_commit(output, error);
+    TRY_END(all->cases.failed || head.failed ? ffd_fail_memory(error) : FFD_OK);
+    TRY_END(ffd_output_create(&output, error));
+    TRY_END(ffd_output_begin(output, path, force, error));
+    TRY_END(ffd_output_write(output, head.data, head.size, error));
+    TRY_END(ffd_output_write(output, all->cases.data, all->cases.size, error));
+    TRY_END(ffd_output_write(output, "</testsuites>\n", strlen("</testsuites>\n"), error));
+    TRY_END(ffd_output_commit(output, error));
+end:
     ffd_output_destroy(&output);
     ffd_buffer_free(&head);
     return status;

@@ -62,18 +62,16 @@ static bool find_note(void *context, const char *copy, hash128 *hash)
 static ffd_status write_note(const char *path, const hash128 *hash)
 {
     char note[NOTE + 1];
-    file_output *output;
+    file_output *output = NULL;
+    ffd_status status;
     format_note(hash, note);
     char *const folder = ffd_path_folder(path);
-    ffd_status status = ffd_output_create(&output, NULL);
-    if (!status)
-        status = folder ? ffd_output_folder(output, folder, NULL) : FFD_E_MEMORY;
-    if (!status)
-        status = ffd_output_begin(output, path, true, NULL);
-    if (!status)
-        status = ffd_output_write(output, note, NOTE, NULL);
-    if (!status)
-        status = ffd_output_commit(output, NULL);
+    TRY_END(ffd_output_create(&output, NULL));
+    TRY_END(folder ? ffd_output_folder(output, folder, NULL) : FFD_E_MEMORY);
+    TRY_END(ffd_output_begin(output, path, true, NULL));
+    TRY_END(ffd_output_write(output, note, NOTE, NULL));
+    TRY_END(ffd_output_commit(output, NULL));
+end:
     ffd_output_destroy(&output);
     ffd_free(folder);
     return status;
