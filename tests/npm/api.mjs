@@ -175,8 +175,11 @@ for (const [name, beside] of Object.entries(MODELS))
     const expected = readdirSync(folder, {recursive: true, withFileTypes: true}).filter((entry) => entry.isFile());
     for (const file of Object.keys(others)) sameBytes(others[file], readFileSync(join(folder, file)), file);
     assert.equal(expected.length, Object.keys(others).length + 3, Object.keys(others).join(' '));
-    const job = ({jobs: [{input, output, ...figures}]}) => figures;
-    assert.deepEqual(job(report), job(JSON.parse(readFileSync(join(folder, 'report.json')))));
+    const job = ({jobs: [{input, output, outputs, ...figures}]}) => figures;
+    const native = JSON.parse(readFileSync(join(folder, 'report.json')));
+    assert.deepEqual(job(report), job(native));
+    assert.deepEqual([report.jobs[0].input, report.jobs[0].output], [name, name]);
+    assert.deepEqual(report.jobs[0].outputs, native.jobs[0].outputs.map((path) => path.replace(folder + '/', '')));
     // The lattice as an object of the core, which goes round this mesh too.
     sameBytes((await ffd.deform(mesh, [ffd.Lattice.parse(text)])).bytes, bytes, 'by a Lattice');
     sameBytes((await ffd.deform(mesh, BOX)).bytes, bytes, 'by an object');

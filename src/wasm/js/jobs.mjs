@@ -77,6 +77,14 @@ function gatherer() {
 }
 
 // The error in what the program has said, whose last line tells why it failed.
+// The report, with the names that the caller gave or gets.
+function reportOf(text) {
+  const name = (path) => path?.replace(/^\/(in|out)\//, '');
+  const report = JSON.parse(text);
+  for (const job of report.jobs) Object.assign(job, {input: name(job.input), output: name(job.output), outputs: job.outputs.map(name)});
+  return report;
+}
+
 function failureOf(code, said, names, report) {
   const lines = said.trimEnd().split('\n');
   const line = lines.pop() || 'ffd: it failed without a word';
@@ -123,7 +131,7 @@ export function defineJobs(createProgram, getModule) {
         },
       });
     const all = {...readAll(FS, IN, new Map([...given, ...lattices])), ...readAll(FS, OUT)};
-    const report = FS.analyzePath('/report.json').exists ? JSON.parse(FS.readFile('/report.json', {encoding: 'utf8'})) : undefined;
+    const report = FS.analyzePath('/report.json').exists ? reportOf(FS.readFile('/report.json', {encoding: 'utf8'})) : undefined;
     if (code) throw failureOf(code, said.text(), [...given.keys(), ...lattices.keys()], report);
     return {files: all, report, text: printed.text(), warnings: said.text().split('\n').filter(Boolean)};
   }
