@@ -156,8 +156,9 @@ def run_in_clean_root(folder, packages):
 
 
 def check_result(folder, ffd, findings):
+    # It is built from an archive, which knows no commit.
     with open(os.path.join(folder, "version"), encoding="ascii") as file:
-        if file.read() != stage.run([ffd, "--version"]):
+        if file.read().split() != stage.run([ffd, "--version"]).split()[:2]:
             findings.append("the installed ffd says another version")
     expected = os.path.join(folder, "expected.obj")
     data = os.path.join(stage.ROOT, "data")
