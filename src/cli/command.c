@@ -51,6 +51,16 @@ int cli_usage(const cli_command *command, const char *why)
     return EXIT_USAGE;
 }
 
+int cli_check_reports(const cli_command *command, const cli_words *words)
+{
+    size_t streams = 0;
+    for (size_t i = 0; i < words->count; i++)
+        streams += strcmp(words->words[i], "-") == 0;
+    if (words->count == 0)
+        return cli_usage(command, "needs at least one REPORT");
+    return streams > 1 ? cli_usage(command, "standard input can be read only once") : EXIT_DONE;
+}
+
 bool cli_begin(const cli_command *command, void *settings, const bool *help, int count, char **arguments,
                cli_words *words, int *exit_code)
 {

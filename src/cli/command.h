@@ -54,6 +54,9 @@ int cli_fail(const ffd_error *error);
 
 /* Prints why the arguments are wrong, and the usage. Returns the exit code. */
 int cli_usage(const cli_command *command, const char *why);
+/* Checks that the words name at least one report, and standard input only once. Returns EXIT_DONE, or after a
+   message EXIT_USAGE. */
+int cli_check_reports(const cli_command *command, const cli_words *words);
 
 /* Runs a command with its parsed settings and words. Returns the exit code. */
 typedef int cli_action(const cli_command *command, void *settings, const cli_words *words);

@@ -1,6 +1,5 @@
 /* report_junit.c - ffd report junit: reports for build servers. */
 #include "cli/command.h"
-#include <string.h>
 
 typedef struct settings {
     const char *output;
@@ -22,14 +21,10 @@ static const cli_option options[] = {
 static int act(const cli_command *command, void *context, const cli_words *words)
 {
     const settings *s = context;
-    size_t streams = 0;
     ffd_error error;
-    for (size_t i = 0; i < words->count; i++)
-        streams += strcmp(words->words[i], "-") == 0;
-    if (words->count == 0)
-        return cli_usage(command, "needs at least one REPORT");
-    if (streams > 1)
-        return cli_usage(command, "standard input can be read only once");
+    const int wrong = cli_check_reports(command, words);
+    if (wrong)
+        return wrong;
     if (ffd_report_junit_run(words->words, words->count, s->output ? s->output : "-", s->force, &error))
         return cli_fail(&error);
     return EXIT_DONE;

@@ -1,6 +1,5 @@
 /* report_merge.c - ffd report merge: merges the reports of several runs. */
 #include "cli/command.h"
-#include <string.h>
 
 typedef struct settings {
     const char *output;
@@ -22,22 +21,13 @@ static const cli_option options[] = {
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 
-static size_t count_streams(const cli_words *words)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < words->count; i++)
-        count += strcmp(words->words[i], "-") == 0;
-    return count;
-}
-
 static int act(const cli_command *command, void *context, const cli_words *words)
 {
     const settings *s = context;
     ffd_error error;
-    if (words->count == 0)
-        return cli_usage(command, "needs at least one REPORT");
-    if (count_streams(words) > 1)
-        return cli_usage(command, "standard input can be read only once");
+    const int wrong = cli_check_reports(command, words);
+    if (wrong)
+        return wrong;
     if (ffd_report_merge_run(words->words, words->count, s->interleave, s->output ? s->output : "-", s->force,
                              &error))
         return cli_fail(&error);
