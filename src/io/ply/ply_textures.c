@@ -94,17 +94,8 @@ ffd_status ffd_ply_bring_textures(const ply_header *header, const file_folder *f
     if (ffd_save_meets(options, mesh, options->path))
         return FFD_OK;
     char *const from = ffd_path_folder(mesh), *const to = ffd_path_folder(options->path);
-    const resource_copier copier = {.mesh = *folder,
-                                    .from = from,
-                                    .to = to,
-                                    .sink_name = options->to_sink ? options->path : NULL,
-                                    .output = output,
-                                    .log = log,
-                                    .copied = options->copied,
-                                    .path = options->path,
-                                    .outputs = options->outputs,
-                                    .refreshes = options->resources == FFD_RESOURCES_REFRESH,
-                                    .noted = options->noted};
+    const resource_copier copier = {
+        .mesh = *folder, .from = from, .to = to, .output = output, .log = log, .options = options};
     resource_list list = {0};
     ffd_status status;
     TRY_END(from && to ? list_all(header, folder, &list, error) : ffd_fail_memory(error));

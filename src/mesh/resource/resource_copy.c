@@ -15,7 +15,7 @@
 /* Whether there is a file at a path of the output. */
 static bool is_there(const resource_copier *c, const char *target)
 {
-    return !c->sink_name && ffd_file_exists(target);
+    return !c->options->to_sink && ffd_file_exists(target);
 }
 
 /* Finds whether a file is there, and whether it has these bytes. */
@@ -58,8 +58,8 @@ static ffd_status judge_copy(const resource_copier *c, const resource_kind *kind
     TRY(inspect(c, target, bytes, &is_file, &is_same, error));
     if (is_same || !is_file)
         return FFD_OK;
-    const bool is_own = c->noted && ffd_copies_are_own(c->noted, target);
-    *replaces = is_own && c->refreshes;
+    const bool is_own = c->options->noted && ffd_copies_are_own(c->options->noted, target);
+    *replaces = is_own && c->options->resources == FFD_RESOURCES_REFRESH;
     if (*replaces)
         return FFD_OK;
     return ffd_fail_file(error, FFD_E_IO, target,
@@ -168,10 +168,11 @@ ffd_status ffd_resource_load(const file_folder *mesh, const mesh_resource *resou
 
 ffd_status ffd_resource_note(const resource_copier *c, const mesh_resource *resource, ffd_error *error)
 {
-    if (!c->copied)
+    if (!c->options->copied)
         return FFD_OK;
     char *const source = ffd_path_sibling(c->mesh.file, resource->path);
-    const ffd_status status = source ? ffd_paths_add(c->copied, source, error) : ffd_fail_memory(error);
+    const ffd_status status =
+        source ? ffd_paths_add(c->options->copied, source, error) : ffd_fail_memory(error);
     ffd_free(source);
     return status;
 }
@@ -179,10 +180,10 @@ ffd_status ffd_resource_note(const resource_copier *c, const mesh_resource *reso
 /* Adds the name of a copy beside the output. */
 static ffd_status note_output(const resource_copier *c, const mesh_resource *resource, ffd_error *error)
 {
-    if (!c->outputs)
+    if (!c->options->outputs)
         return FFD_OK;
-    char *const name = ffd_path_sibling(c->path, resource->path);
-    const ffd_status status = name ? ffd_paths_add(c->outputs, name, error) : ffd_fail_memory(error);
+    char *const name = ffd_path_sibling(c->options->path, resource->path);
+    const ffd_status status = name ? ffd_paths_add(c->options->outputs, name, error) : ffd_fail_memory(error);
     ffd_free(name);
     return status;
 }
@@ -190,14 +191,14 @@ static ffd_status note_output(const resource_copier *c, const mesh_resource *res
 static ffd_status copy_loaded(const resource_copier *c, const mesh_resource *resource,
                               const file_input *bytes, ffd_error *error)
 {
-    char *const target =
-        c->sink_name ? ffd_path_sibling(c->sink_name, resource->path) : ffd_path_join(c->to, resource->path);
+    char *const target = c->options->to_sink ? ffd_path_sibling(c->options->path, resource->path)
+                                             : ffd_path_join(c->to, resource->path);
     ffd_status status;
     TRY_END(target ? write_copy(c, resource->kind, target, bytes, error) : ffd_fail_memory(error));
     TRY_END(ffd_resource_note(c, resource, error));
     TRY_END(note_output(c, resource, error));
-    if (c->noted && !c->sink_name)
-        TRY_END(ffd_copies_add(c->noted, target, bytes->data, bytes->size, error));
+    if (c->options->noted && !c->options->to_sink)
+        TRY_END(ffd_copies_add(c->options->noted, target, bytes->data, bytes->size, error));
 end:
     ffd_free(target);
     return status;
@@ -226,7 +227,7 @@ ffd_status ffd_resource_copy(const resource_copier *c, const mesh_resource *reso
 /* Whether a path of the output leads to a file that is there. */
 static bool meets(const resource_copier *c, const char *file, const char *target)
 {
-    return !c->sink_name && ffd_file_same(file, target);
+    return !c->options->to_sink && ffd_file_same(file, target);
 }
 
 ffd_status ffd_resource_check_target(const resource_copier *c, const mesh_resource *resource, bool is_copied,

@@ -5,7 +5,7 @@
 
 #include "base/file/file_folder.h"
 #include "base/file/output.h"
-#include "base/file/path_list.h"
+#include "mesh/mesh.h"
 #include "mesh/mesh_log.h"
 #include "mesh/resource/copy_notes.h"
 #include "mesh/resource/resource_list.h"
@@ -17,15 +17,9 @@
 typedef struct resource_copier {
     file_folder mesh;      /* where the names in the mesh file lead */
     const char *from, *to; /* folders of the mesh file and of the output */
-    const char *sink_name; /* the output's name, if it goes to a callback: no file is there; else NULL */
     file_output *output;   /* NULL: only make the checks, copy nothing */
     const mesh_log *log;
-    path_list
-        *copied; /* receives the paths of files that are copied, embedded, or exist already; may be NULL */
-    const char *path;   /* the output's */
-    path_list *outputs; /* as in mesh_save_options */
-    bool refreshes;     /* replace copies of earlier runs */
-    noted_copies *noted;
+    const mesh_save_options *options;
 } resource_copier;
 
 /* Loads a file that a mesh names, if it may be copied. *left: NULL, or the reason why it is not copied: its

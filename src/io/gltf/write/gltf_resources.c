@@ -376,14 +376,9 @@ ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error)
     r.copier = (resource_copier){.mesh = d->base.folder,
                                  .from = r.from,
                                  .to = r.to,
-                                 .sink_name = saver->options->to_sink ? saver->options->path : NULL,
                                  .output = saver->output,
                                  .log = saver->log,
-                                 .copied = saver->options->copied,
-                                 .path = saver->options->path,
-                                 .outputs = saver->options->outputs,
-                                 .refreshes = saver->options->resources == FFD_RESOURCES_REFRESH,
-                                 .noted = saver->options->noted};
+                                 .options = saver->options};
     ffd_status status;
     TRY_END(r.from && r.to ? FFD_OK : ffd_fail_memory(error));
     const bool stay = saver->in_place || ffd_save_meets(saver->options, r.from, r.to);

@@ -154,7 +154,8 @@ end:
 static ffd_status warn_of_linked(const resource_copier *c, const file_input *input, ffd_error *error)
 {
     left_out left = {0};
-    TRY(ffd_obj_leave_linked(input, c->mesh.file, &c->mesh, c->sink_name ? NULL : c->to, &left, error));
+    TRY(ffd_obj_leave_linked(input, c->mesh.file, &c->mesh, c->options->to_sink ? NULL : c->to, &left,
+                             error));
     ffd_left_out_log(&left, "file that a statement names is not copied",
                      "files that statements name are not copied", c->log);
     return FFD_OK;
@@ -174,17 +175,8 @@ ffd_status ffd_obj_bring_resources(const file_input *input, const file_folder *f
         ffd_save_meets(options, mesh, options->path))
         return FFD_OK;
     char *const from = ffd_path_folder(mesh), *const to = ffd_path_folder(options->path);
-    const resource_copier copier = {.mesh = *folder,
-                                    .from = from,
-                                    .to = to,
-                                    .sink_name = options->to_sink ? options->path : NULL,
-                                    .output = output,
-                                    .log = log,
-                                    .copied = options->copied,
-                                    .path = options->path,
-                                    .outputs = options->outputs,
-                                    .refreshes = options->resources == FFD_RESOURCES_REFRESH,
-                                    .noted = options->noted};
+    const resource_copier copier = {
+        .mesh = *folder, .from = from, .to = to, .output = output, .log = log, .options = options};
     ffd_status status;
     TRY_END(from && to ? FFD_OK : ffd_fail_memory(error));
     const bool is_stay = ffd_save_meets(options, from, to);
