@@ -66,6 +66,12 @@ ffd_status ffd_budget_take(memory_budget *budget, uint64_t count, uint64_t size,
     return FFD_OK;
 }
 
+void ffd_budget_keep(memory_budget *budget, uint64_t bytes)
+{
+    if (ffd_budget_left(budget) > bytes)
+        budget->taken = ffd_budget_most(budget) - bytes;
+}
+
 void ffd_budget_return(memory_budget *budget, uint64_t count, uint64_t size)
 {
     budget->taken -= count * size;

@@ -38,6 +38,8 @@ ffd_status ffd_budget_check(const memory_budget *budget, uint64_t count, uint64_
 /* Takes count * size bytes for as long as the document is open. Errors: FFD_E_LIMIT; nothing is taken
    then. */
 ffd_status ffd_budget_take(memory_budget *budget, uint64_t count, uint64_t size, ffd_error *error);
+/* Leaves no more than these bytes, if more were left. */
+void ffd_budget_keep(memory_budget *budget, uint64_t bytes);
 /* Gives back bytes that were taken. */
 void ffd_budget_return(memory_budget *budget, uint64_t count, uint64_t size);
 /* Returns how many of the threads the budget allows if each needs size bytes; at least 1. */

@@ -89,7 +89,7 @@ def bad_jobs():
         (bad("in/missing.obj"), 3, r"in/missing\.obj: .*No such file"),
         (bad("in/missing.glb"), 3, r"in/missing\.glb: .*No such file"),
         (bad(grid="in/missing.json"), 3, r"in/missing\.json: .*No such file"),
-        (bad(out="nowhere/bad.glb"), 3, r"nowhere/bad\.glb: .*no folder"),
+        (bad(out="in/0.obj/bad.glb"), 3, r"in/0\.obj/bad\.glb: .*Not a directory"),
         ('{"in": "in/0.obj",', 4, r"m\.jsonl:\d+: not valid JSON"),
         (bad(option={}), 4, r"m\.jsonl:\d+: unknown key \"option\""),
         (bad(options={"normal": "keep"}), 4, r"m\.jsonl:\d+: .*normal.*nearest"),

@@ -19,6 +19,8 @@
 /* Of a mesh with more vertices a face hardly turns over without det F <= 0 at some vertex, which is counted
    in any case. To count its faces as well would take as long as to deform it. */
 #define UNASKED_VERTICES 1000
+/* Nor are many faces of few vertices counted: some 50,000 triangles need more memory than this. */
+#define UNASKED_FACE_BYTES ((uint64_t)1000000)
 
 /* Gates that need the faces. */
 #define NEED_FACES (FFD_GATE_TEAR | FFD_GATE_FLIPPED | FFD_GATE_EDGES)
@@ -26,6 +28,12 @@
 bool ffd_figures_wanted(const deform_job *job)
 {
     return job->check || job->desc->quality || job->desc->fail_on & (FFD_GATE_FLIPPED | FFD_GATE_EDGES);
+}
+
+/* Whether the job fails without its faces. */
+static bool needs_faces(const deform_job *job)
+{
+    return job->check || job->recomputes || job->desc->fail_on & NEED_FACES;
 }
 
 bool ffd_figures_count_flipped(const deform_job *job)
@@ -63,20 +71,32 @@ static ffd_status take_memory(const deform_job *job, const mesh_faces *faces, me
     return FFD_OK;
 }
 
+/* Makes the faces, within the small budget if only an unasked count needs them. */
+static ffd_status make_faces(const deform_job *job, mesh_state state, mesh_faces *faces, ffd_error *error)
+{
+    mesh_document *const document = job->document;
+    const memory_budget budget = document->budget;
+    if (!ffd_figures_wanted(job) && !needs_faces(job))
+        ffd_budget_keep(&document->budget, UNASKED_FACE_BYTES);
+    const ffd_status status = document->format->faces(document, state, faces, error);
+    document->budget = budget;
+    return status;
+}
+
 static ffd_status read_faces(const deform_job *job, mesh_state state, figure_arrays *arrays, ffd_error *error)
 {
     ffd_error own;
     char line[1024];
     memory_budget budget = arrays->budget;
     ffd_status status;
-    TRY_END(job->document->format->faces(job->document, state, &arrays->faces, &own));
+    TRY_END(make_faces(job, state, &arrays->faces, &own));
     TRY_END(take_memory(job, &arrays->faces, &budget, &own));
     arrays->has_faces = true;
     arrays->budget = budget;
     return FFD_OK;
 end:
     ffd_mesh_faces_free(&arrays->faces);
-    if (job->check || job->recomputes || status == FFD_E_MEMORY || job->desc->fail_on & NEED_FACES) {
+    if (needs_faces(job) || status == FFD_E_MEMORY) {
         if (error)
             *error = own;
         return status;
