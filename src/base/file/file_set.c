@@ -6,11 +6,10 @@
 #include "base/file/path.h"
 #include "base/file/temporary.h"
 #include "base/memory/memory.h"
+#include "base/posix.h"
 #include <errno.h>
 #include <ffd/job.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 static bool exists(const char *path)
 {
