@@ -5,7 +5,7 @@
 # whatever folder. In OUT each artefact has its SBOM beside it (FILE.spdx.json), and SHA256SUMS lists them.
 set -eu
 
-names='wheel wheel-musl static npm source deb'
+names='wheel wheel-musl static windows npm source deb'
 
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -29,6 +29,7 @@ tools_of() {
     case $1 in
     wheel | wheel-musl) echo 'ninja @mesonpy @pycparser @ziglang' ;;
     static) echo 'meson ninja pkg-config gcc g++ strip' ;;
+    windows) echo 'meson ninja x86_64-w64-mingw32-gcc-posix x86_64-w64-mingw32-g++-posix x86_64-w64-mingw32-strip' ;;
     npm) echo 'meson ninja emcc node' ;;
     source) ;;
     deb) echo 'dpkg-buildpackage dh meson ninja' ;;

@@ -1,5 +1,5 @@
-/* cleanup_list.h - what cleanup.h notes, for the part of it that each system has: its lock and its handlers
-   of signals (cleanup_signals.c). */
+/* cleanup_list.h - what cleanup.h notes (cleanup.c), for the part of it that each system has: its lock and
+   its handlers of signals (cleanup_signals.c). */
 #ifndef FFD_BASE_FILE_CLEANUP_LIST_H
 #define FFD_BASE_FILE_CLEANUP_LIST_H
 

@@ -1,5 +1,5 @@
-/* main.c - where the program begins on Windows: its arguments in UTF-8, and file names in place of patterns,
-   which the command line of Windows leaves to programs. */
+/* main_windows.c - where the program begins on Windows: its arguments in UTF-8, and file names in place of
+   patterns, which the command line of Windows leaves to programs. */
 #include "base/file/glob.h"
 #include "base/memory/memory.h"
 #include "base/windows/names.h"
@@ -83,13 +83,13 @@ static const wchar_t *take_word(const wchar_t *at, bool is_program, wchar_t *wor
 int wmain(void)
 {
     const wchar_t *at = GetCommandLineW();
-    wchar_t *const word = malloc((wcslen(at) + 1) * sizeof *word);
+    wchar_t *const word = ffd_alloc(wcslen(at) + 1, sizeof *word);
     arguments given = {0};
     for (bool is_pattern, is_first = true; word && (*at || is_first); is_first = false) {
         at = take_word(at, is_first, word, &is_pattern);
         add_word(&given, word, is_pattern && !is_first);
     }
-    free(word);
+    ffd_free(word);
     given.failed = given.failed || !word || ffd_paths_add(&given.words, "", NULL);
     if (given.failed) {
         fputs("ffd: out of memory\n", stderr);

@@ -69,7 +69,7 @@ struct ffd_stat {
 #define ftruncate(fd, size) ffd_ftruncate(fd, size)
 #define posix_fallocate(fd, at, size) ffd_posix_fallocate(fd, at, size)
 #define dup(fd) ffd_dup(fd)
-#define fcntl(...) 0
+#define fcntl(fd, ...) ((void)(fd), 0)
 #define access(path, mode) ffd_access(path, mode)
 
 int ffd_stat(const char *path, struct ffd_stat *info);
