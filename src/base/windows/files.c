@@ -186,13 +186,19 @@ static struct timespec time_of(int64_t ticks)
     return (struct timespec){.tv_sec = ticks / 10000000 - EPOCH, .tv_nsec = (long)(ticks % 10000000) * 100};
 }
 
+static int64_t ticks_of(FILETIME time)
+{
+    return (int64_t)((uint64_t)time.dwHighDateTime << 32 | time.dwLowDateTime);
+}
+
 static int describe(HANDLE file, struct ffd_stat *info)
 {
     BY_HANDLE_FILE_INFORMATION by_handle;
     FILE_BASIC_INFO basic;
-    if (!GetFileInformationByHandle(file, &by_handle) ||
-        !GetFileInformationByHandleEx(file, FileBasicInfo, &basic, sizeof basic))
+    if (!GetFileInformationByHandle(file, &by_handle))
         return ffd_set_errno();
+    const int64_t written = ticks_of(by_handle.ftLastWriteTime);
+    const bool has_change = GetFileInformationByHandleEx(file, FileBasicInfo, &basic, sizeof basic);
     const bool is_folder = by_handle.dwFileAttributes & FILE_ATTRIBUTE_DIRECTORY;
     *info = (struct ffd_stat){
         .st_dev = by_handle.dwVolumeSerialNumber,
@@ -202,8 +208,8 @@ static int describe(HANDLE file, struct ffd_stat *info)
                                  : S_IFREG | 0644u,
         .st_nlink = by_handle.nNumberOfLinks,
         .st_size = (int64_t)((uint64_t)by_handle.nFileSizeHigh << 32 | by_handle.nFileSizeLow),
-        .st_mtim = time_of(basic.LastWriteTime.QuadPart),
-        .st_ctim = time_of(basic.ChangeTime.QuadPart),
+        .st_mtim = time_of(written),
+        .st_ctim = time_of(has_change ? basic.ChangeTime.QuadPart : written),
     };
     return 0;
 }
@@ -242,7 +248,10 @@ int ffd_fstat(int fd, struct ffd_stat *info)
     const HANDLE file = handle_of(fd);
     switch (file == INVALID_HANDLE_VALUE ? FILE_TYPE_UNKNOWN : GetFileType(file)) {
     case FILE_TYPE_DISK:
-        return describe(file, info);
+        if (describe(file, info) == 0)
+            return 0;
+        /* Of a standard stream that is a file wine tells nothing: it is read as a pipe. */
+        __attribute__((fallthrough));
     case FILE_TYPE_PIPE:
         *info = (struct ffd_stat){.st_mode = S_IFIFO | 0600};
         return 0;

@@ -31,6 +31,35 @@ static int fail_held(const wchar_t *path, DWORD error)
     return ffd_set_errno_by(is_open ? ERROR_SHARING_VIOLATION : error);
 }
 
+/* As FILE_RENAME_INFO with the members of Windows 10. */
+typedef struct rename_info {
+    DWORD flags;
+    HANDLE root;
+    DWORD size;
+    wchar_t name[WIDE_ROOM];
+} rename_info;
+
+/* Replaces the target at once, also where others have it open and let it be deleted. Windows before 10, wine
+   8 and some file systems cannot: returns false. */
+static bool replace_open(const wchar_t *source, const wchar_t *target)
+{
+    enum { RENAME_INFO_EX = 22, REPLACE = 1, AS_POSIX = 2 };
+    rename_info info = {.flags = REPLACE | AS_POSIX};
+    const DWORD length = GetFullPathNameW(target, WIDE_ROOM, info.name, NULL);
+    if (length == 0 || length >= WIDE_ROOM)
+        return false;
+    const HANDLE file =
+        CreateFileW(source, DELETE | SYNCHRONIZE, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE,
+                    NULL, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS | FILE_FLAG_OPEN_REPARSE_POINT, NULL);
+    if (file == INVALID_HANDLE_VALUE)
+        return false;
+    info.size = length * (DWORD)sizeof *info.name;
+    const bool done =
+        SetFileInformationByHandle(file, (FILE_INFO_BY_HANDLE_CLASS)RENAME_INFO_EX, &info, sizeof info);
+    CloseHandle(file);
+    return done;
+}
+
 static int move(const char *from, const char *to, DWORD flags)
 {
     wchar_t source[WIDE_ROOM], target[WIDE_ROOM];
@@ -44,6 +73,8 @@ static int move(const char *from, const char *to, DWORD flags)
         const DWORD reason = GetLastError();
         if (!is_held(reason))
             return ffd_set_errno_by(reason);
+        if (flags & MOVEFILE_REPLACE_EXISTING && replace_open(source, target))
+            return 0;
         if (tries == TRIES)
             return fail_held(flags & MOVEFILE_REPLACE_EXISTING ? target : source, reason);
         Sleep(PAUSE);
