@@ -1,8 +1,8 @@
 #!/bin/sh
 # Builds ffd and runs its tests, in build folders of its own under .build-test/.
-#     sh tests/run.sh                 the gcc build, every quick suite (all but slow, soak, npm, python and packages)
+#     sh tests/run.sh                 the gcc build, every quick suite (all but slow, soak, npm, windows, python and packages)
 #     sh tests/run.sh --suite NAME    the gcc build, one suite (unit property oracle fuzz golden cli rules python packages bench
-#                                     slow npm)
+#                                     slow npm windows)
 #                                     or one tag (threads compilers text), or peers (other packages; fetches 280 MB)
 #     sh tests/run.sh --all           in a bare root of Debian 12: data/demo.sh, then this script, then its other stages (tests/install/all.sh)
 #     sh tests/run.sh --stages        the stages that only --all has: slow suites, release, clang with sanitizers, valgrind, fuzzing, npm, the wraps
@@ -64,7 +64,7 @@ logs=$work/logs
 mkdir -p "$logs" || exit 1
 case "$mode$suite" in
 --suitepeers | --soak) needs=peers ;;
---suiteslow | --suitepython | --suitepackages | --suitenpm | --stages | --release) needs=stages ;;
+--suiteslow | --suitepython | --suitepackages | --suitenpm | --suitewindows | --stages | --release) needs=stages ;;
 *) needs=test ;;
 esac
 sh "$root/.ci/setup" $needs || exit 1
@@ -272,6 +272,36 @@ test_npm() {
     fi
 }
 
+# The program for Windows, made by mingw-w64 from the sources that .ci/wraps gets, under wine, beside the program of the gcc build.
+test_windows() {
+    clock=$(date +%s)
+    if ! command -v x86_64-w64-mingw32-gcc-posix >/dev/null 2>&1; then
+        skipped=$((skipped + 1))
+        say windows 'skipped: mingw-w64 is not installed'
+        return
+    fi
+    if ! sh "$root/.ci/wraps" >"$logs/windows-sources.log" 2>&1 </dev/null; then
+        skipped=$((skipped + 1))
+        say windows "skipped: $(tail -n 1 "$logs/windows-sources.log")"
+        return
+    fi
+    if [ ! -f "$work/windows/build.ninja" ]; then
+        rm -rf "$work/windows"
+        : >"$work/windows.ini"
+        [ -z "$ccache" ] || printf "[binaries]\nc = ['ccache', '%s']\ncpp = ['ccache', '%s']\n" x86_64-w64-mingw32-gcc-posix \
+            x86_64-w64-mingw32-g++-posix >"$work/windows.ini"
+        step windows setup meson setup "$work/windows" "$root" --cross-file "$root/data/packaging/release/windows.ini" \
+            --cross-file "$work/windows.ini" --wrap-mode=forcefallback -Dbuildtype=release -Dstatic=true -Ddefault_library=static \
+            -Dtests=disabled || return
+    fi
+    if step windows build ninja -C "$work/windows" src/cli/ffd.exe tests/windows/ffd_fault.exe tests/windows/hold.exe; then
+        say windows built
+        FFD_WINDOWS=$work/windows
+        export FFD_WINDOWS
+        suites windows gcc --suite windows
+    fi
+}
+
 # The libraries that a system may lack, each compiled by its wrap, from sources that .ci/wraps gets: every module links, and the
 # program, with modules and as one static file, gives the bytes that the golden suite remembers. A machine may not reach the sources.
 wraps='--wrap-mode=nodownload --force-fallback-for=draco,meshoptimizer,openmesh,tinygltf'
@@ -306,7 +336,7 @@ test_release() {
     rm -rf "$work/artefacts" "$work/artefacts-again"
     step release setup sh "$root/.ci/setup" release || return
     case_of release twice release_twice || return
-    for name in sums sbom wheel wheel-musl static npm source deb; do
+    for name in sums sbom wheel wheel-musl static windows npm source deb; do
         case_of release "$name" python3 "$root/tests/release/test_artefacts.py" "$work/artefacts" "$name"
     done
     sed 's/^/    /' "$work/artefacts/SHA256SUMS"
@@ -322,6 +352,8 @@ if [ "$mode" != --release ] && build gcc '' gcc g++ -Dbuildtype=debugoptimized -
         suites gcc gcc --suite peers
     elif [ "$suite" = npm ]; then
         test_npm
+    elif [ "$suite" = windows ]; then
+        test_windows
     elif [ -n "$suite" ]; then
         suites gcc gcc --suite "$suite" --no-suite soak
     elif [ -n "$all" ]; then
@@ -329,6 +361,8 @@ if [ "$mode" != --release ] && build gcc '' gcc g++ -Dbuildtype=debugoptimized -
         suites slow gcc --suite slow --no-suite python --no-suite packages --no-suite soak
         test_npm
         drop npm
+        test_windows
+        drop windows
     elif [ -n "$soak" ]; then
         FFD_SEED=${FFD_SEED-$started}
         export FFD_SEED
@@ -341,7 +375,7 @@ if [ "$mode" != --release ] && build gcc '' gcc g++ -Dbuildtype=debugoptimized -
             drop asan
         fi
     else
-        suites gcc gcc --no-suite python --no-suite packages --no-suite npm --no-suite slow --no-suite soak
+        suites gcc gcc --no-suite python --no-suite packages --no-suite npm --no-suite windows --no-suite slow --no-suite soak
     fi
 fi
 
@@ -366,7 +400,7 @@ if [ -n "$all" ]; then
     if build_stage asan; then
         ahead clang
         suites asan asan --no-suite oracle --no-suite rules --no-suite bench --no-suite node --no-suite slow \
-            --no-suite packages --no-suite npm --no-suite soak --timeout-multiplier 6
+            --no-suite packages --no-suite npm --no-suite windows --no-suite soak --timeout-multiplier 6
 
         # The fuzz targets themselves, for a moment and always the same one: a search for what is new takes hours, and
         # is not what a change is judged by. Their corpus was replayed by every suite `fuzz` above.

@@ -2,7 +2,7 @@
 """What data/packaging/release.sh has made is what its page says: names, sums, SBOMs, sizes, what it needs of a system and shows to it;
 and does the jobs of the list.
 
-    test_artefacts.py OUT [wheel|wheel-musl|static|npm|source|deb|sums|sbom]...     default: all that OUT holds
+    test_artefacts.py OUT [wheel|wheel-musl|static|windows|npm|source|deb|sums|sbom]...     default: all that OUT holds
 
 The tools are those of `sh .ci/setup release`; numpy comes from the wheels of the suite python.
 """
@@ -29,6 +29,7 @@ NAMES = {
     "wheel": f"ffd_mesh-{VERSION}-cp311-abi3-manylinux_2_28_x86_64.whl",
     "wheel-musl": f"ffd_mesh-{VERSION}-cp311-abi3-musllinux_1_2_x86_64.whl",
     "static": f"ffd-{VERSION}-linux-x86_64.tar.xz",
+    "windows": f"ffd-{VERSION}-windows-x86_64.zip",
     "source": f"ffd-{VERSION}.tar.xz",
     "npm": f"ffd-mesh-{VERSION}.tgz",
     "deb": f"ffd_{VERSION}-1_amd64.deb",
@@ -103,6 +104,22 @@ def test_static(out):
         check(not needed(program) and "INTERP" not in run("readelf", "-lW", program), "static: needs a loader or a library")
         in_empty_root(program, folder)
         do_jobs("static", program)
+
+
+def test_windows(out):
+    path = os.path.join(out, NAMES["windows"])
+    check(os.path.getsize(path) <= 8 * MEGABYTE, f"windows: {os.path.getsize(path)} bytes")
+    with tempfile.TemporaryDirectory() as folder:
+        with zipfile.ZipFile(path) as archive:
+            archive.extractall(folder)
+        tree = os.path.join(folder, f"ffd-{VERSION}")
+        check(sorted(os.listdir(tree)) == ["LICENSE", "THIRD-PARTY.md", "ffd.exe", "licenses"], f"windows: holds {os.listdir(tree)}")
+        program = os.path.join(tree, "ffd.exe")
+        check(os.path.getsize(program) <= 8 * MEGABYTE, f"windows: ffd.exe has {os.path.getsize(program)} bytes")
+        libraries = set(re.findall(r"DLL Name: (\S+)", run("x86_64-w64-mingw32-objdump", "-p", program)))
+        check(libraries <= {"ADVAPI32.dll", "KERNEL32.dll", "msvcrt.dll"}, f"windows: needs {sorted(libraries)}")
+        os.environ |= {"WINEPREFIX": os.path.join(folder, "wine"), "WINEDEBUG": "-all"}
+        do_jobs("windows", shutil.which("wine64") or "/usr/lib/wine/wine64", program)
 
 
 def in_empty_root(program, folder):

@@ -11,6 +11,7 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -193,13 +194,31 @@ def test_batch(folder):
     check_killed_worker(folder)
 
 
+def workers():
+    """Process ids of workers as Linux has them; their command line begins with a name of its own."""
+    return [int(name) for name in filter(str.isdigit, os.listdir("/proc")) if command_of(name).startswith(b"ffd batch worker")]
+
+
+def command_of(name):
+    try:
+        return content("/proc", name, "cmdline")
+    except OSError:  # it has ended
+        return b""
+
+
 def check_killed_worker(folder):
+    """Its job fails, what it had begun is removed, and another worker does the rest."""
     process = start("batch", "slow.jsonl", "-j", "1", "-q", folder=folder)
     end = time.monotonic() + SECONDS
-    while not [name for name in os.listdir(folder) if name.startswith(".slow")] and process.poll() is None:
-        assert time.monotonic() < end
-        time.sleep(0.005)
-    process.communicate(timeout=SECONDS)
+    while not os.path.exists(os.path.join(folder, ".slow0.obj.ffd-tmp")):
+        assert time.monotonic() < end and process.poll() is None, process.communicate()
+        time.sleep(0.001)
+    for worker in workers():
+        os.kill(worker, signal.SIGKILL)
+    errors = process.communicate(timeout=SECONDS)[1]
+    made = sorted(name for name in os.listdir(folder) if "slow" in name)
+    assert process.returncode and "large.obj" in errors, f"exit {process.returncode}: {errors}"
+    assert made == ["slow.jsonl", "slow1.obj", "slow2.obj"], f"{made}: {errors}"
 
 
 def test_faults(folder):
@@ -211,43 +230,40 @@ def test_faults(folder):
 
 def check_faults(folder, kind, what):
     os.mkdir(folder)
-    copy_of_spot(folder)
-    shutil.copyfile(os.path.join(ROOT, "data/models/vase.obj"), os.path.join(folder, "vase.obj"))
+    shutil.copyfile(LATTICE, os.path.join(folder, "twist.json"))
     target = "out.obj" if what == "file" else "out.gltf"
-    native("deform", "spot.obj", "new/" + target, "-l", "twist.json", folder=make(folder, "new"))
-    native("deform", "vase.obj", "old/" + target, "-l", "twist.json", folder=make(folder, "old"))
+    for state, height in (("old", 1), ("new", 2)):
+        write(os.path.join(folder, state + ".obj"), f"v 0 0 0\nv 1 0 0\nv 0 {height} 0\nf 1 2 3\n")
+        os.mkdir(os.path.join(folder, state))
+        native("deform", state + ".obj", f"{state}/{target}", "-l", "twist.json", folder=folder)
     files = sorted(os.listdir(os.path.join(folder, "new")))
     states = {state: {name: content(folder, state, name) for name in files} for state in ("old", "new")}
     for number in range(1, 60):
         work, marked = os.path.join(folder, str(number)), os.path.join(folder, f"fault{number}")
         shutil.copytree(os.path.join(folder, "old"), work)
-        run("deform", "spot.obj", f"{number}/{target}", "-l", "twist.json", "--force", exe=FAULT, folder=folder, code=None,
+        run("deform", "new.obj", f"{number}/{target}", "-l", "twist.json", "--force", exe=FAULT, folder=folder, code=None,
             FFD_FAULT_AT=str(number), FFD_FAULT_KIND=kind, FFD_FAULT_MARK=f"fault{number}")
         fired = os.path.exists(marked)
         found = {name: content(work, name) if os.path.exists(os.path.join(work, name)) else None for name in files}
+        where = f"{kind} at call {number} of a {what}"
         if kind == "error" or not fired:
-            assert found in states.values(), f"{kind} at call {number} of a {what}: {[n for n in files if found[n] is None]} missing or mixed"
-        # The next run makes it whole, whatever there was.
-        run("deform", "spot.obj", f"{number}/{target}", "-l", "twist.json", "--force", folder=folder)
-        assert {name: content(work, name) for name in files} == states["new"], f"{kind} at call {number}: the next run"
-        left = sorted(set(os.listdir(work)) - set(files))
-        assert not left, f"{kind} at call {number} of a {what}: {left} is left"
-        if kind == "kill" and fired:
+            assert found in states.values(), f"{where}: mixed, or missing: {[name for name in files if found[name] is None]}"
+        else:
             heads = [name for name in (target, f".{target}.ffd-old") if os.path.exists(os.path.join(work, name))]
-            assert heads, f"kill at call {number} of a {what}: neither"
+            assert heads, f"{where}: neither"
+        # The next run makes it whole, whatever there was.
+        run("deform", "new.obj", f"{number}/{target}", "-l", "twist.json", "--force", folder=folder)
+        assert {name: content(work, name) for name in files} == states["new"], f"{where}: the next run"
+        left = sorted(set(os.listdir(work)) - set(files))
+        assert not left, f"{where}: {left} is left"
         if not fired:
             assert number > 3
             return
     raise AssertionError("more calls than expected")
 
 
-def make(folder, name):
-    os.makedirs(os.path.join(folder, name), exist_ok=True)
-    return folder
-
-
 def test_jobs(_):
-    done = subprocess.run([sys.executable, os.path.join(ROOT, "tests/release/run_jobs.py"), "--every", "5", WINE, FFD], check=False)
+    done = subprocess.run([sys.executable, os.path.join(ROOT, "tests/release/run_jobs.py"), "--every", "4", WINE, FFD], check=False)
     assert done.returncode == 0
 
 
