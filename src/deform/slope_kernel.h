@@ -19,8 +19,8 @@ typedef void slope_kernel(const size_t order[3], const double *points, const dou
 
 /* One function for each instruction set, from the same source. */
 slope_kernel ffd_slope_kernel_scalar;
-#ifdef FFD_X86
-slope_kernel ffd_slope_kernel_sse2, ffd_slope_kernel_avx2, ffd_slope_kernel_avx512;
-#endif
+#define DECLARE(ISA, set, lanes) slope_kernel ffd_slope_kernel_##set;
+FOR_EACH_SIMD(DECLARE)
+#undef DECLARE
 
 #endif
