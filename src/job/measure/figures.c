@@ -170,9 +170,9 @@ ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_j
     if (!arrays->has_faces)
         return FFD_OK;
     measure_extent(job, arrays, result);
-    TRY(ffd_deadline_check(error));
     if (!ffd_selection_is_all(job->document))
         TRY(ffd_selection_reduce(job->document, &arrays->faces, error));
+    TRY(ffd_deadline_check(error));
     result->has_flipped = true;
     result->faces = arrays->faces.face_count;
     result->flipped_faces = ffd_quality_flipped(&arrays->faces, arrays->deformed, arrays->gradients);
