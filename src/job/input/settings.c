@@ -53,6 +53,7 @@ static const ffd_member members[] = {
     {"make_folders", NULL, FFD_MEMBER_FLAG, AT(make_folders), 0, NULL, FFD_MEMBER_IS_IDLE},
     {"output_list", NULL, FFD_MEMBER_OBJECT, AT(output_list), 0, NULL, FFD_MEMBER_IS_IDLE},
     {"progress", NULL, FFD_MEMBER_OBJECT, AT(progress), 0, NULL, FFD_MEMBER_IS_IDLE},
+    {"cancel", NULL, FFD_MEMBER_OBJECT, AT(cancel), 0, NULL, FFD_MEMBER_IS_IDLE},
     {"depfile", NULL, FFD_MEMBER_OBJECT, AT(depfile), 0, NULL, FFD_MEMBER_IS_IDLE},
     {"positions", NULL, FFD_MEMBER_OBJECT, AT(positions), 0, NULL, 0},
     {"timeout", "timeout", FFD_MEMBER_TIME, AT(timeout), 0, NULL, FFD_MEMBER_IS_IDLE},
