@@ -4,14 +4,11 @@
 
 #define NO_CELL UINT16_MAX
 
+#define ROW(ISA, set, lanes)                                                                                 \
+    [FFD_ISA_##ISA] = {ffd_extraction_kernel_##set, ffd_kernel_##set, ffd_slope_kernel_##set},
 static const cell_kernels kernels[] = {
     [FFD_ISA_SCALAR] = {ffd_extraction_kernel_scalar, ffd_kernel_scalar, ffd_slope_kernel_scalar},
-#ifdef FFD_X86
-    [FFD_ISA_SSE2] = {ffd_extraction_kernel_sse2, ffd_kernel_sse2, ffd_slope_kernel_sse2},
-    [FFD_ISA_AVX2] = {ffd_extraction_kernel_avx2, ffd_kernel_avx2, ffd_slope_kernel_avx2},
-    [FFD_ISA_AVX512] = {ffd_extraction_kernel_avx512, ffd_kernel_avx512, ffd_slope_kernel_avx512},
-#endif
-};
+    FOR_EACH_SIMD(ROW)};
 
 /* Returns the cell of the batch with these spans, and adds it if it is new. */
 static size_t take_cell(const size_t span[3], size_t key, displacement_scratch *scratch)

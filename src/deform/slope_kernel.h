@@ -25,8 +25,8 @@ typedef void slope_kernel(const control_net *net, int from, const int *axes, slo
 
 /* One function for each instruction set, from the same source. */
 slope_kernel ffd_slope_kernel_scalar;
-#ifdef FFD_X86
-slope_kernel ffd_slope_kernel_sse2, ffd_slope_kernel_avx2, ffd_slope_kernel_avx512;
-#endif
+#define DECLARE(ISA, set, lanes) slope_kernel ffd_slope_kernel_##set;
+FOR_EACH_SIMD(DECLARE)
+#undef DECLARE
 
 #endif
