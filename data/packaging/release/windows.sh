@@ -1,13 +1,9 @@
 # The program for Windows as one file, with the notices. Read by release.sh.
 set -eu
 build=$work/windows
-if [ -n "$ccache" ]; then
-    printf "[binaries]\nc = ['ccache', 'x86_64-w64-mingw32-gcc-posix']\ncpp = ['ccache', 'x86_64-w64-mingw32-g++-posix']\n" >"$work/windows.ini"
-else
-    : >"$work/windows.ini"
-fi
-meson setup "$build" "$source" --cross-file "$parts/windows.ini" --cross-file "$work/windows.ini" --buildtype=release -Dstatic=true \
-    -Ddefault_library=static -Dtests=disabled -Dpython=false --wrap-mode=forcefallback
+printf '[constants]\ncache = [%s]\n' "${ccache:+'ccache'}" >"$work/cache.ini"
+meson setup "$build" "$source" --cross-file "$source/data/packaging/windows.ini" --cross-file "$work/cache.ini" --buildtype=release \
+    -Dstatic=true -Ddefault_library=static -Dtests=disabled -Dpython=false --wrap-mode=forcefallback
 ninja -C "$build" src/cli/ffd.exe
 folder=$work/zip/ffd-$version
 mkdir -p "$folder"
