@@ -168,7 +168,17 @@ def test_wheel(out):
 
 
 def test_wheel_musl(out):
-    check_wheel(os.path.join(out, NAMES["wheel-musl"]), "wheel-musl")
+    """Its libraries can be loaded while a program runs: musl refuses those whose variables of threads have the static model."""
+    path = os.path.join(out, NAMES["wheel-musl"])
+    check_wheel(path, "wheel-musl")
+    with tempfile.TemporaryDirectory() as folder:
+        with zipfile.ZipFile(path) as archive:
+            archive.extractall(folder)
+        for library in glob.glob(os.path.join(folder, "**/*.so"), recursive=True):
+            check("STATIC_TLS" not in run("readelf", "-d", library), f"wheel-musl: {os.path.basename(library)} has the static model")
+        program = os.path.join(folder, "ffd_mesh/ffd")
+        os.chmod(program, 0o755)
+        do_jobs("wheel-musl", program)
 
 
 def test_source(out):

@@ -1,5 +1,6 @@
 #include "base/system/deadline.h"
 #include "base/system/clock.h"
+#include "base/system/thread_local.h"
 #include <limits.h>
 #include <math.h>
 #include <stddef.h>
@@ -7,8 +8,8 @@
 /* Seconds between two calls of a watch. */
 #define PAUSE 0.1
 
-static _Thread_local const deadline *current = NULL;
-static _Thread_local const char this_thread = 0; /* its address names the thread */
+static _Thread_local const deadline *current FFD_ALLOCATED_WITH_THREAD = NULL;
+static _Thread_local const char this_thread FFD_ALLOCATED_WITH_THREAD = 0; /* its address names the thread */
 
 const deadline *ffd_deadline_begin(deadline *own, double seconds, work_watch *watch)
 {
