@@ -2,10 +2,10 @@
 # Builds ffd and runs its tests, in build folders of its own under .build-test/.
 #     sh tests/run.sh                 the gcc build, every quick suite (all but slow, soak, npm, python and packages)
 #     sh tests/run.sh --suite NAME    the gcc build, one suite (unit property oracle fuzz golden cli rules python packages bench
-#                                     slow npm)
+#                                     slow npm arm64)
 #                                     or one tag (threads compilers text), or peers (other packages; fetches 280 MB)
 #     sh tests/run.sh --all           in a bare root of Debian 12: data/demo.sh, then this script, then its other stages (tests/install/all.sh)
-#     sh tests/run.sh --stages        the stages that only --all has: slow suites, release, clang with sanitizers, valgrind, fuzzing, npm, the wraps
+#     sh tests/run.sh --stages        the stages that only --all has: slow suites, release, clang with sanitizers, valgrind, fuzzing, npm, arm64, the wraps
 #     sh tests/run.sh --release       every artefact of data/packaging/release.sh, made twice: the same bytes, and the whole job list
 #     sh tests/run.sh --soak          the gcc build, what takes hours, with other random numbers every time
 #     --keep                          keeps the build folders of the stages that only --all has, and its root
@@ -64,7 +64,7 @@ logs=$work/logs
 mkdir -p "$logs" || exit 1
 case "$mode$suite" in
 --suitepeers | --soak) needs=peers ;;
---suiteslow | --suitepython | --suitepackages | --suitenpm | --stages | --release) needs=stages ;;
+--suiteslow | --suitepython | --suitepackages | --suitenpm | --suitearm64 | --stages | --release) needs=stages ;;
 *) needs=test ;;
 esac
 sh "$root/.ci/setup" $needs || exit 1
@@ -250,19 +250,26 @@ compare_pages() {
     done
 }
 
+# can_cross STAGE TOOL...: whether this machine has these tools and the sources of the wraps. A machine may not reach the sources.
+can_cross() {
+    stage=$1
+    shift
+    clock=$(date +%s)
+    for tool; do
+        command -v "$tool" >/dev/null 2>&1 && continue
+        skipped=$((skipped + 1))
+        say "$stage" "skipped: no $tool (.ci/setup stages)"
+        return 1
+    done
+    sh "$root/.ci/wraps" >"$logs/$stage-sources.log" 2>&1 </dev/null && return 0
+    skipped=$((skipped + 1))
+    say "$stage" "skipped: $(tail -n 1 "$logs/$stage-sources.log")"
+    return 1
+}
+
 # The package for npm, made by emscripten from the sources that .ci/wraps gets, beside the program of the gcc build.
 test_npm() {
-    clock=$(date +%s)
-    if ! command -v emcc >/dev/null 2>&1; then
-        skipped=$((skipped + 1))
-        say npm 'skipped: emscripten is not installed'
-        return
-    fi
-    if ! sh "$root/.ci/wraps" >"$logs/npm-sources.log" 2>&1 </dev/null; then
-        skipped=$((skipped + 1))
-        say npm "skipped: $(tail -n 1 "$logs/npm-sources.log")"
-        return
-    fi
+    can_cross npm emcc || return
     rm -rf "$work/npm-out"
     if step npm build sh "$root/data/packaging/npm.sh" "$work/npm-out" "$work/npm"; then
         say npm built
@@ -272,16 +279,25 @@ test_npm() {
     fi
 }
 
+# The program for arm64, one static file, does the job list in qemu: its own kernels give the bytes of x86-64. The processes of a
+# batch would begin without qemu.
+test_arm64() {
+    can_cross arm64 aarch64-linux-gnu-g++ qemu-aarch64 || return
+    printf '[constants]\ncache = [%s]\n' "${ccache:+'ccache'}" >"$work/cache.ini"
+    # Meson reads its cross files again where a build file has changed.
+    [ -f "$work/arm64/build.ninja" ] || step arm64 setup meson setup "$work/arm64" "$root" --cross-file "$root/data/packaging/arm64.ini" \
+        --cross-file "$work/cache.ini" --wrap-mode=forcefallback -Dwerror=true -Dbuildtype=release -Dstatic=true -Dtests=disabled || return
+    if step arm64 build ninja -C "$work/arm64" src/cli/ffd; then
+        say arm64 built
+        case_of arm64 jobs python3 "$root/tests/release/run_jobs.py" --every 4 --without batch qemu-aarch64 "$work/arm64/src/cli/ffd"
+    fi
+}
+
 # The libraries that a system may lack, each compiled by its wrap, from sources that .ci/wraps gets: every module links, and the
-# program, with modules and as one static file, gives the bytes that the golden suite remembers. A machine may not reach the sources.
+# program, with modules and as one static file, gives the bytes that the golden suite remembers.
 wraps='--wrap-mode=nodownload --force-fallback-for=draco,meshoptimizer,openmesh,tinygltf'
 test_wraps() {
-    clock=$(date +%s)
-    if ! sh "$root/.ci/wraps" >"$logs/wraps-sources.log" 2>&1 </dev/null; then
-        skipped=$((skipped + 1))
-        say wraps "skipped: $(tail -n 1 "$logs/wraps-sources.log")"
-        return
-    fi
+    can_cross wraps || return
     for kind in both static; do
         options=-Ddefault_library=both
         [ "$kind" = both ] || options=-Dstatic=true
@@ -320,8 +336,8 @@ step node npm install_node_packages
 if [ "$mode" != --release ] && build gcc '' gcc g++ -Dbuildtype=debugoptimized -Dc_args=-g1 -Dcpp_args=-g1; then
     if [ "$suite" = peers ]; then
         suites gcc gcc --suite peers
-    elif [ "$suite" = npm ]; then
-        test_npm
+    elif [ "$suite" = npm ] || [ "$suite" = arm64 ]; then
+        "test_$suite"
     elif [ -n "$suite" ]; then
         suites gcc gcc --suite "$suite" --no-suite soak
     elif [ -n "$all" ]; then
@@ -329,6 +345,8 @@ if [ "$mode" != --release ] && build gcc '' gcc g++ -Dbuildtype=debugoptimized -
         suites slow gcc --suite slow --no-suite python --no-suite packages --no-suite soak
         test_npm
         drop npm
+        test_arm64
+        drop arm64
     elif [ -n "$soak" ]; then
         FFD_SEED=${FFD_SEED-$started}
         export FFD_SEED

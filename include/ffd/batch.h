@@ -95,6 +95,9 @@ typedef struct ffd_batch_desc {
        plan of a dry run to standard output, signals that ask to end the process end the batch, and the
        processes are its own. */
     bool is_program;
+    /* When *cancel is not 0 the batch ends as by progress. Another thread or the handler of a signal may set
+       it, by an atomic store; NULL: nobody does. */
+    const int *cancel;
 } ffd_batch_desc;
 
 /* Sets desc to defaults: all members 0, NULL or false. size: sizeof(ffd_batch_desc) in the caller's header.

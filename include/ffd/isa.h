@@ -15,7 +15,8 @@ typedef enum ffd_isa {
     FFD_ISA_SCALAR, /* portable C without SIMD; always available */
     FFD_ISA_SSE2,
     FFD_ISA_AVX2,
-    FFD_ISA_AVX512 /* needs AVX-512 F, DQ and VL */
+    FFD_ISA_AVX512, /* needs AVX-512 F, DQ and VL */
+    FFD_ISA_NEON    /* of arm64: every such processor has it */
 } ffd_isa;
 
 /* Returns whether this build has kernels for an instruction set and this processor supports it; false for an

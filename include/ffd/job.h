@@ -325,11 +325,14 @@ typedef struct ffd_deform_desc {
     ffd_output_list *output_list;
     /* Called in the thread that called the library, several times a second while the job runs and at its end,
        with the finished fraction, 0..1, which never falls. If it returns false, the job fails with
-       FFD_E_CANCELLED and writes nothing: within a second for a mesh of a million vertices; a step of a
-       larger one is ended first. Once the outputs are complete the answer does not matter. Of ffd_deform_run,
-       ffd_check_run and ffd_view_run; NULL: no callback. */
+       FFD_E_CANCELLED and writes nothing, after some tenths of a second; what a library does in one call, as
+       to unpack a primitive, is ended first. Once the outputs are complete the answer does not matter. Of
+       ffd_deform_run, ffd_check_run and ffd_view_run; NULL: no callback. */
     bool (*progress)(void *user, double done);
     void *progress_user;
+    /* Another way to the same end, of the same functions: the job is cancelled when *cancel is not 0. Another
+       thread or the handler of a signal may set it, by an atomic store; NULL: nobody does. */
+    const int *cancel;
 } ffd_deform_desc;
 
 /* Sets desc to defaults: all members 0, NULL or false. size: sizeof(ffd_deform_desc) in the caller's

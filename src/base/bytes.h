@@ -7,8 +7,10 @@
 #include "base/little_endian.h"
 #include <stdint.h>
 
-#ifdef __SSE2__
+#if defined(__SSE2__)
 #include <emmintrin.h>
+#elif defined(__AARCH64EL__)
+#include <arm_neon.h>
 #endif
 
 #define BYTES_ONES UINT64_C(0x0101010101010101)
@@ -93,7 +95,7 @@ static ALWAYS_INLINE uint64_t bytes_digits_around_by_words(const char *text, int
     return number;
 }
 
-#ifdef __SSE2__
+#if defined(__SSE2__)
 /* The same with SSE2, which every x86-64 has. */
 static ALWAYS_INLINE __m128i bytes_sixteen(const char *at)
 {
@@ -159,6 +161,44 @@ static ALWAYS_INLINE uint64_t bytes_digits_around_sse2(const char *text, int bef
 #define bytes_not_digits_of_32 bytes_not_digits_of_32_sse2
 #define bytes_two_numbers bytes_two_numbers_sse2
 #define bytes_digits_around bytes_digits_around_sse2
+#elif defined(__AARCH64EL__)
+/* The same with NEON, which every arm64 has. Pairwise sums take the place of the instruction that collects
+   one bit of each byte: bit i % 8 of byte i, summed over eight bytes, is a byte of the mask. */
+static ALWAYS_INLINE uint8x16_t bytes_own_bits_neon(uint8x16_t chosen)
+{
+    static const uint8_t bits[16] = {1, 2, 4, 8, 16, 32, 64, 128, 1, 2, 4, 8, 16, 32, 64, 128};
+    return vandq_u8(chosen, vld1q_u8(bits));
+}
+
+static ALWAYS_INLINE uint8x16_t bytes_low_neon(const char *at)
+{
+    return bytes_own_bits_neon(vcleq_u8(vld1q_u8((const uint8_t *)at), vdupq_n_u8(' ')));
+}
+
+static ALWAYS_INLINE uint8x16_t bytes_not_digits_neon(const char *at)
+{
+    const uint8x16_t values = vsubq_u8(vld1q_u8((const uint8_t *)at), vdupq_n_u8('0'));
+    return bytes_own_bits_neon(vcgtq_u8(values, vdupq_n_u8(9)));
+}
+
+static ALWAYS_INLINE uint64_t bytes_low_of_64_neon(const char *at)
+{
+    const uint8x16_t fours = vpaddq_u8(vpaddq_u8(bytes_low_neon(at), bytes_low_neon(at + 16)),
+                                       vpaddq_u8(bytes_low_neon(at + 32), bytes_low_neon(at + 48)));
+    return vgetq_lane_u64(vreinterpretq_u64_u8(vpaddq_u8(fours, fours)), 0);
+}
+
+static ALWAYS_INLINE uint32_t bytes_not_digits_of_32_neon(const char *at)
+{
+    const uint8x16_t pairs = vpaddq_u8(bytes_not_digits_neon(at), bytes_not_digits_neon(at + 16)),
+                     fours = vpaddq_u8(pairs, pairs);
+    return vgetq_lane_u32(vreinterpretq_u32_u8(vpaddq_u8(fours, fours)), 0);
+}
+
+#define bytes_low_of_64 bytes_low_of_64_neon
+#define bytes_not_digits_of_32 bytes_not_digits_of_32_neon
+#define bytes_two_numbers bytes_two_numbers_by_words
+#define bytes_digits_around bytes_digits_around_by_words
 #else
 #define bytes_low_of_64 bytes_low_of_64_by_words
 #define bytes_not_digits_of_32 bytes_not_digits_of_32_by_words

@@ -1,5 +1,6 @@
 #include "batch/progress.h"
 #include "base/system/clock.h"
+#include "base/system/deadline.h"
 #include "base/system/terminal.h"
 #include "base/text/words.h"
 #include <inttypes.h>
@@ -79,7 +80,8 @@ bool ffd_progress_show(batch_progress *progress, const ffd_batch_result *counts,
     const double now = ffd_clock_seconds();
     char text[160];
     if (!desc->is_program)
-        return !desc->progress || desc->progress(desc->progress_user, fraction);
+        return !(desc->cancel && ffd_flag_is_set(desc->cancel)) &&
+               (!desc->progress || desc->progress(desc->progress_user, fraction));
     if (desc->quiet || now - progress->last < (progress->bar ? BAR_SECONDS : LINE_SECONDS))
         return true;
     progress->last = now;

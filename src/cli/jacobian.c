@@ -59,7 +59,7 @@ static const cli_option options[] = {
     {"only", 0, "KIND:NAME", "only this, repeatable, as for ffd deform", cli_set_member, AT(job.desc), NULL},
     {"threads", 'j', "N", "number of threads; never changes the output; default all usable processors",
      cli_set_member, AT(job.desc), NULL},
-    {"isa", 0, "auto|scalar|sse2|avx2|avx512", "instruction set; never changes the output; default auto",
+    {"isa", 0, "auto|scalar|sse2|avx2|avx512|neon", "instruction set; never changes the output; default auto",
      cli_set_member, AT(job.desc), NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_member, AT(job.desc), NULL},
     {"timeout", 0, "SECONDS", CLI_TIMEOUT, cli_set_member, AT(job.desc), NULL},

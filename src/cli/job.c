@@ -46,7 +46,7 @@ const cli_option cli_job_options[] = {
     {"report-stable", 0, NULL, "leave the seconds out of the report", cli_set_flag, AT(stable), NULL},
     {"threads", 'j', "N", "number of threads; never changes the output; default all usable processors",
      cli_set_member, AT(desc), NULL},
-    {"isa", 0, "auto|scalar|sse2|avx2|avx512",
+    {"isa", 0, "auto|scalar|sse2|avx2|avx512|neon",
      "instruction set of the kernels; never changes the output; default auto", cli_set_member, AT(desc),
      NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_member, AT(desc), NULL},

@@ -84,14 +84,8 @@ typedef struct attribute_way {
     attribute_kernel *normals, *tangents;
 } attribute_way;
 
-static const attribute_way ways[] = {
-    [FFD_ISA_SCALAR] = {NULL, NULL},
-#ifdef FFD_X86
-    [FFD_ISA_SSE2] = {ffd_normal_kernel_sse2, ffd_tangent_kernel_sse2},
-    [FFD_ISA_AVX2] = {ffd_normal_kernel_avx2, ffd_tangent_kernel_avx2},
-    [FFD_ISA_AVX512] = {ffd_normal_kernel_avx512, ffd_tangent_kernel_avx512},
-#endif
-};
+#define ROW(ISA, set, lanes) [FFD_ISA_##ISA] = {ffd_normal_kernel_##set, ffd_tangent_kernel_##set},
+static const attribute_way ways[] = {[FFD_ISA_SCALAR] = {NULL, NULL}, FOR_EACH_SIMD(ROW)};
 
 static void try_kernel(attribute_kernel *kernel, const attribute_batch *batch)
 {

@@ -2,6 +2,7 @@
 #ifndef FFD_DEFORM_ATTRIBUTE_KERNEL_H
 #define FFD_DEFORM_ATTRIBUTE_KERNEL_H
 
+#include "base/vector/isa.h"
 #include <ffd/deform.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -32,9 +33,8 @@ static inline const double *attribute_gradient(const attribute_batch *batch, siz
    set. */
 typedef void attribute_kernel(const attribute_batch *batch);
 
-#ifdef FFD_X86
-attribute_kernel ffd_normal_kernel_sse2, ffd_normal_kernel_avx2, ffd_normal_kernel_avx512;
-attribute_kernel ffd_tangent_kernel_sse2, ffd_tangent_kernel_avx2, ffd_tangent_kernel_avx512;
-#endif
+#define DECLARE(ISA, set, lanes) attribute_kernel ffd_normal_kernel_##set, ffd_tangent_kernel_##set;
+FOR_EACH_SIMD(DECLARE)
+#undef DECLARE
 
 #endif

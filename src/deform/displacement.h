@@ -57,13 +57,14 @@ typedef struct kept_cells {
     double values[KEPT_NUMBERS];
 } kept_cells;
 
-/* A cache of cell_turns: the answers for many cells take little memory. */
+/* A cache of cell_turns: the answers for many cells, and blocks of cells, take little memory. */
 #define TURN_SLOTS ((size_t)8192)
 
 typedef struct kept_turns {
     const ffd_lattice *lattice;   /* NULL: empty */
+    size_t cells;                 /* of the lattice; the keys of blocks follow those of the cells */
     size_t count;                 /* slots in use */
-    uint64_t answers[TURN_SLOTS]; /* 4 times the key of a batch_cell, plus cell_turns */
+    uint64_t answers[TURN_SLOTS]; /* 4 times the key, plus cell_turns */
 } kept_turns;
 
 /* Scratch memory of a thread for a batch. */

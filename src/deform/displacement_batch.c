@@ -4,14 +4,11 @@
 
 #define NO_CELL UINT16_MAX
 
+#define ROW(ISA, set, lanes)                                                                                 \
+    [FFD_ISA_##ISA] = {ffd_extraction_kernel_##set, ffd_kernel_##set, ffd_slope_kernel_##set},
 static const cell_kernels kernels[] = {
     [FFD_ISA_SCALAR] = {ffd_extraction_kernel_scalar, ffd_kernel_scalar, ffd_slope_kernel_scalar},
-#ifdef FFD_X86
-    [FFD_ISA_SSE2] = {ffd_extraction_kernel_sse2, ffd_kernel_sse2, ffd_slope_kernel_sse2},
-    [FFD_ISA_AVX2] = {ffd_extraction_kernel_avx2, ffd_kernel_avx2, ffd_slope_kernel_avx2},
-    [FFD_ISA_AVX512] = {ffd_extraction_kernel_avx512, ffd_kernel_avx512, ffd_slope_kernel_avx512},
-#endif
-};
+    FOR_EACH_SIMD(ROW)};
 
 /* Returns the cell of the batch with these spans, and adds it if it is new. */
 static size_t take_cell(const size_t span[3], size_t key, displacement_scratch *scratch)
@@ -149,15 +146,35 @@ static void begin_cells(const ffd_lattice *lattice, cell_use use, kept_cells *ke
     memset(kept->keys, 0, sizeof kept->keys);
 }
 
+/* Returns the number of blocks of cells along a direction. */
+static size_t block_count(const knot_vector *knots)
+{
+    return (knots->span_count + BLOCK_SIDE - 1) / BLOCK_SIDE;
+}
+
 static void begin_turns(const ffd_lattice *lattice, kept_turns *kept)
 {
     const knot_vector *const knots = lattice->knots;
-    const size_t cells = knots[0].span_count * knots[1].span_count * knots[2].span_count;
     if (kept->lattice == lattice)
         return;
     kept->lattice = lattice;
-    kept->count = cells < TURN_SLOTS ? cells : TURN_SLOTS;
+    kept->cells = knots[0].span_count * knots[1].span_count * knots[2].span_count;
+    const size_t all = kept->cells + block_count(&knots[0]) * block_count(&knots[1]) * block_count(&knots[2]);
+    kept->count = all < TURN_SLOTS ? all : TURN_SLOTS;
     memset(kept->answers, 0, kept->count * sizeof *kept->answers);
+}
+
+static cell_turns recall_turns(const kept_turns *kept, size_t key)
+{
+    const uint64_t answer = kept->answers[key % kept->count];
+    return answer / 4 == key ? (cell_turns)(answer % 4) : TURNS_UNKNOWN;
+}
+
+static cell_turns keep_turns(kept_turns *kept, size_t key, bool nowhere)
+{
+    const cell_turns turns = nowhere ? TURNS_NOWHERE : TURNS_PERHAPS;
+    kept->answers[key % kept->count] = 4 * (uint64_t)key + turns;
+    return turns;
 }
 
 /* Returns how a cell moves and, if its displacements differ, its numbers; computes them if they are not in
@@ -177,22 +194,39 @@ static cell_motion find_numbers(const ffd_lattice *lattice, extraction_kernel *e
     return kept->motions[slot];
 }
 
-/* With fewer points in a cell of a curved lattice, their gradients cost less than bounds. */
+/* With fewer points in a cell of a curved lattice, their gradients cost less than bounds. With fewer in the
+   cells of a batch on average, so few cells of a block may be met that their bounds cost less than the
+   block's. */
 #define FEW_POINTS 5
+#define FEW_ON_AVERAGE 2
+
+/* Returns whether det F may be 0 or less in the block of a cell. */
+static bool block_may_turn(const ffd_lattice *lattice, slope_kernel *find_slopes, const size_t span[3],
+                           displacement_scratch *scratch)
+{
+    const size_t block[3] = {span[0] / BLOCK_SIDE, span[1] / BLOCK_SIDE, span[2] / BLOCK_SIDE};
+    const size_t row = block[2] * block_count(&lattice->knots[1]) + block[1];
+    const size_t key = scratch->kept_turns.cells + row * block_count(&lattice->knots[0]) + block[0];
+    cell_turns turns = recall_turns(&scratch->kept_turns, key);
+    if (turns == TURNS_UNKNOWN)
+        turns = keep_turns(&scratch->kept_turns, key,
+                           ffd_turns_nowhere_in_block(lattice, find_slopes, block, &scratch->turns));
+    return turns == TURNS_PERHAPS;
+}
 
 /* Returns whether det F may be 0 or less at a point of a cell. */
 static bool may_turn(const ffd_lattice *lattice, const cell_kernels *kernel, const batch_cell *of,
-                     const double *numbers, displacement_scratch *scratch)
+                     const double *numbers, bool is_dense, displacement_scratch *scratch)
 {
-    uint64_t *const answer = &scratch->kept_turns.answers[of->key % scratch->kept_turns.count];
     const turn_cell cell = {lattice, of->span, kernel};
-    if (*answer / 4 == of->key && *answer % 4 != TURNS_UNKNOWN)
-        return *answer % 4 == TURNS_PERHAPS;
+    if (is_dense && !block_may_turn(lattice, kernel->find_slopes, of->span, scratch))
+        return false;
+    cell_turns turns = recall_turns(&scratch->kept_turns, of->key);
+    if (turns != TURNS_UNKNOWN)
+        return turns == TURNS_PERHAPS;
     if (!lattice->has_uvw_by_p && of->count < FEW_POINTS)
         return true;
-    const cell_turns turns =
-        ffd_turns_nowhere(&cell, numbers, &scratch->turns) ? TURNS_NOWHERE : TURNS_PERHAPS;
-    *answer = 4 * (uint64_t)of->key + turns;
+    turns = keep_turns(&scratch->kept_turns, of->key, ffd_turns_nowhere(&cell, numbers, &scratch->turns));
     return turns == TURNS_PERHAPS;
 }
 
@@ -292,7 +326,8 @@ static void bend_and_watch(const ffd_lattice *lattice, const cell_kernels *kerne
 static void bend_cell(const ffd_lattice *lattice, const cell_kernels *kernel, const displacement_batch *batch,
                       const batch_cell *of, const double *numbers, displacement_scratch *scratch)
 {
-    const bool turns = batch->turns && may_turn(lattice, kernel, of, numbers, scratch);
+    const bool is_dense = batch->count >= FEW_ON_AVERAGE * scratch->cell_count;
+    const bool turns = batch->turns && may_turn(lattice, kernel, of, numbers, is_dense, scratch);
     kernel_cell cell;
     if (turns && batch->only_turns) {
         bend_and_watch(lattice, kernel, batch, of, scratch);

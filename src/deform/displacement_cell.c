@@ -234,13 +234,15 @@ static size_t field_width(const ffd_lattice *lattice, cell_use use)
     return point_width(lattice) + (use == CELL_VALUES ? 0 : slope_width(lattice));
 }
 
-/* Brings the control points of a field, which numbers hold, into the form of the kernel. */
-static void extract_field(const ffd_lattice *lattice, extraction_kernel *extract, const size_t index[3],
-                          cell_use use, double *numbers)
+void ffd_displacement_cell_field(const ffd_lattice *lattice, extraction_kernel *extract,
+                                 const size_t index[3], const double *field, bool with_slopes,
+                                 double *numbers)
 {
     const size_t count = point_width(lattice);
-    int degree[3];
+    int degree[3], span[3];
     const double *extraction[3];
+    ffd_displacement_spans(lattice, index, span);
+    ffd_lattice_cell_points(lattice, field, span, numbers);
     for (int a = 0; a < 3; a++) {
         const knot_vector *const knots = &lattice->knots[a];
         const size_t order = (size_t)knots->degree + 1;
@@ -248,7 +250,7 @@ static void extract_field(const ffd_lattice *lattice, extraction_kernel *extract
         extraction[a] = knots->extractions + index[a] * order * order;
     }
     numbers[count] = 0;
-    extract(degree, extraction, numbers, use == CELL_VALUES ? NULL : numbers + count);
+    extract(degree, extraction, numbers, with_slopes ? numbers + count : NULL);
 }
 
 size_t ffd_displacement_cell_width(const ffd_lattice *lattice, cell_use use)
@@ -264,13 +266,11 @@ cell_motion ffd_displacement_cell_points(const ffd_lattice *lattice, extraction_
     const cell_motion motion = motion_of(lattice, span);
     if (motion.kind != CELL_BENT)
         return motion;
-    ffd_lattice_cell_points(lattice, lattice->difference, span, numbers);
-    extract_field(lattice, extract, index, use, numbers);
-    if (needs_rest(lattice, use)) {
-        double *const rest = numbers + field_width(lattice, use);
-        ffd_lattice_cell_points(lattice, lattice->rest, span, rest);
-        extract_field(lattice, extract, index, use, rest);
-    }
+    const bool with_slopes = use != CELL_VALUES;
+    ffd_displacement_cell_field(lattice, extract, index, lattice->difference, with_slopes, numbers);
+    if (needs_rest(lattice, use))
+        ffd_displacement_cell_field(lattice, extract, index, lattice->rest, with_slopes,
+                                    numbers + field_width(lattice, use));
     return motion;
 }
 

@@ -40,6 +40,11 @@ size_t ffd_displacement_cell_width(const ffd_lattice *lattice, cell_use use);
    displacements, also fills numbers, with room for one more that the kernel may write. */
 cell_motion ffd_displacement_cell_points(const ffd_lattice *lattice, extraction_kernel *extract,
                                          const size_t index[3], cell_use use, double *numbers);
+/* Fills the points of a kernel_field, and behind them its slopes if wanted, with room for one number more.
+   field: that of all control points. */
+void ffd_displacement_cell_field(const ffd_lattice *lattice, extraction_kernel *extract,
+                                 const size_t index[3], const double *field, bool with_slopes,
+                                 double *numbers);
 /* Converts indices of non-empty spans to spans. */
 void ffd_displacement_spans(const ffd_lattice *lattice, const size_t index[3], int span[3]);
 /* Sets up a cell for the kernel, with these numbers. */

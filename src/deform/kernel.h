@@ -2,6 +2,7 @@
 #ifndef FFD_DEFORM_KERNEL_H
 #define FFD_DEFORM_KERNEL_H
 
+#include "base/vector/isa.h"
 #include "lattice/lattice.h"
 #include <stdint.h>
 
@@ -51,9 +52,10 @@ typedef void displacement_kernel(const kernel_cell *cell, const kernel_points *p
 
 displacement_kernel ffd_kernel_scalar;
 extraction_kernel ffd_extraction_kernel_scalar;
-#ifdef FFD_X86
-extraction_kernel ffd_extraction_kernel_sse2, ffd_extraction_kernel_avx2, ffd_extraction_kernel_avx512;
-displacement_kernel ffd_kernel_sse2, ffd_kernel_avx2, ffd_kernel_avx512;
-#endif
+#define DECLARE(ISA, set, lanes)                                                                             \
+    extraction_kernel ffd_extraction_kernel_##set;                                                           \
+    displacement_kernel ffd_kernel_##set;
+FOR_EACH_SIMD(DECLARE)
+#undef DECLARE
 
 #endif

@@ -1,26 +1,32 @@
-/* slope_kernel.h - the ranges of the steps between the control points of a cell. */
+/* slope_kernel.h - the ranges of the derivatives of a volume, by the steps between its control points. */
 #ifndef FFD_DEFORM_SLOPE_KERNEL_H
 #define FFD_DEFORM_SLOPE_KERNEL_H
 
 #include "base/vector/isa.h"
-#include <stddef.h>
+#include "lattice/lattice.h"
 
-/* The least and the greatest of each coordinate of steps. */
-typedef struct step_range {
+/* Control points, and what makes derivatives of the steps between them: along direction a, step i becomes
+   scale[a][i] step + shift[a] (NURBS Book 3.3; of a Bezier volume the scale is degree / width, 1.10). */
+typedef struct control_net {
+    size_t order[3];      /* points along each direction */
+    const double *points; /* 3 numbers each, u fastest, finite; one number after them is read */
+    double scale[3][MAX_DEGREE], shift[3][4];
+} control_net;
+
+/* The least and the greatest of each coordinate. */
+typedef struct slope_range {
     double low[3], high[3];
-} step_range;
+} slope_range;
 
-/* Finds the ranges of the steps from each point of a net to the next one, along the directions from `from` to
-   2 in which it has two or more: times degree / width they hold the derivatives of a Bezier volume (NURBS
-   Book 1.10). points: 3 numbers each, u fastest, finite, of which order[a] lie along direction a; one number
-   after them is read. factors: what each point is multiplied by, or NULL. */
-typedef void slope_kernel(const size_t order[3], const double *points, const double *factors, int from,
-                          step_range ranges[3]);
+/* Finds the ranges of a net's derivatives, along the directions from `from` to 2 in which it has two points
+   or more. axes: NULL, or for each direction the coordinate by whose size the derivatives are divided; it
+   must not be 0 in any. */
+typedef void slope_kernel(const control_net *net, int from, const int *axes, slope_range ranges[3]);
 
 /* One function for each instruction set, from the same source. */
 slope_kernel ffd_slope_kernel_scalar;
-#ifdef FFD_X86
-slope_kernel ffd_slope_kernel_sse2, ffd_slope_kernel_avx2, ffd_slope_kernel_avx512;
-#endif
+#define DECLARE(ISA, set, lanes) slope_kernel ffd_slope_kernel_##set;
+FOR_EACH_SIMD(DECLARE)
+#undef DECLARE
 
 #endif

@@ -82,6 +82,16 @@ static const double *bezier_factors(const size_t order[3], turn_scratch *scratch
     return scratch->factors;
 }
 
+/* Converts the points of a kernel_field to Bezier points; may be in place. */
+static void find_bezier(const size_t order[3], const double *field, turn_scratch *scratch, double *points)
+{
+    const double *const factors = bezier_factors(order, scratch);
+    for (size_t n = 0; n < net_points(order); n++)
+        for (size_t c = 0; c < 3; c++)
+            points[3 * n + c] = factors[n] * field[3 * n + c];
+    points[3 * net_points(order)] = 0;
+}
+
 /* Computes the steps from each point of a net to the next one along direction a, and makes it shorter by
    one. */
 static void take_steps(const double *points, int a, size_t order[3], double *steps)
@@ -104,20 +114,65 @@ static double slope_factor(const turn_cell *cell, int a)
     return knots->degree / (t[1] - t[0]);
 }
 
-/* Adds the range of the derivatives of a field by u,v,w in the cell. */
-static void add_slopes(const turn_cell *cell, const double *field, turn_scratch *scratch, matrix_range *sum)
+/* Prepares the net of a field in the cell, without its points. */
+static void begin_net(const turn_cell *cell, control_net *net)
 {
-    size_t order[3];
-    step_range steps[3];
-    cell_order(cell, order);
-    cell->kernels->find_slopes(order, field, bezier_factors(order, scratch), 0, steps);
-    for (int a = 0; a < 3; a++) {
-        const double half = slope_factor(cell, a) / 2;
+    cell_order(cell, net->order);
+    memset(net->shift, 0, sizeof net->shift);
+    for (int a = 0; a < 3; a++)
+        for (size_t i = 0; i + 1 < net->order[a]; i++)
+            net->scale[a][i] = slope_factor(cell, a);
+}
+
+static void set_range(const slope_range ranges[3], matrix_range *matrix)
+{
+    for (int a = 0; a < 3; a++)
         for (int r = 0; r < 3; r++) {
-            sum->centre[3 * r + a] += half * (steps[a].low[r] + steps[a].high[r]);
-            sum->radius[3 * r + a] += half * (steps[a].high[r] - steps[a].low[r]);
+            matrix->centre[3 * r + a] = (ranges[a].low[r] + ranges[a].high[r]) / 2;
+            matrix->radius[3 * r + a] = (ranges[a].high[r] - ranges[a].low[r]) / 2;
+        }
+}
+
+/* Finds a coordinate that has the same sign in all derivatives by a direction, the one with the greatest
+   least size. Returns false if there is none, or if it may be the rounding of what is `size` long. */
+static bool find_axis(const slope_range *range, double size, int *axis)
+{
+    double greatest = 0;
+    for (int c = 0; c < 3; c++) {
+        const double low = range->low[c], high = range->high[c];
+        const double least = low > 0 ? low : high < 0 ? -high : 0;
+        size = larger_of(size, larger_of(fabs(low), fabs(high)));
+        if (least > greatest) {
+            greatest = least;
+            *axis = c;
         }
     }
+    return greatest > ROUNDING * size;
+}
+
+/* Returns the sign of the determinant of the derivatives of a net if it is known to be the same everywhere,
+   else 0. The derivatives by a direction are sums of those of the net, with factors >= 0, and the determinant
+   is linear in them: if their range is too large, that of their directions may do. matrix: what the
+   derivatives are changes of, or 0; receives their range. */
+static int sign_of_net(slope_kernel *find_slopes, const control_net *net, matrix_range *matrix)
+{
+    const matrix_range from = *matrix;
+    slope_range ranges[3];
+    int axes[3] = {0};
+    find_slopes(net, 0, NULL, ranges);
+    set_range(ranges, matrix);
+    const int sign = sign_of(matrix);
+    if (sign != 0)
+        return sign;
+    for (int a = 0; a < 3; a++) {
+        const double before[3] = {from.centre[a], from.centre[3 + a], from.centre[6 + a]};
+        if (!find_axis(&ranges[a], vec_greatest(before), &axes[a]))
+            return 0;
+    }
+    matrix_range cones;
+    find_slopes(net, 0, axes, ranges);
+    set_range(ranges, &cones);
+    return sign_of(&cones);
 }
 
 /* The greatest second derivatives of a field in a cell: entry 3 r + c of the Jacobian changes by at most
@@ -126,35 +181,30 @@ typedef struct field_bends {
     double by[3][9];
 } field_bends;
 
-static void set_bend(const turn_cell *cell, int a, int b, const step_range *steps, field_bends *bends)
+static void set_bend(const turn_cell *cell, int a, int b, const slope_range *slopes, field_bends *bends)
 {
     const int degree = cell->lattice->knots[b].degree;
-    const double factor =
-        slope_factor(cell, a) * slope_factor(cell, b) * (a == b ? (degree - 1) / (double)degree : 1);
+    const double factor = slope_factor(cell, a) * (a == b ? (degree - 1) / (double)degree : 1);
     for (int r = 0; r < 3; r++)
         bends->by[b][3 * r + a] = bends->by[a][3 * r + b] =
-            factor * larger_of(fabs(steps->low[r]), fabs(steps->high[r]));
+            factor * larger_of(fabs(slopes->low[r]), fabs(slopes->high[r]));
 }
 
 static void find_bends(const turn_cell *cell, const double *field, turn_scratch *scratch, field_bends *bends)
 {
-    size_t whole[3];
-    const double *from = field;
-    cell_order(cell, whole);
-    const double *factor = bezier_factors(whole, scratch);
-    for (double *to = scratch->points; to < scratch->points + 3 * net_points(whole);
-         to += 3, from += 3, factor++)
-        for (int c = 0; c < 3; c++)
-            to[c] = *factor * from[c];
+    control_net net;
+    begin_net(cell, &net);
+    find_bezier(net.order, field, scratch, scratch->points);
     memset(bends, 0, sizeof *bends);
+    net.points = scratch->steps;
     for (int a = 0; a < 3; a++) {
-        size_t order[3] = {whole[0], whole[1], whole[2]};
-        step_range steps[3];
-        take_steps(scratch->points, a, order, scratch->steps);
-        cell->kernels->find_slopes(order, scratch->steps, NULL, a, steps);
+        slope_range slopes[3];
+        cell_order(cell, net.order);
+        take_steps(scratch->points, a, net.order, scratch->steps);
+        cell->kernels->find_slopes(&net, a, NULL, slopes);
         for (int b = a; b < 3; b++)
-            if (order[b] > 1)
-                set_bend(cell, a, b, &steps[b], bends);
+            if (net.order[b] > 1)
+                set_bend(cell, a, b, &slopes[b], bends);
     }
 }
 
@@ -172,45 +222,73 @@ static bool constant_rest(const ffd_lattice *lattice, matrix_range *rest)
     return lattice->has_uvw_by_p && mat_invert(lattice->uvw_by_p, rest->centre);
 }
 
-/* Fills the field of the positions in the cell: at rest, or deformed. */
-static void make_field(const turn_cell *cell, bool deformed, turn_scratch *scratch)
+/* Returns whether det F > 0 is known where a net acts. difference: its displacements; rest: its rest
+   positions, to which these are added, if their derivatives are not constant. */
+static bool turns_nowhere(const ffd_lattice *lattice, slope_kernel *find_slopes, control_net *net,
+                          const double *difference, double *rest)
 {
-    const ffd_lattice *const lattice = cell->lattice;
-    const double *extraction[3];
-    size_t order[3];
-    int span[3], degree[3];
-    cell_order(cell, order);
-    const size_t count = 3 * net_points(order);
-    ffd_displacement_spans(lattice, cell->index, span);
-    ffd_lattice_cell_points(lattice, lattice->rest, span, scratch->field);
-    if (deformed)
-        ffd_lattice_cell_points(lattice, lattice->difference, span, scratch->points);
-    for (size_t n = 0; n < count && deformed; n++)
-        scratch->field[n] += scratch->points[n];
-    for (int a = 0; a < 3; a++) {
-        degree[a] = lattice->knots[a].degree;
-        extraction[a] = lattice->knots[a].extractions + cell->index[a] * order[a] * order[a];
+    matrix_range slopes;
+    if (constant_rest(lattice, &slopes)) {
+        const double before = mat_determinant(slopes.centre);
+        for (int n = 0; n < 9; n++)
+            net->shift[n % 3][n / 3] = slopes.centre[n];
+        net->points = difference;
+        return before * sign_of_net(find_slopes, net, &slopes) > 0;
     }
-    scratch->field[count] = 0;
-    cell->kernels->extract(degree, extraction, scratch->field, NULL);
-}
-
-static int sign_in_cell(const turn_cell *cell, bool deformed, turn_scratch *scratch)
-{
-    matrix_range slopes = {{0}, {0}};
-    make_field(cell, deformed, scratch);
-    add_slopes(cell, scratch->field, scratch, &slopes);
-    return sign_of(&slopes);
+    net->points = rest;
+    const int before = sign_of_net(find_slopes, net, &slopes);
+    if (before == 0)
+        return false;
+    for (size_t n = 0; n < 3 * net_points(net->order); n++)
+        rest[n] += difference[n];
+    return before * sign_of_net(find_slopes, net, &slopes) > 0;
 }
 
 bool ffd_turns_nowhere(const turn_cell *cell, const double *difference, turn_scratch *scratch)
 {
-    matrix_range slopes;
-    if (!constant_rest(cell->lattice, &slopes))
-        return sign_in_cell(cell, false, scratch) * sign_in_cell(cell, true, scratch) > 0;
-    const double before = mat_determinant(slopes.centre);
-    add_slopes(cell, difference, scratch, &slopes);
-    return before * sign_of(&slopes) > 0;
+    const ffd_lattice *const lattice = cell->lattice;
+    double *const rest = scratch->field;
+    control_net net;
+    begin_net(cell, &net);
+    find_bezier(net.order, difference, scratch, scratch->points);
+    if (!lattice->has_uvw_by_p) {
+        ffd_displacement_cell_field(lattice, cell->kernels->extract, cell->index, lattice->rest, false, rest);
+        find_bezier(net.order, rest, scratch, rest);
+    }
+    return turns_nowhere(lattice, cell->kernels->find_slopes, &net, scratch->points, rest);
+}
+
+/* Sets the net's points and scale along direction a of a block of cells (NURBS Book 3.3), and the index of
+   its first control point. Returns false if there are too many. */
+static bool set_block_direction(const knot_vector *knots, size_t block, size_t *first, control_net *net,
+                                int a)
+{
+    const size_t degree = (size_t)knots->degree, begin = BLOCK_SIDE * block;
+    const size_t end = begin + BLOCK_SIDE < knots->span_count ? begin + BLOCK_SIDE : knots->span_count;
+    *first = (size_t)knots->spans[begin] - degree;
+    net->order[a] = (size_t)knots->spans[end - 1] + 1 - *first;
+    if (net->order[a] > MAX_ORDER)
+        return false;
+    for (size_t i = 0; i + 1 < net->order[a]; i++) {
+        const double *const t = knots->t + *first + i + 1;
+        net->scale[a][i] = knots->degree / (t[degree] - t[0]);
+    }
+    return true;
+}
+
+bool ffd_turns_nowhere_in_block(const ffd_lattice *lattice, slope_kernel *find_slopes, const size_t block[3],
+                                turn_scratch *scratch)
+{
+    control_net net = {.points = NULL};
+    size_t first[3];
+    for (int a = 0; a < 3; a++)
+        if (!set_block_direction(&lattice->knots[a], block[a], &first[a], &net, a))
+            return false;
+    if (!lattice->has_uvw_by_p)
+        ffd_lattice_block_points(lattice, lattice->rest, first, net.order, scratch->field);
+    ffd_lattice_block_points(lattice, lattice->difference, first, net.order, scratch->points);
+    scratch->field[3 * net_points(net.order)] = scratch->points[3 * net_points(net.order)] = 0;
+    return turns_nowhere(lattice, find_slopes, &net, scratch->points, scratch->field);
 }
 
 /* Boxes that are looked at together. */

@@ -30,14 +30,22 @@ typedef struct turn_cell {
 
 /* Scratch memory; order[0] is 0 before the first call. */
 typedef struct turn_scratch {
-    double field[3 * CELL_POINTS + 1], points[3 * CELL_POINTS], steps[3 * CELL_POINTS + 1];
-    double factors[CELL_POINTS]; /* for cells with this order in each direction */
+    double field[3 * CELL_POINTS + 1], points[3 * CELL_POINTS + 1], steps[3 * CELL_POINTS + 1];
+    double factors[CELL_POINTS]; /* of bezier_factors for cells with this order in each direction */
     size_t order[3];
 } turn_scratch;
 
 /* Returns whether det F > 0 is known in the whole cell. difference: the points of the displacement, in the
    kernel's form. */
 bool ffd_turns_nowhere(const turn_cell *cell, const double *difference, turn_scratch *scratch);
+
+/* Cells along each direction of a block of cells. */
+#define BLOCK_SIDE ((size_t)4)
+
+/* Returns whether det F > 0 is known in a block of cells. block: its indices, those of its first cell divided
+   by BLOCK_SIDE. */
+bool ffd_turns_nowhere_in_block(const ffd_lattice *lattice, slope_kernel *find_slopes, const size_t block[3],
+                                turn_scratch *scratch);
 
 /* Divides the points of a cell into runs, and returns their number. which: the points' numbers, ascending;
    uvw: 3 numbers a point, in the cell. fields: those of the cell, with what derivatives by position need.

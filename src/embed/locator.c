@@ -119,14 +119,9 @@ static bool begin(const ffd_locator *locator, const double xyz[3], double p[3], 
     return vec_is_finite(p); /* false: xyz is not finite, or the difference overflows */
 }
 
-static affine_kernel *const affine_kernels[] = {
-    [FFD_ISA_SCALAR] = NULL, /* one by one */
-#ifdef FFD_X86
-    [FFD_ISA_SSE2] = ffd_affine_kernel_sse2,
-    [FFD_ISA_AVX2] = ffd_affine_kernel_avx2,
-    [FFD_ISA_AVX512] = ffd_affine_kernel_avx512,
-#endif
-};
+#define ROW(ISA, set, lanes) [FFD_ISA_##ISA] = ffd_affine_kernel_##set,
+static affine_kernel *const affine_kernels[] = {[FFD_ISA_SCALAR] = NULL, /* one by one */
+                                                FOR_EACH_SIMD(ROW)};
 
 static void find_affine(const ffd_locator *locator, const double *xyz, size_t count, ffd_location *locations)
 {

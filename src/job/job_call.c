@@ -30,6 +30,7 @@ ffd_status ffd_job_call_begin(job_call *call, const ffd_deform_desc *desc, ffd_j
     if (!taken) {
         call->watch.progress = call->desc.progress;
         call->watch.user = call->desc.progress_user;
+        call->watch.cancel = call->desc.cancel;
     }
     call->before = ffd_deadline_begin(&call->own, taken ? 0 : call->desc.timeout, &call->watch);
     TRY(taken);

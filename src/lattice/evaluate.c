@@ -11,17 +11,26 @@ typedef struct cell_index {
     size_t at[3][MAX_ORDER];
 } cell_index;
 
-static cell_index index_of_cell(const ffd_lattice *lattice, const int span[3])
+static inline cell_index index_of_block(const ffd_lattice *lattice, const size_t first[3],
+                                        const size_t count[3])
 {
     cell_index index;
     for (int a = 0; a < 3; a++) {
-        const knot_vector *const knots = &lattice->knots[a];
-        const size_t first = (size_t)(span[a] - knots->degree);
-        index.count[a] = knots->degree + 1;
-        for (int i = 0; i < index.count[a]; i++)
-            index.at[a][i] = ffd_knots_point(knots, first + (size_t)i);
+        index.count[a] = (int)count[a];
+        for (size_t i = 0; i < count[a]; i++)
+            index.at[a][i] = ffd_knots_point(&lattice->knots[a], first[a] + i);
     }
     return index;
+}
+
+static inline cell_index index_of_cell(const ffd_lattice *lattice, const int span[3])
+{
+    size_t first[3], count[3];
+    for (int a = 0; a < 3; a++) {
+        first[a] = (size_t)(span[a] - lattice->knots[a].degree);
+        count[a] = (size_t)lattice->knots[a].degree + 1;
+    }
+    return index_of_block(lattice, first, count);
 }
 
 /* Returns the index of the first control point of the row along u at position j of v and k of w. */
@@ -147,16 +156,15 @@ void ffd_lattice_sum_rational(const ffd_lattice *lattice, const lattice_basis *b
     }
 }
 
-static void copy_cell(const ffd_lattice *lattice, const double *field, size_t components, const int span[3],
-                      double *copy)
+static inline void copy_block(const ffd_lattice *lattice, const double *field, size_t components,
+                              const cell_index *index, double *copy)
 {
-    const cell_index index = index_of_cell(lattice, span);
-    const size_t *const u = index.at[0];
-    const size_t count = (size_t)index.count[0], row = components * count;
+    const size_t *const u = index->at[0];
+    const size_t count = (size_t)index->count[0], row = components * count;
     const bool wraps = u[count - 1] < u[0];
-    for (int k = 0; k < index.count[2]; k++)
-        for (int j = 0; j < index.count[1]; j++, copy += row) {
-            const double *const start = field + components * row_start(lattice, &index, j, k);
+    for (int k = 0; k < index->count[2]; k++)
+        for (int j = 0; j < index->count[1]; j++, copy += row) {
+            const double *const start = field + components * row_start(lattice, index, j, k);
             if (!wraps)
                 memcpy(copy, start + components * u[0], row * sizeof *copy);
             for (size_t i = 0; i < count && wraps; i++)
@@ -164,17 +172,26 @@ static void copy_cell(const ffd_lattice *lattice, const double *field, size_t co
         }
 }
 
+void ffd_lattice_block_points(const ffd_lattice *lattice, const double *field, const size_t first[3],
+                              const size_t count[3], double *points)
+{
+    const cell_index index = index_of_block(lattice, first, count);
+    copy_block(lattice, field, 3, &index, points);
+}
+
 void ffd_lattice_cell_points(const ffd_lattice *lattice, const double *field, const int span[3],
                              double *points)
 {
-    copy_cell(lattice, field, 3, span, points);
+    const cell_index index = index_of_cell(lattice, span);
+    copy_block(lattice, field, 3, &index, points);
 }
 
 void ffd_lattice_cell_weights(const ffd_lattice *lattice, const double *weights, const int span[3],
                               double *cell_weights)
 {
+    const cell_index index = index_of_cell(lattice, span);
     if (weights)
-        copy_cell(lattice, weights, 1, span, cell_weights);
+        copy_block(lattice, weights, 1, &index, cell_weights);
 }
 
 void ffd_lattice_evaluate(const ffd_lattice *lattice, ffd_volume volume, const double uvw[3], double point[3],

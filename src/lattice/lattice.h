@@ -91,7 +91,10 @@ void ffd_lattice_sum_rational(const ffd_lattice *lattice, const lattice_basis *b
    at span[a] - degree[a]. */
 void ffd_lattice_cell_points(const ffd_lattice *lattice, const double *field, const int span[3],
                              double *points);
-/* The same for weights; does nothing if weights is NULL. */
+/* The same from the control point of function first[a] on, count[a] <= MAX_ORDER along each direction. */
+void ffd_lattice_block_points(const ffd_lattice *lattice, const double *field, const size_t first[3],
+                              const size_t count[3], double *points);
+/* The same as ffd_lattice_cell_points for weights; does nothing if weights is NULL. */
 void ffd_lattice_cell_weights(const ffd_lattice *lattice, const double *weights, const int span[3],
                               double *cell_weights);
 

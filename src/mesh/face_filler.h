@@ -7,10 +7,10 @@
 #include "mesh/mesh.h"
 
 typedef struct face_filler {
-    mesh_faces *faces;     /* allocated for the counted faces and corners */
-    size_t corners;        /* capacity in corners */
-    size_t face, corner;   /* filled so far */
-    bool has_other_number; /* a number of faces or corners, or a vertex index, differs */
+    mesh_faces *faces;   /* allocated for the counted faces and corners */
+    size_t corners;      /* capacity in corners */
+    size_t face, corner; /* filled so far */
+    bool ends; /* a number of faces or corners, or a vertex index, differs; or the deadline has passed */
 } face_filler;
 
 /* Begins the next face. */

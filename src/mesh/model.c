@@ -1,5 +1,6 @@
 #include "mesh/model.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include <inttypes.h>
 #include <string.h>
 
@@ -132,6 +133,7 @@ static ffd_status append(model_list *list, const model_corner *corners, size_t c
 ffd_status ffd_model_add(mesh_model *model, model_kind kind, const model_corner *corners, size_t count,
                          ffd_error *error)
 {
+    TRY(ffd_deadline_check_at(model->lists[kind].count, error));
     TRY(ffd_model_take(model, count, CORNER_BYTES, error));
     if (kind == MODEL_POINTS || count == 1) {
         for (size_t i = 0; i < count; i++)

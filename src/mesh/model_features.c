@@ -1,6 +1,7 @@
 /* model_features.c - determines the features of a model, and describes those that a format loses. */
 #include "base/memory/memory.h"
 #include "base/spelling.h"
+#include "base/system/deadline.h"
 #include "mesh/model.h"
 #include "mesh/precision.h"
 #include <math.h>
@@ -42,7 +43,7 @@ static bool note_corners(const mesh_model *model, bool normals, uint32_t *indice
     bool several = false;
     clear(model, indices);
     for (int k = 0; k < MODEL_KINDS; k++)
-        for (size_t i = 0; i < model->lists[k].corner_count; i++) {
+        for (size_t i = 0; i < model->lists[k].corner_count && !ffd_deadline_passed_at(i); i++) {
             const model_corner *corner = &model->lists[k].corners[i];
             const uint32_t value = normals ? corner->normal : corner->texcoord;
             several = note(&indices[corner->position], value, values, normals ? 3 : 2) || several;
@@ -271,7 +272,7 @@ ffd_status ffd_model_finish(mesh_model *model, ffd_error *error)
     if (has_loose(model, indices))
         model->features |= MODEL_HAS_LOOSE;
     ffd_free(indices);
-    return FFD_OK;
+    return ffd_deadline_check(error);
 }
 
 /* Features that are not named if another one is lost too, because they depend on it. */

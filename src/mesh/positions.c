@@ -2,6 +2,7 @@
 #include "base/memory/hash.h"
 #include "base/memory/memory.h"
 #include "base/memory/slots.h"
+#include "base/system/deadline.h"
 #include <string.h>
 
 ffd_status ffd_positions_begin(position_table *table, const double *positions, size_t most, ffd_error *error)
@@ -56,10 +57,10 @@ ffd_status ffd_positions_twins(const double *positions, size_t count, uint32_t *
 {
     position_table table;
     TRY(ffd_positions_begin(&table, positions, count, error));
-    for (size_t v = 0; v < count; v++)
+    for (size_t v = 0; v < count && !ffd_deadline_passed_at(v); v++)
         twins[v] = ffd_positions_add(&table, (uint32_t)v);
     ffd_positions_end(&table);
-    return FFD_OK;
+    return ffd_deadline_check(error);
 }
 
 void ffd_positions_end(position_table *table)

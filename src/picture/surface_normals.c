@@ -1,5 +1,6 @@
 /* surface_normals.c - vertex normals from faces, with several normals at creases. */
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/vector/vec.h"
 #include "picture/surface.h"
 #include <string.h>
@@ -66,7 +67,7 @@ static void add_faces(const crease_work *work)
 {
     const picture_mesh *const mesh = work->mesh;
     double n[3];
-    for (size_t t = 0; t < mesh->triangle_count; t++) {
+    for (size_t t = 0; t < mesh->triangle_count && !ffd_deadline_passed_at(t); t++) {
         float *const face = work->faces + 3 * t;
         if (!face_normal(mesh, work->scale, t, n))
             n[0] = n[1] = n[2] = 0;
@@ -229,6 +230,7 @@ ffd_status ffd_surface_normals(const picture_mesh *mesh, double scale, const mem
     ffd_status status;
     TRY_END(result->normals && work.has_crease && work.faces ? FFD_OK : ffd_fail_memory(error));
     add_faces(&work);
+    TRY_END(ffd_deadline_check(error));
     const bool any = find_creases(&work);
     spread(mesh, result->normals);
     if (any)

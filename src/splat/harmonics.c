@@ -24,14 +24,8 @@ static void mirror(const splat_turn *turn, int degree, harmonics_block c)
         reverse(8, 7, c);
 }
 
-static harmonics_kernel *const kernels[] = {
-    [FFD_ISA_SCALAR] = NULL,
-#ifdef FFD_X86
-    [FFD_ISA_SSE2] = ffd_harmonics_kernel_sse2,
-    [FFD_ISA_AVX2] = ffd_harmonics_kernel_avx2,
-    [FFD_ISA_AVX512] = ffd_harmonics_kernel_avx512,
-#endif
-};
+#define ROW(ISA, set, lanes) [FFD_ISA_##ISA] = ffd_harmonics_kernel_##set,
+static harmonics_kernel *const kernels[] = {[FFD_ISA_SCALAR] = NULL, FOR_EACH_SIMD(ROW)};
 
 /* Number of splats in a run. */
 #define RUN ((size_t)16)

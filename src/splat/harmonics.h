@@ -2,6 +2,7 @@
 #ifndef FFD_SPLAT_HARMONICS_H
 #define FFD_SPLAT_HARMONICS_H
 
+#include "base/vector/isa.h"
 #include "splat/splat.h"
 
 #define HARMONICS_DEGREES 3
@@ -29,8 +30,8 @@ void ffd_harmonics_turn(ffd_isa isa, const splat_turn *turns, int degree, size_t
    the number of processed splats. One function for each SIMD instruction set. */
 typedef size_t harmonics_kernel(double (*rotations)[9], int degree, size_t count, harmonics_block *c);
 
-#ifdef FFD_X86
-harmonics_kernel ffd_harmonics_kernel_sse2, ffd_harmonics_kernel_avx2, ffd_harmonics_kernel_avx512;
-#endif
+#define DECLARE(ISA, set, lanes) harmonics_kernel ffd_harmonics_kernel_##set;
+FOR_EACH_SIMD(DECLARE)
+#undef DECLARE
 
 #endif

@@ -171,14 +171,8 @@ typedef struct splat_way {
     ellipsoid_kernel *ellipsoid; /* NULL: the scalar functions */
 } splat_way;
 
-static const splat_way ways[] = {
-    [FFD_ISA_SCALAR] = {NULL, NULL},
-#ifdef FFD_X86
-    [FFD_ISA_SSE2] = {ffd_turn_kernel_sse2, ffd_ellipsoid_kernel_sse2},
-    [FFD_ISA_AVX2] = {ffd_turn_kernel_avx2, ffd_ellipsoid_kernel_avx2},
-    [FFD_ISA_AVX512] = {ffd_turn_kernel_avx512, ffd_ellipsoid_kernel_avx512},
-#endif
-};
+#define ROW(ISA, set, lanes) [FFD_ISA_##ISA] = {ffd_turn_kernel_##set, ffd_ellipsoid_kernel_##set},
+static const splat_way ways[] = {[FFD_ISA_SCALAR] = {NULL, NULL}, FOR_EACH_SIMD(ROW)};
 
 /* Number of splats in a call of a kernel. */
 #define RUN ((size_t)256)

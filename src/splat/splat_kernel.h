@@ -3,6 +3,7 @@
 #ifndef FFD_SPLAT_SPLAT_KERNEL_H
 #define FFD_SPLAT_SPLAT_KERNEL_H
 
+#include "base/vector/isa.h"
 #include "splat/splat_types.h"
 #include <stddef.h>
 #include <stdint.h>
@@ -18,10 +19,11 @@ typedef void turn_kernel(const double *gradients, size_t count, splat_turn *turn
 typedef void ellipsoid_kernel(const double *gradients, const splat_turn *turns, const splat_form *form,
                               size_t count, splat_ellipsoid *splats, uint8_t *outcomes);
 
-#ifdef FFD_X86
-turn_kernel ffd_turn_kernel_sse2, ffd_turn_kernel_avx2, ffd_turn_kernel_avx512;
-ellipsoid_kernel ffd_ellipsoid_kernel_sse2, ffd_ellipsoid_kernel_avx2, ffd_ellipsoid_kernel_avx512;
-#endif
+#define DECLARE(ISA, set, lanes)                                                                             \
+    turn_kernel ffd_turn_kernel_##set;                                                                       \
+    ellipsoid_kernel ffd_ellipsoid_kernel_##set;
+FOR_EACH_SIMD(DECLARE)
+#undef DECLARE
 
 /* Upper bound of the rounding errors in the gradient of a lattice that neither rotates nor stretches. */
 #define STILL 0x1p-48

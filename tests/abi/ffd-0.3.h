@@ -477,6 +477,7 @@ typedef struct ffd_deform_desc {
     ffd_output_list *output_list;
     bool (*progress)(void *user, double done);
     void *progress_user;
+    const int *cancel;
 } ffd_deform_desc;
 void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size);
 ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *desc, ffd_error *error);
@@ -678,6 +679,7 @@ typedef struct ffd_batch_desc {
     bool quiet;
     bool verbose;
     bool is_program;
+    const int *cancel;
 } ffd_batch_desc;
 void ffd_batch_desc_init(ffd_batch_desc *desc, size_t size);
 ffd_status ffd_batch_desc_check(const ffd_batch_desc *desc, ffd_error *error);

@@ -21,7 +21,7 @@
 #define MOST_RUNS 99
 #define KERNEL_BATCH ((size_t)128) /* in and out, they fit the nearest cache */
 
-static const char *const names[] = {"auto", "scalar", "sse2", "avx2", "avx512"};
+static const char *const names[] = {"auto", "scalar", "sse2", "avx2", "avx512", "neon"};
 
 typedef struct sample {
     ffd_lattice *lattice;
@@ -115,14 +115,8 @@ static void begin_cell(const sample *s, one_cell *one)
     ffd_displacement_cell_begin(s->lattice, number, use, one->numbers, &one->cell);
 }
 
-static displacement_kernel *const kernels[] = {
-    [FFD_ISA_SCALAR] = ffd_kernel_scalar,
-#ifdef FFD_X86
-    [FFD_ISA_SSE2] = ffd_kernel_sse2,
-    [FFD_ISA_AVX2] = ffd_kernel_avx2,
-    [FFD_ISA_AVX512] = ffd_kernel_avx512,
-#endif
-};
+#define ROW(ISA, set, lanes) [FFD_ISA_##ISA] = ffd_kernel_##set,
+static displacement_kernel *const kernels[] = {[FFD_ISA_SCALAR] = ffd_kernel_scalar, FOR_EACH_SIMD(ROW)};
 
 /* Points [0, count) of a batch. */
 static void run_kernel_once(sample *s, const one_cell *one, size_t count)
@@ -242,7 +236,7 @@ static void print_limits(sample *s, int runs)
 static void print_rates(sample *s, void (*run)(sample *), const char *what, int runs)
 {
     printf("%s, millions a second\n", what);
-    for (s->isa = FFD_ISA_SCALAR; s->isa <= FFD_ISA_AVX512; s->isa++) {
+    for (s->isa = FFD_ISA_SCALAR; s->isa <= FFD_ISA_NEON; s->isa++) {
         if (!ffd_isa_available(s->isa))
             continue;
         printf("  %-7s", names[s->isa]);

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The Snakefile of data/: every mesh of a folder is deformed, and again those that have changed, no others."""
+import base64
 import functools
 import json
 import os
@@ -83,6 +84,8 @@ def build(run):
     return sorted(name for name, stamp in stamps().items() if before.get(name) != stamp)
 
 
+# One pixel.
+PICTURE = "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="
 ALL = ["a.obj", "b c.obj", "d.bin", "d.gltf"]
 
 
@@ -104,6 +107,31 @@ def only_what_has_changed_is_deformed_again(run):
     equal(build(run), ALL, "the lattice has changed")
     run.write("w/in/e.obj", CUBE)
     equal(build(run), ["e.obj"], "a new mesh")
+
+
+@case
+def what_a_mesh_brings_along_is_seen(run):
+    """Two meshes have one texture, and one of them a material library: inputs, and outputs that others can ask for."""
+    work(run)
+    asset, data = gltf_json([[0, 0, 0], [1, 0, 0], [0, 1, 0]], uri="a%20b.bin")
+    asset["images"] = [{"uri": "wood.png"}]
+    run.write("w/in/d.gltf", asset)
+    run.write("w/in/m.obj", "mtllib m.mtl\n" + CUBE)
+    run.write("w/in/m.mtl", "newmtl a\nmap_Kd wood.png\n")
+    picture = base64.b64decode(PICTURE)
+    run.write("w/in/wood.png", picture)
+    everything = sorted([*ALL, "m.mtl", "m.obj", "wood.png"])
+    equal(build(run), everything)
+    equal(build(run), [], "nothing has changed")
+    run.write("w/in/wood.png", picture + b"x")
+    equal(build(run), ["d.bin", "d.gltf", "m.obj", "wood.png"], "the texture has changed")
+    equal(build(run), [], "nothing has changed again")
+    equal(run.read("w/out/wood.png"), picture + b"x")
+    run.remove("w/out/m.mtl")
+    equal(build(run), ["m.mtl", "m.obj"], "a copy is missing")
+    run.write("w/in/m.mtl", "newmtl a\nmap_Kd wood.png\nmap_Ks other.png\n")
+    run.write("w/in/other.png", picture)
+    equal(build(run), ["m.mtl", "m.obj", "other.png"], "a new texture")
 
 
 @case

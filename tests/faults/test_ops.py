@@ -49,6 +49,13 @@ def ops_05_threads_and_workers_follow_affinity(run):
 
 
 QUIET = {"err": lambda said: None}
+NOTE = re.compile(r"ffd-copy 2\n[0-9a-f]{32}\n(.*)", re.S)
+
+
+def notes(run):
+    """Name -> the copy that it is of."""
+    folder = run.path("cache/ffd")
+    return {name: NOTE.fullmatch(run.read("cache/ffd/" + name).decode())[1] for name in os.listdir(folder) if name.startswith("copy-")}
 
 
 def start_edits(run):
@@ -67,6 +74,28 @@ def edit(run, by="x"):
 def check_copies(run):
     for name in ("m.mtl", "wood.png"):
         equal(run.read("out/" + name), run.read(name), name)
+
+
+@case
+def ops_09_notes_of_copies_that_are_gone_are_removed(run):
+    """By the next new note, among those of the same two digits; those of copies that are there stay, whatever else changes."""
+    start_edits(run)
+    run.ffd("deform", "m.obj", "out/m.obj", "-l", "twist.json", "--resources", "refresh", "--force")
+    kept = notes(run)
+    equal(list(kept.values()), [os.path.realpath(run.path("out/m.mtl"))], "what is noted")
+    for n in range(256):
+        run.write(f"cache/ffd/copy-{n:02x}{'0' * 30}", f"ffd-copy 2\n{'0' * 32}\n" + run.path("gone.png"))
+        run.write(f"cache/ffd/copy-{n:02x}{'1' * 30}", "another version" if n % 2 else "")
+        run.write(f"cache/ffd/copy-{n:02x}.journal", "of somebody else")
+    os.mkdir(run.path("new"))
+    run.ffd("deform", "box.gltf", "new/box.gltf", "-l", "twist.json")
+    (made,) = (name for name, copy in ((name, run.read("cache/ffd/" + name).decode()) for name in os.listdir(run.path("cache/ffd")))
+               if copy.endswith("new/wood.png"))
+    left = set(os.listdir(run.path("cache/ffd")))
+    check(set(kept) <= left, "a note whose copy is there is removed")
+    gone = {f"copy-{n:02x}{digit * 30}" for n in range(256) for digit in "01"} - left
+    equal(gone, {f"{made[:7]}{digit * 30}" for digit in "01"}, "the notes that were removed")
+    check(all(f"copy-{n:02x}.journal" in left for n in range(256)), "a file that is no note is removed")
 
 
 @case

@@ -3,10 +3,10 @@
 
     test_architectures.py BUILD-FOLDER FFD
 
-Every source of the build folder is compiled for arm64 as it is delivered, and for armhf, whose addresses have 32 bits and
-whose doubles lie at multiples of 8. Of other libraries only headers are needed, those of this machine: the program is linked
-with the one module that needs no more, tinygltf. It does the runs of golden.json, and converts, under qemu. What is read
-only (-fsyntax-only), where its compiler is installed: i386, ppc64el, riscv64, s390x.
+Every source of the build folder is compiled for armhf, whose addresses have 32 bits and whose doubles lie at multiples of 8.
+Of other libraries only headers are needed, those of this machine: the program is linked with the one module that needs no
+more, tinygltf. It does the runs of golden.json, and converts, under qemu. (arm64 is built whole: tests/run.sh.) What is read
+only (-fsyntax-only), where its compiler is installed: the other architectures of Debian.
 """
 
 import concurrent.futures
@@ -27,7 +27,7 @@ ROOT = os.path.dirname(os.path.dirname(golden.HERE))
 MODELS = os.path.join(golden.DATA, "models")
 
 # Compilers for a machine, what runs its programs, and options as in meson.build.
-RUN = {"aarch64-linux-gnu": ("qemu-aarch64", ["-O3"]), "arm-linux-gnueabihf": ("qemu-arm", ["-O2"])}
+RUN = {"arm-linux-gnueabihf": ("qemu-arm", ["-O2"])}
 READ = {"i686-linux-gnu": ["-msse2", "-mfpmath=sse"], "powerpc64le-linux-gnu": [], "riscv64-linux-gnu": [],
         "s390x-linux-gnu": []}
 

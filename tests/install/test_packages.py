@@ -140,6 +140,14 @@ def needs_of_pkg_config(packages, findings):
             findings.append(f"libffd-dev does not depend on {owner}, whose {name}.pc it needs")
 
 
+def notices_of_libraries(packages, findings):
+    """Each package has code of others in it."""
+    for name, path in packages.items():
+        content = stage.run(["dpkg-deb", "--contents", path])
+        findings += [f"{name} lacks the notice {text} of what is compiled into it" for text in ("draco", "tinygltf", "nlohmann_json", "libxxhash")
+                     if not re.search(rf" \./usr/share/doc/{re.escape(name)}/licenses/{text}\.txt(\.gz)?$", content, re.M)]
+
+
 def run_in_clean_root(folder, packages):
     """Returns the folder with what the check left."""
     tool = ["sh", os.path.join(stage.ROOT, "tests", "install", "bare_root.sh")]
@@ -176,6 +184,7 @@ def check_packages(folder, source, environment, ffd, findings):
     version = stage.run([ffd, "--version"]).split()[1]
     findings += [f"{path} is not of version {version}" for path in packages.values() if f"_{version}-" not in path]
     needs_of_pkg_config(packages, findings)
+    notices_of_libraries(packages, findings)
     (changes,) = glob.glob(os.path.join(folder, "*.changes"))
     linted = subprocess.run(["lintian", "--allow-root", "--fail-on", "error", changes], text=True,
                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)

@@ -1,4 +1,4 @@
-// The classic script and the page of examples in Chromium, from file://: called with NODE-FOLDER BROWSER FOLDER, where FOLDER holds the
+// The classic script and the page of examples in Chromium or Firefox, from file://: called with NODE-FOLDER BROWSER FOLDER, where FOLDER holds the
 // package, and spot.obj with spot-out.obj, which the native program has made of it by lattice.json.
 import assert from 'node:assert/strict';
 import {readFileSync, writeFileSync} from 'node:fs';

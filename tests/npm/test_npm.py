@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The package for npm, as data/packaging/npm.sh has made it, unpacked below a folder node_modules.
 
-    test_npm.py FFD ROOT api|command|jobs|transform|page|types|files
+    test_npm.py FFD ROOT api|command|jobs|transform|page|firefox|types|files
 
 FFD_NPM names the package's file; without it these tests are skipped. FFD_NODE names the folder whose node_modules holds what a
 test takes from npm.
@@ -85,8 +85,8 @@ def run_types(package, folder):
                            "--module", "nodenext", "types.mts"], cwd=folder, check=False).returncode
 
 
-def run_page(package, folder, ffd, root):
-    node, browser = find_browser()
+def run_page(package, folder, ffd, root, names):
+    node, browser = find_browser(*names)
     shutil.copytree(package, os.path.join(folder, "package"))
     shutil.copy(os.path.join(root, "data/models/spot.obj"), folder)
     shutil.copy(os.path.join(root, "data/lattices/twist.json"), os.path.join(folder, "lattice.json"))
@@ -109,8 +109,8 @@ def main():
         elif what == "jobs":
             code = subprocess.run([sys.executable, os.path.join(HERE, "..", "release", "run_jobs.py"), "--every", "7", "--without", "batch",
                                    "node", os.path.join(package, "bin", "ffd-mesh.mjs")], check=False).returncode
-        elif what == "page":
-            code = run_page(package, folder, ffd, root)
+        elif what in ("page", "firefox"):
+            code = run_page(package, folder, ffd, root, ("firefox-esr",) if what == "firefox" else ())
         else:
             if what == "transform":
                 lend("@gltf-transform/core", package)

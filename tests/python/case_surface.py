@@ -13,6 +13,7 @@ import tempfile
 import unittest
 
 import ffd_mesh as ffd
+import numpy as np
 import support
 from ffd_mesh import _declarations, _library
 
@@ -78,6 +79,20 @@ class Declarations(unittest.TestCase):
         self.assertEqual([word.split()[0].split(">")[0] for word in meta.get_all("Requires-Dist")], ["numpy"])
         self.assertEqual(meta["Version"], ffd.__version__)
 
+    def test_what_the_page_needs_comes_with_it(self):
+        """The program by both of its names, the notices of all that is compiled in, and no link that leads nowhere."""
+        installed = importlib.metadata.distribution("ffd-mesh")
+        links = re.findall(r"\]\(([^)]+)\)", installed.metadata.get_payload())
+        self.assertEqual([link for link in links if not re.match("#|https?://", link)], [])
+        notices = [str(path) for path in installed.files if ".dist-info/licenses/" in str(path)]
+        for name in ("/LICENSE", "/THIRD-PARTY.md", "/draco.txt", "/tinygltf.txt", "/nlohmann_json.txt", "/libxxhash.txt"):
+            self.assertTrue(any(path.endswith(name) for path in notices), name)
+        mesh, lattice = (os.path.join(support.DATA, name) for name in ("models/spot.obj", "lattices/twist.json"))
+        for program in ([sys.executable, "-m", "ffd_mesh"], [os.path.join(os.path.dirname(sys.executable), "ffd")]):
+            with tempfile.TemporaryDirectory() as folder:
+                subprocess.run([*program, "batch", "--in", mesh, "-l", lattice, "--positions", "all.npy"], cwd=folder, check=True,
+                               capture_output=True)
+                self.assertEqual(np.load(os.path.join(folder, "all.npy")).shape, (1, ffd.info(mesh)["vertices"], 3))
 
     def test_arrays_need_no_other_library(self):
         script = ("import sys, numpy as np, ffd_mesh as ffd; lattice = ffd.Lattice.box((0, 0, 0), (1, 1, 1)); "

@@ -18,7 +18,7 @@ LAYERS = {
     "io/npy": {"base", "base/file", "base/memory"},
     "json": {"base", "base/memory", "base/text"},
     "splat": {"base", "base/vector"},
-    "mesh": {"base", "base/file", "base/memory", "base/text", "base/vector", "json", "splat"},
+    "mesh": {"base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "json", "splat"},
     "mesh/morph": {"base", "base/memory", "base/text", "json"},
     "mesh/meshopt": {"base", "base/system", "base/text"},
     "mesh/resource": {"base", "base/file", "base/memory", "base/system", "base/text", "mesh"},
@@ -51,15 +51,15 @@ LAYERS = {
     "io/obj": {
         "base", "base/file", "base/memory", "base/system", "base/text", "io/obj/resource", "io/text", "mesh",
     },
-    "io/off": {"base/file", "base/memory", "base/text", "io/text", "mesh"},
+    "io/off": {"base/file", "base/memory", "base/system", "base/text", "io/text", "mesh"},
     "io/ply": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/text", "mesh",
         "mesh/resource", "splat",
     },
-    "io/stl": {"base", "base/memory", "base/text", "base/vector", "io/text", "mesh"},
+    "io/stl": {"base", "base/memory", "base/system", "base/text", "base/vector", "io/text", "mesh"},
     "io": {"base", "base/file", "base/memory", "io/gltf", "io/obj", "io/off", "io/ply", "io/stl", "io/text", "mesh"},
     "io/write": {
-        "base", "base/file", "base/memory", "base/text", "base/vector", "io/gltf/file", "io/stl", "json",
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/file", "io/stl", "json",
         "mesh", "mesh/morph", "mesh/resource",
     },
     "view": {

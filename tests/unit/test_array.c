@@ -26,7 +26,7 @@ static double number(draw *d, bool finite)
 
 static const array_kernel *next_kernel(ffd_isa *isa)
 {
-    while (++*isa <= FFD_ISA_AVX512)
+    while (++*isa <= FFD_ISA_NEON)
         if (ffd_isa_available(*isa))
             return ffd_array_kernel(*isa);
     return NULL;

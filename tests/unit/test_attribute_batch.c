@@ -87,7 +87,7 @@ static void check_batch(draw *d, sample *s, size_t counts[3])
         draw_direction(d, s->normals + odd + 3 * i);
         s->points[i] = (uint32_t)(draw_int(d, 0, 2) ? i : (size_t)draw_int(d, 0, MOST - 1));
     }
-    for (ffd_isa isa = FFD_ISA_AUTO; isa <= FFD_ISA_AVX512; isa++) {
+    for (ffd_isa isa = FFD_ISA_AUTO; isa <= FFD_ISA_NEON; isa++) {
         if (!ffd_isa_available(isa))
             continue;
         memcpy(batch.directions, before, batch.count * batch.step * sizeof *before);

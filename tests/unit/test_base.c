@@ -1,4 +1,4 @@
-/* test_base.c - sizes, lower bounds, slots, buffers, words, paths, JSON text, messages, tiles. */
+/* test_base.c - sizes, lower bounds, slots, buffers, words, paths, JSON text, messages, tiles, sorting. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,7 +11,9 @@
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/memory/slots.h"
+#include "base/system/deadline.h"
 #include "base/system/processors.h"
+#include "base/system/sort.h"
 #include "base/system/thread.h"
 #include "base/text/buffer.h"
 #include "base/text/words.h"
@@ -386,6 +388,51 @@ static void tiles_are_finished_in_their_order(void **state)
     (void)state;
 }
 
+static int compare_numbers(const void *a, const void *b)
+{
+    const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return (x > y) - (x < y);
+}
+
+/* Returns count numbers of which none is there twice, in no order; 7919 is prime. */
+static uint32_t *shuffled(size_t count)
+{
+    uint32_t *const numbers = malloc((count + 1) * sizeof *numbers);
+    assert_non_null(numbers);
+    for (size_t i = 0; i < count; i++)
+        numbers[i] = (uint32_t)(i * 7919 % count);
+    return numbers;
+}
+
+static void many_items_are_sorted(void **state)
+{
+    static const size_t counts[] = {0, 1, 2, 32767, 32768, 32769, 65536, 65537, 100003, 200000};
+    (void)state;
+    for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
+        uint32_t *const numbers = shuffled(counts[c]);
+        assert_int_equal(ffd_sort(numbers, counts[c], sizeof *numbers, compare_numbers, NULL), FFD_OK);
+        for (size_t i = 0; i < counts[c]; i++)
+            assert_int_equal(numbers[i], i);
+        free(numbers);
+    }
+}
+
+static void a_sort_hears_a_cancel_and_lacks_memory(void **state)
+{
+    const int cancel = 1;
+    work_watch watch = {.cancel = &cancel};
+    deadline own;
+    uint32_t *const numbers = shuffled(100003);
+    (void)state;
+    const deadline *const before = ffd_deadline_begin(&own, 0, &watch);
+    assert_int_equal(ffd_sort(numbers, 100003, sizeof *numbers, compare_numbers, NULL), FFD_E_CANCELLED);
+    ffd_deadline_end(before);
+    ffd_alloc_fail_after(0);
+    assert_int_equal(ffd_sort(numbers, 100003, sizeof *numbers, compare_numbers, NULL), FFD_E_MEMORY);
+    ffd_alloc_fail_after(-1);
+    free(numbers);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -405,6 +452,8 @@ int main(void)
         cmocka_unit_test(the_last_up_to_a_key_is_the_first_where_all_are_beyond),
         cmocka_unit_test(tiles_visit_each_item_once),
         cmocka_unit_test(tiles_are_finished_in_their_order),
+        cmocka_unit_test(many_items_are_sorted),
+        cmocka_unit_test(a_sort_hears_a_cancel_and_lacks_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -119,7 +119,7 @@ static void without_the_program_there_is_no_batch(void **state)
     check_unsupported(folder, "is of another build than the library");
 }
 
-static void no_jobs_are_a_whole_batch(void **state)
+static void no_jobs_are_a_whole_batch_unless_it_is_cancelled(void **state)
 {
     ffd_batch_desc desc = described();
     ffd_batch_result result = {.struct_size = sizeof result};
@@ -131,6 +131,9 @@ static void no_jobs_are_a_whole_batch(void **state)
     assert_int_equal(run_with(folder, &desc, &result, NULL), FFD_OK);
     assert_true(result.is_complete);
     assert_int_equal(result.done + result.skipped + result.failed, 0);
+    const int cancel = 1;
+    desc.cancel = &cancel;
+    assert_int_equal(run_with(folder, &desc, &result, NULL), FFD_E_CANCELLED);
 }
 
 int main(void)
@@ -138,7 +141,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_does_not_fit_is_refused),
         cmocka_unit_test(without_the_program_there_is_no_batch),
-        cmocka_unit_test(no_jobs_are_a_whole_batch),
+        cmocka_unit_test(no_jobs_are_a_whole_batch_unless_it_is_cancelled),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -15,14 +15,9 @@
 
 #define MOST (4 * MAX_ORDER * MAX_ORDER * MAX_ORDER)
 
-static const contraction_kernel *const kernels[] = {
-    [FFD_ISA_SCALAR] = &ffd_contraction_kernel_scalar,
-#ifdef FFD_X86
-    [FFD_ISA_SSE2] = &ffd_contraction_kernel_sse2,
-    [FFD_ISA_AVX2] = &ffd_contraction_kernel_avx2,
-    [FFD_ISA_AVX512] = &ffd_contraction_kernel_avx512,
-#endif
-};
+#define ROW(ISA, set, lanes) [FFD_ISA_##ISA] = &ffd_contraction_kernel_##set,
+static const contraction_kernel *const kernels[] = {[FFD_ISA_SCALAR] = &ffd_contraction_kernel_scalar,
+                                                    FOR_EACH_SIMD(ROW)};
 
 /* A bent brick: the identity map, times weights, with every number perturbed. */
 static void random_box(draw *d, bezier_box *box, double bend)
@@ -109,7 +104,7 @@ static void check_kernels(const bezier_box *box, const double middle[3], const d
 {
     static double others[3 * MOST];
     const size_t size = 3 * ffd_bezier_size(box->order);
-    for (ffd_isa isa = FFD_ISA_SCALAR; isa <= FFD_ISA_AVX512; isa++) {
+    for (ffd_isa isa = FFD_ISA_SCALAR; isa <= FFD_ISA_NEON; isa++) {
         contraction_bound other;
         if (!ffd_isa_available(isa))
             continue;
@@ -158,7 +153,7 @@ static void what_has_no_bound_gets_none(void **state)
         const double point[4] = {i * 2.42e-308 + (1 - j) * 1.9, (1 - j) * 1.9, k, 1};
         memcpy(numbers + 4 * n, point, sizeof point);
     }
-    for (ffd_isa isa = FFD_ISA_SCALAR; isa <= FFD_ISA_AVX512; isa++) {
+    for (ffd_isa isa = FFD_ISA_SCALAR; isa <= FFD_ISA_NEON; isa++) {
         if (!ffd_isa_available(isa))
             continue;
         kernels[isa]->find_bound(&box, zero, zero, columns, &found);

@@ -87,10 +87,9 @@ static void the_bounds_of_a_turned_cell(void **state)
             half[i] = own[i] = (double)draw_bits(&d) / 0x1p64;
         for (int corner = 0; corner < 8; corner++)
             for (int r = 0; r < 3; r++) {
-                double x = 0;
-                for (int c = 0; c < 3; c++)
-                    x += linear[3 * r + c] * (corner >> c & 1 ? own[c] : -own[c]);
-                most[r] = fmax(most[r], x);
+                const double x = corner & 1 ? own[0] : -own[0], y = corner & 2 ? own[1] : -own[1],
+                             z = corner & 4 ? own[2] : -own[2];
+                most[r] = fmax(most[r], linear[3 * r] * x + linear[3 * r + 1] * y + linear[3 * r + 2] * z);
             }
         ffd_rounding_transform(linear, half);
         for (int r = 0; r < 3; r++)

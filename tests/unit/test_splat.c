@@ -298,7 +298,7 @@ static void check_isa(ffd_isa isa, const splat_form *form, const double *gradien
 static void all_instruction_sets_give_the_same_bits(void **state)
 {
     (void)state;
-    static const ffd_isa sets[] = {FFD_ISA_SSE2, FFD_ISA_AVX2, FFD_ISA_AVX512};
+    static const ffd_isa sets[] = {FFD_ISA_SSE2, FFD_ISA_AVX2, FFD_ISA_AVX512, FFD_ISA_NEON};
     uint32_t seed = 7;
     const int rounds = is_memory_checked() ? 4 : 40; /* each form at least once */
     for (int round = 0; round < rounds; round++) {

@@ -1,5 +1,6 @@
 /* test_turns.c - no point at which a displacement turns space inside out is passed over: moves are scaled
-   until det F falls just below 0 at some of the points, which are those of a cell or of a small box. */
+   until det F falls just below 0 at some of the points, which are those of a small box, of a cell, or of
+   several cells of one or more blocks. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,44 +17,91 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LATTICES 600
+#define LATTICES 1000
 #define POINTS 48
+#define GRIDS 20
 
 typedef struct sample {
-    double uvw[3 * POINTS], delta[3 * POINTS], gradient[9 * POINTS];
-    double rest_gradient[9 * POINTS]; /* with the moves as drawn */
-    uint8_t moves[POINTS];
-    uint32_t which[POINTS];
+    size_t count;
+    double uvw[3 * DISPLACEMENT_BATCH], delta[3 * DISPLACEMENT_BATCH], gradient[9 * DISPLACEMENT_BATCH];
+    double rest_gradient[9 * DISPLACEMENT_BATCH]; /* with the moves as drawn */
+    uint8_t moves[DISPLACEMENT_BATCH];
+    uint32_t which[DISPLACEMENT_BATCH];
     turn_list turns;
     displacement_scratch scratch;
 } sample;
 
-/* Clamped; a box, or bent. Of some, whole layers move, all in one direction: bounds of quadratic ones are
-   exact then. */
-static ffd_lattice *random_lattice(draw *d, bool is_box)
+static void set_count(size_t count, sample *s)
+{
+    s->count = count;
+    for (size_t n = 0; n < count; n++)
+        s->which[n] = (uint32_t)n;
+}
+
+/* How the control points of a random lattice move. */
+typedef struct random_moves {
+    int layers; /* the direction along which whole layers move, all by multiples of one vector; -1: each point
+                   moves by itself */
+    int rows, row; /* a row of the layers, which alone moves if row is not negative; across which direction */
+    double by[3], steps[64];
+} random_moves;
+
+static random_moves draw_moves(draw *d)
+{
+    random_moves moves = {.layers = draw_int(d, -1, 2), .row = draw_int(d, -2, 2)};
+    moves.rows = (moves.layers + draw_int(d, 1, 2)) % 3;
+    for (int a = 0; a < 3; a++)
+        moves.by[a] = draw_between(d, -1, 1);
+    const int lone = draw_int(d, -2, 1); /* the only layer that moves */
+    for (int i = 0; i < 64; i++)
+        moves.steps[i] = lone < 0 || i == lone ? draw_between(d, -1, 1) : 0;
+    return moves;
+}
+
+static double draw_move(draw *d, const random_moves *moves, const size_t index[3], size_t a)
+{
+    if (moves->layers < 0)
+        return draw_between(d, -1, 1);
+    const bool rests = moves->row >= 0 && index[moves->rows] != (size_t)moves->row;
+    return rests ? 0 : moves->steps[index[moves->layers]] * moves->by[a];
+}
+
+/* Returns a lattice without control points: clamped, or closed along direction closed. Along layers, of which
+   bounds are exact if they are quadratic, it has more cells. */
+static ffd_lattice *random_knots(draw *d, int layers, int closed)
 {
     knot_vector knots[3];
-    const int layers = draw_int(d, -1, 2);
-    const double direction[3] = {draw_between(d, -1, 1), draw_between(d, -1, 1), draw_between(d, -1, 1)};
-    double steps[16];
-    for (size_t i = 0; i < 16; i++)
-        steps[i] = draw_between(d, -1, 1);
     for (int a = 0; a < 3; a++) {
         const int degree = layers >= 0 ? 2 : draw_int(d, 0, 2) ? 3 : draw_int(d, 1, 5);
-        const size_t points = (size_t)(degree + 1 + draw_int(d, 0, 3));
-        assert_int_equal(ffd_knots_make(KNOTS_CLAMPED, degree, points, NULL, 0, "uvw"[a], &knots[a], NULL),
+        const int most = a != layers ? 3 : a == closed ? 50 : 9;
+        const size_t points = (size_t)(degree + 1 + draw_int(d, 0, most));
+        assert_int_equal(ffd_knots_make(a == closed ? KNOTS_CLOSED : KNOTS_CLAMPED, degree, points, NULL, 0,
+                                        "uvw"[a], &knots[a], NULL),
                          FFD_OK);
     }
-    ffd_lattice *lattice = lattice_of_knots(knots);
+    return lattice_of_knots(knots);
+}
+
+/* A box, or bent, or a ring. */
+static ffd_lattice *random_lattice(draw *d, bool is_box, const random_moves *moves)
+{
+    const int closed = is_box ? -1 : draw_int(d, 0, 1) ? moves->layers : draw_int(d, -3, 2);
+    ffd_lattice *lattice = random_knots(d, moves->layers, closed);
     const double bend = is_box || draw_int(d, 0, 1) ? 0 : draw_between(d, 0, 0.3);
     for (size_t n = 0; n < lattice->count; n++) {
         const size_t index[3] = {n % lattice->size[0], n / lattice->size[0] % lattice->size[1],
                                  n / lattice->size[0] / lattice->size[1]};
+        double at[3] = {(double)index[0], (double)index[1], (double)index[2]};
+        if (closed >= 0) {
+            const int across = (closed + 1) % 3;
+            const double angle = 2 * acos(-1) * at[closed] / (double)lattice->size[closed];
+            const double radius = 3 + at[across];
+            at[closed] = radius * sin(angle);
+            at[across] = radius * cos(angle);
+        }
         for (size_t a = 0; a < 3; a++) {
-            lattice->rest[3 * n + a] = (double)index[a] + draw_between(d, -bend, bend);
-            lattice->deformed[3 * n + a] =
-                lattice->rest[3 * n + a] +
-                (layers >= 0 ? steps[index[layers]] * direction[a] : draw_between(d, -1, 1));
+            lattice->rest[3 * n + a] = at[a] + draw_between(d, -bend, bend);
+            lattice->deformed[3 * n + a] = lattice->rest[3 * n + a] + draw_move(d, moves, index, a);
         }
     }
     if (is_box) {
@@ -66,19 +114,24 @@ static ffd_lattice *random_lattice(draw *d, bool is_box)
     return lattice;
 }
 
-/* Points in a box of some size in one cell, neighbours mostly beside each other. */
-static void random_points(draw *d, const ffd_lattice *lattice, sample *s)
+/* Points in a box of some size in one cell, or in a row of cells along the layers, often the last ones;
+   neighbours mostly beside each other. */
+static void random_points(draw *d, const ffd_lattice *lattice, int layers, sample *s)
 {
     const double size = ldexp(1, -draw_int(d, 0, 6));
-    for (size_t a = 0; a < 3; a++) {
+    const bool is_row = layers >= 0 && draw_int(d, 0, 1);
+    for (int a = 0; a < 3; a++) {
         const knot_vector *const knots = &lattice->knots[a];
-        const double *const t = knots->t + knots->spans[draw_int(d, 0, (int)knots->span_count - 1)];
-        const double side = size * (t[1] - t[0]), first = draw_between(d, t[0], t[1] - side);
+        const int last = (int)knots->span_count - 1,
+                  span = is_row && draw_int(d, 0, 1) ? last : draw_int(d, 0, last);
+        const bool is_along = is_row && a == layers;
+        const double begin = knots->t[knots->spans[!is_along ? span : span > 7 ? span - 7 : 0]];
+        const double end = knots->t[knots->spans[span] + 1];
+        const double side = (is_along ? 1 : size) * (end - begin), first = draw_between(d, begin, end - side);
         for (size_t n = 0; n < POINTS; n++)
-            s->uvw[3 * n + a] = draw_between(d, first, first + side);
+            s->uvw[3 * n + (size_t)a] = draw_between(d, first, first + side);
     }
-    for (size_t n = 0; n < POINTS; n++)
-        s->which[n] = (uint32_t)n;
+    set_count(POINTS, s);
 }
 
 static double determinant_of(const double gradient[9], double scale)
@@ -93,7 +146,7 @@ static double determinant_of(const double gradient[9], double scale)
 static double turning_scale(const sample *s)
 {
     for (double scale = 0.01; scale < 30; scale *= 1.005)
-        for (size_t n = 0; n < POINTS; n++)
+        for (size_t n = 0; n < s->count; n++)
             if (determinant_of(s->rest_gradient + 9 * n, scale) < 0)
                 return scale;
     return 0;
@@ -113,19 +166,19 @@ static void check_points(const ffd_lattice *lattice, ffd_isa isa, sample *s)
     const displacement_batch batch = {.uvw = s->uvw,
                                       .stride = 3 * sizeof *s->uvw,
                                       .which = s->which,
-                                      .count = POINTS,
+                                      .count = s->count,
                                       .delta = s->delta,
                                       .gradient = s->gradient,
                                       .turns = &s->turns,
                                       .only_turns = true,
                                       .moves = s->moves};
-    bool is_listed[POINTS] = {false};
+    bool is_listed[DISPLACEMENT_BATCH] = {false};
     s->turns.count = 0;
     ffd_displacement_scratch_clear(&s->scratch);
     ffd_displacements(lattice, isa, &batch, &s->scratch);
     for (size_t k = 0; k < s->turns.count; k++)
         is_listed[s->turns.points[k]] = true;
-    for (size_t n = 0; n < POINTS; n++) {
+    for (size_t n = 0; n < s->count; n++) {
         double delta[3], gradient[9];
         ffd_displacement(lattice, s->uvw + 3 * n, delta, gradient);
         const bool turns = determinant_of(gradient, 1) < 0;
@@ -142,8 +195,9 @@ static void no_turn_is_passed_over(void **state)
     sample *s = calloc(1, sizeof *s);
     assert_non_null(s);
     for (int i = 0; i < repetitions(LATTICES); i++) {
-        ffd_lattice *lattice = random_lattice(&d, i % 2);
-        random_points(&d, lattice, s);
+        const random_moves moves = draw_moves(&d);
+        ffd_lattice *lattice = random_lattice(&d, i % 2, &moves);
+        random_points(&d, lattice, moves.layers, s);
         for (size_t n = 0; n < POINTS; n++)
             ffd_displacement(lattice, s->uvw + 3 * n, s->delta, s->rest_gradient + 9 * n);
         const double scale = turning_scale(s);
@@ -152,7 +206,42 @@ static void no_turn_is_passed_over(void **state)
             check_points(lattice, FFD_ISA_AUTO, s);
             scale_moves(lattice, 0.7); /* of what it was last */
             check_points(lattice, i % 3 ? FFD_ISA_AUTO : FFD_ISA_SCALAR, s);
+            scale_moves(lattice, draw_between(&d, 2, 9)); /* whole cells may turn */
+            check_points(lattice, FFD_ISA_AUTO, s);
         }
+        ffd_lattice_destroy(&lattice);
+    }
+    free(s);
+    assert_true((found > 0 && passed_over > 0) || is_memory_checked());
+    (void)state;
+}
+
+/* A lattice of many blocks, all with points; a few control points beside each other move much. */
+static void no_block_is_taken_for_another(void **state)
+{
+    draw d = {draw_seed()};
+    sample *s = calloc(1, sizeof *s);
+    assert_non_null(s);
+    found = passed_over = 0;
+    for (int i = 0; i < repetitions(GRIDS); i++) {
+        const lattice_kinds kinds = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {2, 2, 2}, {10, 12, 11}};
+        ffd_lattice *lattice = lattice_of_kinds(&kinds);
+        const int first[3] = {draw_int(&d, 0, 9), draw_int(&d, 0, 11), draw_int(&d, 0, 10)};
+        for (size_t n = 0; n < lattice->count; n++) {
+            const int index[3] = {(int)(n % 10), (int)(n / 10 % 12), (int)(n / 120)};
+            bool is_moved = true;
+            for (int a = 0; a < 3; a++)
+                is_moved = is_moved && index[a] - first[a] >= 0 && index[a] - first[a] < 2;
+            for (size_t a = 0; a < 3; a++) {
+                lattice->rest[3 * n + a] = index[a];
+                lattice->deformed[3 * n + a] = index[a] + draw_between(&d, -1, 1) * (is_moved ? 4 : 0.05);
+            }
+        }
+        assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
+        set_count(DISPLACEMENT_BATCH, s);
+        for (size_t k = 0; k < 3 * s->count; k++)
+            s->uvw[k] = draw_between(&d, 0, 1);
+        check_points(lattice, FFD_ISA_AUTO, s);
         ffd_lattice_destroy(&lattice);
     }
     free(s);
@@ -162,6 +251,7 @@ static void no_turn_is_passed_over(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(no_turn_is_passed_over)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(no_turn_is_passed_over),
+                                       cmocka_unit_test(no_block_is_taken_for_another)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,14 +1,16 @@
-// What the tests of pages share, which are called with NODE-FOLDER BROWSER FOLDER: Chromium, and pages that are watched.
+// What the tests of pages share, which are called with NODE-FOLDER BROWSER FOLDER: Chromium or Firefox, and pages that are watched.
 import assert from 'node:assert/strict';
 import {createRequire} from 'node:module';
-import {join} from 'node:path';
+import {basename, join} from 'node:path';
 
 const [nodeFolder, executablePath] = process.argv.slice(2);
-const {chromium} = createRequire(join(nodeFolder, 'node_modules', 'x'))('playwright-core');
+const {chromium, firefox} = createRequire(join(nodeFolder, 'node_modules', 'x'))('playwright-core');
 
 export const folder = process.argv[4];
 
+// args: of Chromium.
 export function launch(args = []) {
+  if (basename(executablePath).startsWith('firefox')) return firefox.launch({executablePath, channel: 'moz-firefox'});
   return chromium.launch({executablePath, args: ['--no-sandbox', ...args]});
 }
 

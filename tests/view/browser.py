@@ -1,4 +1,4 @@
-"""Chromium for the tests of pages: runs a script of this folder, or skips the test where something is missing."""
+"""Chromium, and Firefox, for the tests of pages: runs a script of this folder, or skips the test where something is missing."""
 
 import os
 import shutil
@@ -14,12 +14,13 @@ def skip(reason):
     sys.exit(SKIPPED)
 
 
-def find_browser():
-    """What the script is called with before its folder: FFD_NODE and the browser."""
+def find_browser(*names):
+    """What the script is called with before its folder: FFD_NODE and the browser, Chromium unless others are named."""
+    names = names or ("chromium", "chromium-browser")
     node_folder = os.environ.get("FFD_NODE", "")
-    browser = shutil.which("chromium") or shutil.which("chromium-browser")
+    browser = next(filter(None, map(shutil.which, names)), None)
     if not shutil.which("node") or not browser:
-        skip("node or chromium is not there")
+        skip(f"node or {names[0]} is not there")
     if not os.path.isdir(os.path.join(node_folder, "node_modules", "playwright-core")):
         skip("playwright-core is not installed (tests/run.sh installs it)")
     return [node_folder, browser]

@@ -2,6 +2,7 @@
 #include "base/file/input.h"
 #include "base/file/path.h"
 #include <stdlib.h>
+#include <unistd.h>
 
 char *ffd_cache_folder(void)
 {
@@ -12,4 +13,9 @@ char *ffd_cache_folder(void)
     if (home && *home && ffd_file_exists(home))
         return ffd_path_join(home, ".cache/ffd");
     return local && *local ? ffd_path_join(local, "ffd") : NULL;
+}
+
+void ffd_cache_remove(const char *path)
+{
+    (void)unlink(path);
 }

@@ -5,17 +5,22 @@
 #define FFD_BASE_SYSTEM_DEADLINE_H
 
 #include "base/fail.h"
-#include <stdatomic.h>
 #include <stdbool.h>
+#include <stddef.h>
 
-/* A caller who watches the work. Set progress and user, and all others to 0. */
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A caller who watches the work. Set the first three, and all others to 0. */
 typedef struct work_watch {
-    bool (*progress)(void *user, double done); /* NULL: nobody watches; false: the work is cancelled */
+    bool (*progress)(void *user, double done); /* may be NULL; false: the work is cancelled */
     void *user;
+    const int *cancel;  /* may be NULL; not 0: the work is cancelled; other threads may set it */
     const void *thread; /* which calls progress */
     double next;        /* when it is called next */
     double done;        /* fraction of the work */
-    atomic_bool is_cancelled;
+    int is_cancelled;   /* atomic, as *cancel */
 } work_watch;
 
 typedef struct deadline {
@@ -31,6 +36,12 @@ const deadline *ffd_deadline_begin(deadline *own, double seconds, work_watch *wa
 /* Ends the deadline. */
 void ffd_deadline_end(const deadline *before);
 
+/* Whether a number that other threads may set is not 0: the public headers have no type for that. */
+static inline bool ffd_flag_is_set(const int *flag)
+{
+    return __atomic_load_n(flag, __ATOMIC_RELAXED) != 0;
+}
+
 /* Returns the deadline of the calling thread, NULL: none. */
 const deadline *ffd_deadline_get(void);
 /* Sets it in a thread that was started. */
@@ -43,7 +54,24 @@ void ffd_deadline_done(double done);
 bool ffd_deadline_passed(void);
 /* Fails if it has. Errors: FFD_E_LIMIT, FFD_E_CANCELLED. */
 ffd_status ffd_deadline_check(ffd_error *error);
+/* The same in a loop over very many things, of which this is number i: looks now and then. */
+static inline bool ffd_deadline_passed_at(size_t i)
+{
+    return i % 8192 == 0 && ffd_deadline_passed();
+}
+
+static inline ffd_status ffd_deadline_check_at(size_t i, ffd_error *error)
+{
+    return i % 8192 == 0 ? ffd_deadline_check(error) : FFD_OK;
+}
+
+/* For a module (module.h), which has a copy of this: from now on it asks the program, by this function. */
+void ffd_deadline_ask(ffd_status (*check)(ffd_error *error));
 /* Returns the milliseconds until the deadline must be looked at, at least 0, for poll; -1: there is none. */
 int ffd_deadline_left(void);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -1,6 +1,7 @@
 #define _GNU_SOURCE /* RTLD_DEEPBIND, RTLD_DEFAULT, MAP_ANONYMOUS */
 #include "base/system/module.h"
 #include "base/spelling.h"
+#include "base/system/deadline.h"
 #include "base/system/own_file.h"
 #include "base/system/thread_local.h"
 #include <dlfcn.h>
@@ -88,6 +89,7 @@ static ffd_status open_module(const module *of, const module_head **head, ffd_er
     *head = dlsym(handle, MODULE_SYMBOL);
     if (*head && is_wanted(&(*head)->identity, &of->wanted)) {
         (*head)->spell_members(ffd_spelling());
+        (*head)->ask(ffd_deadline_check);
         return FFD_OK;
     }
     const ffd_status status = refuse_module(path, *head ? &(*head)->identity : NULL, of, error);

@@ -23,6 +23,7 @@ typedef struct module_head {
     module_identity identity;
     void (*prepare)(void); /* each thread must call it while memory is available; NULL: not needed */
     void (*spell_members)(ffd_spell_function); /* the module has messages of its own: ffd_spell_members */
+    void (*ask)(ffd_status (*check)(ffd_error *error)); /* and loops that take long: ffd_deadline_ask */
 } module_head;
 
 /* A module that can be loaded. */

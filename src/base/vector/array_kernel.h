@@ -30,9 +30,9 @@ typedef struct array_kernel {
 } array_kernel;
 
 extern const array_kernel ffd_array_kernel_scalar;
-#ifdef FFD_X86
-extern const array_kernel ffd_array_kernel_sse2, ffd_array_kernel_avx2, ffd_array_kernel_avx512;
-#endif
+#define DECLARE(ISA, set, lanes) extern const array_kernel ffd_array_kernel_##set;
+FOR_EACH_SIMD(DECLARE)
+#undef DECLARE
 
 /* Returns the table of an instruction set; FFD_ISA_AUTO: of the best available one. */
 const array_kernel *ffd_array_kernel(ffd_isa isa);

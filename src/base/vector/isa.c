@@ -80,6 +80,9 @@ bool ffd_isa_available(ffd_isa isa)
         return HAS(AVX2);
     case FFD_ISA_AVX512:
         return HAS(AVX512F) && HAS(AVX512DQ) && HAS(AVX512VL);
+#elif defined(FFD_ARM64)
+    case FFD_ISA_NEON:
+        return true;
 #endif
     default:
         return false;
@@ -89,7 +92,7 @@ bool ffd_isa_available(ffd_isa isa)
 ffd_isa ffd_isa_best(void)
 {
     ffd_isa best = FFD_ISA_SCALAR;
-    for (ffd_isa isa = FFD_ISA_SSE2; isa <= FFD_ISA_AVX512; isa++)
+    for (ffd_isa isa = FFD_ISA_SSE2; isa <= FFD_ISA_NEON; isa++)
         if (ffd_isa_available(isa))
             best = isa;
     return best;
@@ -97,6 +100,6 @@ ffd_isa ffd_isa_best(void)
 
 const char *ffd_isa_name(ffd_isa isa)
 {
-    static const char *const names[] = {"auto", "scalar", "sse2", "avx2", "avx512"};
+    static const char *const names[] = {"auto", "scalar", "sse2", "avx2", "avx512", "neon"};
     return (unsigned)isa < sizeof names / sizeof *names ? names[isa] : "unknown";
 }

@@ -4,6 +4,16 @@
 
 #include <ffd/isa.h>
 
+/* FOR_EACH_SIMD(X) is X(ISA, NAME, LANES) for each instruction set with SIMD that this build has kernels for:
+   declarations and tables follow from it. LANES: doubles in a register. */
+#ifdef FFD_X86
+#define FOR_EACH_SIMD(X) X(SSE2, sse2, 2) X(AVX2, avx2, 4) X(AVX512, avx512, 8)
+#elif defined(FFD_ARM64)
+#define FOR_EACH_SIMD(X) X(NEON, neon, 2)
+#else
+#define FOR_EACH_SIMD(X)
+#endif
+
 /* Returns the widest instruction set that is available; never FFD_ISA_AUTO. */
 ffd_isa ffd_isa_best(void);
 

@@ -8,8 +8,10 @@
 #include <stdint.h>
 #include <string.h>
 #if FFD_LANES > 1
-#ifdef __wasm_simd128__
+#if defined(__wasm_simd128__)
 #include <wasm_simd128.h>
+#elif defined(__aarch64__)
+#include <arm_neon.h>
 #else
 #include <immintrin.h>
 #endif
@@ -85,6 +87,10 @@ static ALWAYS_INLINE quad quad_magnitude(const quad *a)
 /* Named by its other operand: if neither is larger, the result is the first one. */
 #define QUAD_LARGER(a, b) wasm_f64x2_pmax(b, a)
 #define QUAD_LESSER(a, b) wasm_f64x2_pmin(b, a)
+#elif defined(__aarch64__)
+/* fmax and fmin order 0 and -0, and return NaN for NaN: a comparison chooses. */
+#define QUAD_LARGER(a, b) vbslq_f64(vcgtq_f64(a, b), a, b)
+#define QUAD_LESSER(a, b) vbslq_f64(vcltq_f64(a, b), a, b)
 #elif FFD_LANES == 2
 #define QUAD_LARGER(a, b) _mm_max_pd(a, b)
 #define QUAD_LESSER(a, b) _mm_min_pd(a, b)

@@ -2,6 +2,7 @@
 #ifndef FFD_EMBED_CELLS_CELL_KERNEL_H
 #define FFD_EMBED_CELLS_CELL_KERNEL_H
 
+#include "base/vector/isa.h"
 #include "embed/frame/bezier_box.h"
 #include "lattice/lattice.h"
 
@@ -27,8 +28,8 @@ typedef void cell_kernel(const cell_basis *basis, const int order[3], const cell
                          homogeneous *result);
 
 cell_kernel ffd_cell_kernel_scalar;
-#ifdef FFD_X86
-cell_kernel ffd_cell_kernel_sse2, ffd_cell_kernel_avx2, ffd_cell_kernel_avx512;
-#endif
+#define DECLARE(ISA, set, lanes) cell_kernel ffd_cell_kernel_##set;
+FOR_EACH_SIMD(DECLARE)
+#undef DECLARE
 
 #endif

@@ -84,14 +84,10 @@ typedef struct kernel_set {
     size_t lanes; /* of the region kernel */
 } kernel_set;
 
+#define ROW(ISA, set, lanes)                                                                                 \
+    [FFD_ISA_##ISA] = {ffd_cell_kernel_##set, &ffd_contraction_kernel_##set, ffd_region_kernel_##set, lanes},
 static const kernel_set kernels[] = {
-    [FFD_ISA_SCALAR] = {ffd_cell_kernel_scalar, &ffd_contraction_kernel_scalar, NULL, 0},
-#ifdef FFD_X86
-    [FFD_ISA_SSE2] = {ffd_cell_kernel_sse2, &ffd_contraction_kernel_sse2, ffd_region_kernel_sse2, 2},
-    [FFD_ISA_AVX2] = {ffd_cell_kernel_avx2, &ffd_contraction_kernel_avx2, ffd_region_kernel_avx2, 4},
-    [FFD_ISA_AVX512] = {ffd_cell_kernel_avx512, &ffd_contraction_kernel_avx512, ffd_region_kernel_avx512, 8},
-#endif
-};
+    [FFD_ISA_SCALAR] = {ffd_cell_kernel_scalar, &ffd_contraction_kernel_scalar, NULL, 0}, FOR_EACH_SIMD(ROW)};
 
 static void choose_kernels(cell_search *cells, ffd_isa isa)
 {

@@ -2,6 +2,7 @@
 #ifndef FFD_EMBED_CELLS_CONTRACTION_KERNEL_H
 #define FFD_EMBED_CELLS_CONTRACTION_KERNEL_H
 
+#include "base/vector/isa.h"
 #include "embed/frame/bezier_box.h"
 
 typedef struct contraction_bound {
@@ -23,9 +24,8 @@ typedef struct contraction_kernel {
 } contraction_kernel;
 
 extern const contraction_kernel ffd_contraction_kernel_scalar;
-#ifdef FFD_X86
-extern const contraction_kernel ffd_contraction_kernel_sse2, ffd_contraction_kernel_avx2,
-    ffd_contraction_kernel_avx512;
-#endif
+#define DECLARE(ISA, set, lanes) extern const contraction_kernel ffd_contraction_kernel_##set;
+FOR_EACH_SIMD(DECLARE)
+#undef DECLARE
 
 #endif

@@ -3,6 +3,7 @@
 #ifndef FFD_EMBED_CELLS_REGION_KERNEL_H
 #define FFD_EMBED_CELLS_REGION_KERNEL_H
 
+#include "base/vector/isa.h"
 #include "embed/cells/cell_kernel.h"
 #include "spline/basis.h"
 #include <stdint.h>
@@ -52,8 +53,8 @@ typedef struct region_lanes {
    instruction set; without SIMD, points are searched one by one. */
 typedef void region_kernel(const region_kernel_cell *cell, region_lanes *lanes);
 
-#ifdef FFD_X86
-region_kernel ffd_region_kernel_sse2, ffd_region_kernel_avx2, ffd_region_kernel_avx512;
-#endif
+#define DECLARE(ISA, set, lanes) region_kernel ffd_region_kernel_##set;
+FOR_EACH_SIMD(DECLARE)
+#undef DECLARE
 
 #endif

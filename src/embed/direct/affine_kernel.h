@@ -2,6 +2,7 @@
 #ifndef FFD_EMBED_DIRECT_AFFINE_KERNEL_H
 #define FFD_EMBED_DIRECT_AFFINE_KERNEL_H
 
+#include "base/vector/isa.h"
 #include "embed/frame/frame.h"
 
 /* The most points of a call. */
@@ -13,8 +14,8 @@
 typedef void affine_kernel(const ffd_locator *locator, const double *xyz, size_t count,
                            ffd_location *locations, uint8_t *found);
 
-#ifdef FFD_X86
-affine_kernel ffd_affine_kernel_sse2, ffd_affine_kernel_avx2, ffd_affine_kernel_avx512;
-#endif
+#define DECLARE(ISA, set, lanes) affine_kernel ffd_affine_kernel_##set;
+FOR_EACH_SIMD(DECLARE)
+#undef DECLARE
 
 #endif

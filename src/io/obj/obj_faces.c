@@ -199,7 +199,7 @@ static ffd_status fill_faces(const obj_document *d, mesh_faces *faces, ffd_error
     obj_face_corner corner;
     face_filler filler = {.faces = faces, .corners = d->corners};
     ffd_obj_document_walk_users(d, &walk);
-    while (ffd_obj_walk_next(&walk)) {
+    while (!filler.ends && ffd_obj_walk_next(&walk)) {
         if (walk.scan.keyword != OBJ_FACE)
             continue;
         ffd_filler_face(&filler);

@@ -1,5 +1,6 @@
 /* obj_model.c - an OBJ file as a model, for conversions. */
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/text/buffer.h"
 #include "io/obj/obj_faces.h"
 #include "io/obj/obj_number.h"
@@ -201,8 +202,10 @@ ffd_status ffd_obj_model(const mesh_document *document, mesh_state state, mesh_m
     TRY(ffd_model_begin_run(model, NULL, NULL, NULL, error));
     ffd_obj_document_walk(d, &e.walk);
     ffd_status status = FFD_OK;
-    while (ffd_obj_walk_next(&e.walk))
+    for (size_t i = 0; ffd_obj_walk_next(&e.walk); i++) {
+        TRY_END(ffd_deadline_check_at(i, error));
         TRY_END(take_statement(&e));
+    }
     TRY_END(ffd_model_finish(model, error));
     if (model->features & MODEL_HAS_MATERIAL_NAMES && e.has_library)
         model->features |= MODEL_HAS_MATERIALS;

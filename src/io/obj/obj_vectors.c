@@ -2,6 +2,7 @@
 /* obj_vectors.c - the blocks of a file with their positions and normals. */
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/system/thread.h"
 #include "io/obj/obj_number.h"
 #include "io/obj/resource/obj_linked.h"
@@ -155,7 +156,9 @@ static void read_tile(void *context, size_t tile, size_t first, size_t last, int
     if (!atomic_load(&r->is_over)) {
         ffd_file_prefault(block->first, (size_t)(block->last - block->first));
         block->plain = ffd_obj_is_plain(block->first, block->last);
-        content.status = read_block(r, first, &content, NULL);
+        content.status = ffd_deadline_check(NULL);
+        if (!content.status)
+            content.status = read_block(r, first, &content, NULL);
     }
     r->contents[worker] = content;
 }
@@ -252,6 +255,7 @@ static void join_tile(void *context, size_t tile, size_t first, size_t last, int
 static ffd_status find_failure(const reader *r, ffd_error *error)
 {
     block_content content = {0};
+    TRY(ffd_deadline_check(error));
     if (r->status == FFD_E_MEMORY)
         return ffd_fail_memory(error);
     const ffd_status status = read_block(r, r->failed, &content, error);

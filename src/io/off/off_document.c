@@ -1,5 +1,6 @@
 #include "io/off/off_document.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 
 static ffd_status refuse_number(const off_document *d, size_t line, const char *what, text_word word,
                                 ffd_error *error)
@@ -53,6 +54,7 @@ static ffd_status read_vertices(off_document *d, off_walk *walk, ffd_error *erro
         return ffd_fail_memory(error);
     for (size_t i = 0; i < d->header.vertices; i++) {
         off_vertex vertex;
+        TRY(ffd_deadline_check_at(i, error));
         if (!ffd_off_walk_vertex(walk, &vertex))
             return ffd_fail_line(error, FFD_E_INVALID, d->file.name, walk->scan.line,
                                  "the file ends after %zu of %zu vertices", i, d->header.vertices);

@@ -1,5 +1,6 @@
 /* off_faces.c - reads the faces of an OFF file, and passes them on. */
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/text/words.h"
 #include "io/off/off_document.h"
 #include "io/text/vectors.h"
@@ -58,6 +59,7 @@ ffd_status ffd_off_read_faces(off_document *d, off_walk *walk, ffd_error *error)
     if (!d->file.used)
         return ffd_fail_memory(error);
     for (size_t i = 0; i < d->header.faces; i++) {
+        TRY(ffd_deadline_check_at(i, error));
         if (!ffd_off_walk_face(walk))
             return ffd_fail_line(error, FFD_E_INVALID, d->file.name, walk->scan.line,
                                  "the file ends after %zu of %zu faces", i, d->header.faces);
@@ -70,12 +72,12 @@ static ffd_status fill_faces(const off_document *d, mesh_faces *faces, ffd_error
 {
     off_walk walk = d->faces_begin;
     face_filler filler = {.faces = faces, .corners = d->corners};
-    for (size_t i = 0; i < d->header.faces; i++) {
+    for (size_t i = 0; i < d->header.faces && !filler.ends; i++) {
         const size_t corners = ffd_off_walk_face_size(&walk);
         const bool polygon = corners != 1 && corners != 2;
         if (polygon)
             ffd_filler_face(&filler);
-        for (size_t c = 0; c < corners && !filler.has_other_number; c++) {
+        for (size_t c = 0; c < corners && !filler.ends; c++) {
             const uint32_t index = ffd_off_walk_corner_index(&walk);
             if (polygon)
                 ffd_filler_corner(&filler, index);

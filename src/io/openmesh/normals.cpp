@@ -1,4 +1,5 @@
 #include "io/openmesh/normals.h"
+#include "base/system/deadline.h"
 #include "base/vector/vec.h"
 #include "io/openmesh/surface.h"
 #include "mesh/polygon.h"
@@ -130,7 +131,7 @@ void find_directions(const mesh_faces &faces, const uint32_t *groups, size_t gro
     s.add_faces(faces);
     face_terms terms(faces, s);
     array<group_sum> sums(group_count);
-    for (size_t f = 0; f < s.mesh.n_faces(); f++) {
+    for (size_t f = 0; f < s.mesh.n_faces() && !ffd_deadline_passed_at(f); f++) {
         if (!terms.read(half_edge_mesh::FaceHandle(static_cast<int>(f))))
             continue;
         for (size_t i = 0; i < terms.count(); i++) {
@@ -158,9 +159,10 @@ ffd_status ffd_normals_of_groups(const mesh_faces *faces, const double *position
             mesh_faces placed = *faces;
             placed.positions = const_cast<double *>(positions); /* only read */
             const ffd_status status = check(placed, error);
-            if (status == FFD_OK)
-                find_directions(placed, groups, group_count, mirrored, directions);
-            return status;
+            if (status != FFD_OK)
+                return status;
+            find_directions(placed, groups, group_count, mirrored, directions);
+            return ffd_deadline_check(error);
         },
         "the normals", error);
 }

@@ -10,7 +10,7 @@
 
 #define OPENMESH_IDENTITY                                                                                    \
     {                                                                                                        \
-        "ffd-openmesh.so", FFD_VERSION, 2                                                                    \
+        "ffd-openmesh.so", FFD_VERSION, 3                                                                    \
     }
 
 typedef struct openmesh_module {

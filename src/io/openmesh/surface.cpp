@@ -1,4 +1,5 @@
 #include "io/openmesh/surface.h"
+#include "base/system/deadline.h"
 #include <climits>
 #include <stdexcept>
 
@@ -88,7 +89,7 @@ size_t surface::add_faces(const mesh_faces &faces)
 {
     array<size_t> seen_in(faces.vertex_count); /* per vertex: the last face with it, counted from 1 */
     size_t degenerate = 0;
-    for (size_t f = 0; f < faces.face_count; f++) {
+    for (size_t f = 0; f < faces.face_count && !ffd_deadline_passed_at(f); f++) {
         size_t distinct = 0;
         sources_.clear();
         indices_.clear();

@@ -1,4 +1,5 @@
 #include "io/openmesh/topology.h"
+#include "base/system/deadline.h"
 #include "io/openmesh/surface.h"
 #include <algorithm>
 #include <tuple>
@@ -190,9 +191,10 @@ ffd_status ffd_topology_compute(const mesh_faces *faces, mesh_topology *topology
     return guarded(
         [&] {
             const ffd_status status = check(*faces, error);
-            if (status == FFD_OK)
-                *topology = compute(*faces);
-            return status;
+            if (status != FFD_OK)
+                return status;
+            *topology = compute(*faces);
+            return ffd_deadline_check(error);
         },
         "the topology", error);
 }

@@ -1,6 +1,7 @@
 /* ply_faces.c - checks the faces of a PLY file, and passes them on. */
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "io/ply/ply_document.h"
 #include "io/ply/ply_walk.h"
 #include "io/text/vectors.h"
@@ -83,8 +84,10 @@ static ffd_status visit_strips(const ply_document *d, ply_triangle_visitor *visi
     if (!d->strip_corners)
         return FFD_OK;
     ffd_ply_document_walk(d, d->strips, &r.walk);
-    for (uint64_t row = 0; row < d->strips->count; row++)
+    for (uint64_t row = 0; row < d->strips->count; row++) {
+        TRY(ffd_deadline_check_at((size_t)row, error));
         TRY(read_strip_row(&r, row));
+    }
     return FFD_OK;
 }
 
@@ -268,6 +271,7 @@ static ffd_status read_rows(face_reader *r)
     for (uint64_t face = 0; face < d->face->count; face++) {
         uint32_t corners[PLY_PLAIN_CORNERS];
         size_t count;
+        TRY(ffd_deadline_check_at((size_t)face, r->error));
         if (!is_plain || !read_plain_face(&plain, &r->walk, corners, &count))
             TRY(read_face(r, face));
         else if (!take_plain(r, corners, count))

@@ -1,5 +1,6 @@
 /* ply_model.c - a PLY file as a model, for conversions. */
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "io/ply/ply_document.h"
 #include "io/ply/ply_textures.h"
 #include <string.h>
@@ -103,6 +104,7 @@ static ffd_status take_vertices(extractor *e)
     ply_walk walk;
     ffd_ply_document_walk(d, d->vertex, &walk);
     for (size_t row = 0; row < d->file.part.vertex_count; row++) {
+        TRY(ffd_deadline_check_at(row, e->error));
         ffd_ply_walk_row(&walk);
         for (size_t i = 0; i < d->vertex->property_count; i++) {
             const ply_property *property = &d->vertex->properties[i];

@@ -1,4 +1,5 @@
 #include "io/ply/ply_walk.h"
+#include "base/system/deadline.h"
 #include <inttypes.h>
 #include <string.h>
 
@@ -190,8 +191,10 @@ static ffd_status check_rows(row_checker *c)
         c->walk.at += c->element->count * c->element->least;
         return FFD_OK;
     }
-    for (c->row = 0; c->row < c->element->count; c->row++)
+    for (c->row = 0; c->row < c->element->count; c->row++) {
+        TRY(ffd_deadline_check_at((size_t)c->row, c->error));
         TRY(check_row(c));
+    }
     return FFD_OK;
 }
 

@@ -1,6 +1,7 @@
 #include "io/stl/stl_document.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/text/words.h"
 #include "io/text/content.h"
 #include <float.h>
@@ -125,6 +126,7 @@ static ffd_status read_text(stl_document *d, ffd_error *error)
     TRY(ffd_file_document_note_mark(&d->file, ffd_text_size(d->file.input.data, d->file.input.size), error));
     ffd_stl_text_begin(&text, d->file.input.data, d->file.input.size, &d->file.base.flaws);
     while (found) {
+        TRY(ffd_deadline_check_at(d->facets, error));
         TRY(ffd_stl_text_next(&text, d->file.name, &facet, &found, error));
         if (found)
             TRY(add_facet(d, &facet, &capacity, error));

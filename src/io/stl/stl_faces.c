@@ -1,10 +1,10 @@
 /* stl_faces.c - the faces of an STL file. Corners at the same position count as one vertex, because otherwise
    the topology would be that of separate triangles. The first corner there represents all. */
 #include "base/memory/memory.h"
+#include "base/system/sort.h"
 #include "io/stl/stl_document.h"
 #include "mesh/mixed_faces.h"
 #include "mesh/positions.h"
-#include <stdlib.h>
 #include <string.h>
 
 /* The bits of a position (-0 becomes 0), and the number of its vertex. */
@@ -67,10 +67,13 @@ ffd_status ffd_stl_faces(const mesh_document *document, mesh_state state, mesh_f
     for (size_t i = 0; i <= d->facets; i++)
         faces->start[i] = 3 * i;
     fill_keys(faces->positions, vertices, keys);
-    qsort(keys, vertices, sizeof *keys, compare_keys);
-    join_corners(faces, keys);
+    const ffd_status status = ffd_sort(keys, vertices, sizeof *keys, compare_keys, error);
+    if (status)
+        ffd_mesh_faces_free(faces);
+    else
+        join_corners(faces, keys);
     ffd_free(keys);
-    return FFD_OK;
+    return status;
 }
 
 /* Whether a vertex has any mark. */

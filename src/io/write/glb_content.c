@@ -97,7 +97,7 @@ static void put_vertex(gltf_writer *w, const glb_primitive *primitive, const mod
 static void put_indices(gltf_writer *w, const glb_primitive *primitive)
 {
     const uint32_t *indices = w->plan.indices + primitive->first_index;
-    for (size_t i = 0; i < primitive->index_count; i++) {
+    for (size_t i = 0; i < primitive->index_count && w->sink.status == FFD_OK; i++) {
         unsigned char bytes[4];
         store_u32(bytes, indices[i]);
         put_bytes(w, bytes, glb_has_short_indices(primitive) ? 2 : 4);
@@ -124,7 +124,7 @@ static bool has_view(const gltf_writer *w, const glb_primitive *primitive, int v
 
 static void put_vertices(gltf_writer *w, const glb_primitive *primitive, int view, size_t morph)
 {
-    for (size_t v = 0; v < primitive->vertex_count; v++)
+    for (size_t v = 0; v < primitive->vertex_count && w->sink.status == FFD_OK; v++)
         put_vertex(w, primitive, &w->plan.vertices[primitive->first_vertex + v], view, morph);
 }
 

@@ -1,9 +1,10 @@
 #include "io/write/glb_plan.h"
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
+#include "base/system/sort.h"
 #include "io/write/glb_values.h"
 #include "mesh/model_triangles.h"
-#include <stdlib.h>
 #include <string.h>
 
 /* Bytes of a corner in the plan, and of a run with its mesh and its text. */
@@ -61,6 +62,7 @@ static ffd_status join_values(planner *p, size_t count, value_reader *read, size
     for (size_t i = 0; i < count; i++) {
         uint32_t index;
         const size_t known = values.count;
+        TRY_END(ffd_deadline_check_at(i, p->error));
         (*indices)[i] = MODEL_NONE;
         if (!read(p->model, (uint32_t)i, value))
             continue;
@@ -140,8 +142,10 @@ static ffd_status assign_run(planner *p, size_t r)
         return ffd_fail_memory(p->error);
     for (key.kind = 0; key.kind < MODEL_KINDS; key.kind++) {
         const size_t last = model_run_end(p->model, r, (model_kind)key.kind);
-        for (size_t i = run->first[key.kind]; i < last; i++)
+        for (size_t i = run->first[key.kind]; i < last; i++) {
+            TRY(ffd_deadline_check_at(i, p->error));
             TRY(assign_element(p, &key, i));
+        }
     }
     return FFD_OK;
 }
@@ -258,7 +262,7 @@ static ffd_status number_vertices(planner *p, glb_primitive *primitive, size_t d
         plan->vertex_count += drawn;
         return FFD_OK;
     }
-    qsort(vertices, drawn, sizeof *vertices, compare_corners);
+    TRY(ffd_sort(vertices, drawn, sizeof *vertices, compare_corners, p->error));
     size_t kept = 0;
     for (size_t i = 0; i < drawn; i++)
         if (i == 0 || compare_corners(vertices + i, vertices + kept - 1) != 0)
@@ -268,8 +272,10 @@ static ffd_status number_vertices(planner *p, glb_primitive *primitive, size_t d
     if (kept > UINT32_MAX - 1)
         return ffd_fail(p->error, FFD_E_LIMIT,
                         "a mesh would have %zu vertices, more than 32-bit indices can number", kept);
-    for (size_t i = 0; i < drawn; i++)
+    for (size_t i = 0; i < drawn; i++) {
+        TRY(ffd_deadline_check_at(i, p->error));
         plan->indices[plan->index_count++] = find_vertex(vertices, kept, p->sorted + i);
+    }
     return FFD_OK;
 }
 
@@ -300,8 +306,10 @@ static ffd_status make_vertices(planner *p)
         glb_primitive *primitive = &plan->primitives[i];
         size_t drawn = 0;
         primitive->first_index = plan->index_count;
-        for (size_t e = 0; e < primitive->elements; e++)
+        for (size_t e = 0; e < primitive->elements; e++) {
+            TRY(ffd_deadline_check_at(e, p->error));
             TRY(draw(p, primitive, p->elements[primitive->kind][at[primitive->kind]++], &drawn));
+        }
         TRY(number_vertices(p, primitive, drawn));
     }
     model_corner *block = ffd_realloc(plan->vertices, plan->vertex_count, sizeof *block);

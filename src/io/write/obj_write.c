@@ -5,19 +5,19 @@
 
 static void write_values(model_sink *sink, const mesh_model *model)
 {
-    for (size_t i = 0; i < model->position_count; i++) {
+    for (size_t i = 0; i < model->position_count && sink->status == FFD_OK; i++) {
         ffd_sink_text(sink, "v");
         ffd_sink_numbers(sink, model->positions + 3 * i, 3);
         if (model->colours)
             ffd_sink_numbers(sink, model->colours + 4 * i, 3);
         ffd_sink_text(sink, "\n");
     }
-    for (size_t i = 0; i < model->texcoord_count; i++) {
+    for (size_t i = 0; i < model->texcoord_count && sink->status == FFD_OK; i++) {
         ffd_sink_text(sink, "vt");
         ffd_sink_numbers(sink, model->texcoords + 2 * i, 2);
         ffd_sink_text(sink, "\n");
     }
-    for (size_t i = 0; i < model->normal_count; i++) {
+    for (size_t i = 0; i < model->normal_count && sink->status == FFD_OK; i++) {
         ffd_sink_text(sink, "vn");
         ffd_sink_numbers(sink, model->normals + 3 * i, 3);
         ffd_sink_text(sink, "\n");
@@ -72,7 +72,7 @@ static void write_elements(model_sink *sink, const mesh_model *model, size_t run
 {
     static const char *const keywords[MODEL_KINDS] = {"f", "l", "p"};
     const size_t last = model_run_end(model, run, kind);
-    for (size_t i = model->runs[run].first[kind]; i < last; i++) {
+    for (size_t i = model->runs[run].first[kind]; i < last && sink->status == FFD_OK; i++) {
         size_t count;
         const model_corner *corners = model_element(&model->lists[kind], i, &count);
         ffd_sink_text(sink, keywords[kind]);

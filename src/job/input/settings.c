@@ -12,7 +12,7 @@ static const char *const normals_words[] = {"transform", "keep", "recompute", NU
 static const char *const space_words[] = {"scene", "mesh", NULL};
 static const char *const rig_words[] = {"keep", "follow", NULL};
 static const char *const resources_words[] = {"copy", "reference", "refresh", NULL};
-static const char *const isa_words[] = {"auto", "scalar", "sse2", "avx2", "avx512", NULL};
+static const char *const isa_words[] = {"auto", "scalar", "sse2", "avx2", "avx512", "neon", NULL};
 static const char *const format_words[] = {"auto", "obj", "gltf", "glb", "ply", "off", "stl", NULL};
 
 static const char *const gate_words[] = {"folds", "outside", "multiple", "singular", "invalid", "tear",
@@ -53,6 +53,7 @@ static const ffd_member members[] = {
     {"make_folders", NULL, FFD_MEMBER_FLAG, AT(make_folders), 0, NULL, FFD_MEMBER_IS_IDLE},
     {"output_list", NULL, FFD_MEMBER_OBJECT, AT(output_list), 0, NULL, FFD_MEMBER_IS_IDLE},
     {"progress", NULL, FFD_MEMBER_OBJECT, AT(progress), 0, NULL, FFD_MEMBER_IS_IDLE},
+    {"cancel", NULL, FFD_MEMBER_OBJECT, AT(cancel), 0, NULL, FFD_MEMBER_IS_IDLE},
     {"depfile", NULL, FFD_MEMBER_OBJECT, AT(depfile), 0, NULL, FFD_MEMBER_IS_IDLE},
     {"positions", NULL, FFD_MEMBER_OBJECT, AT(positions), 0, NULL, 0},
     {"timeout", "timeout", FFD_MEMBER_TIME, AT(timeout), 0, NULL, FFD_MEMBER_IS_IDLE},

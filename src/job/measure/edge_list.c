@@ -1,5 +1,6 @@
 #include "job/measure/edge_list.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include <string.h>
 
 #define DIGITS 8 /* bytes of a key */
@@ -19,7 +20,8 @@ static size_t list_sides(const mesh_faces *faces, uint64_t *keys)
     return count;
 }
 
-/* LSD radix sort by bytes; skips a byte that all keys share. Returns the sorted array: keys or scratch. */
+/* LSD radix sort by bytes; skips a byte that all keys share, and ends at the deadline. Returns the sorted
+ * array: keys or scratch. */
 static uint64_t *radix_sort(uint64_t *keys, uint64_t *scratch, size_t count)
 {
     size_t histogram[DIGITS][RADIX];
@@ -27,7 +29,7 @@ static uint64_t *radix_sort(uint64_t *keys, uint64_t *scratch, size_t count)
     for (size_t i = 0; i < count; i++)
         for (int d = 0; d < DIGITS; d++)
             histogram[d][keys[i] >> (8 * d) & (RADIX - 1)]++;
-    for (int d = 0; d < DIGITS && count; d++) {
+    for (int d = 0; d < DIGITS && count && !ffd_deadline_passed(); d++) {
         size_t next[RADIX], sum = 0;
         if (histogram[d][keys[0] >> (8 * d) & (RADIX - 1)] == count)
             continue;
@@ -61,7 +63,7 @@ ffd_status ffd_edges_sort(edge_list *edges, ffd_error *error)
     uint64_t *const sorted = radix_sort(edges->keys, scratch, edges->count);
     ffd_free(sorted == edges->keys ? scratch : edges->keys);
     *edges = (edge_list){sorted, drop_repeats(sorted, edges->count)};
-    return FFD_OK;
+    return ffd_deadline_check(error);
 }
 
 ffd_status ffd_edges_collect(const mesh_faces *faces, edge_list *edges, ffd_error *error)

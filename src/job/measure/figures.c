@@ -1,5 +1,6 @@
 #include "job/measure/figures.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/text/words.h"
 #include "io/openmesh/half_edges.h"
 #include "job/figures/figure_values.h"
@@ -96,6 +97,7 @@ static ffd_status read_faces(const deform_job *job, mesh_state state, figure_arr
     return FFD_OK;
 end:
     ffd_mesh_faces_free(&arrays->faces);
+    TRY(ffd_deadline_check(error));
     if (needs_faces(job) || status == FFD_E_MEMORY) {
         if (error)
             *error = own;
@@ -170,9 +172,11 @@ ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_j
     measure_extent(job, arrays, result);
     if (!ffd_selection_is_all(job->document))
         TRY(ffd_selection_reduce(job->document, &arrays->faces, error));
+    TRY(ffd_deadline_check(error));
     result->has_flipped = true;
     result->faces = arrays->faces.face_count;
     result->flipped_faces = ffd_quality_flipped(&arrays->faces, arrays->deformed, arrays->gradients);
+    TRY(ffd_deadline_check(error));
     if (!wants_edges(job))
         return FFD_OK;
     TRY(ffd_quality_edges(job->document, ffd_job_judged(job), &arrays->faces, arrays->deformed, &job->chain,

@@ -1,6 +1,7 @@
 #include "job/pass/normal_groups.h"
 #include "base/memory/memory.h"
 #include "base/memory/slots.h"
+#include "base/system/deadline.h"
 #include "base/vector/vec.h"
 #include "io/openmesh/normals.h"
 #include "job/pass/vertex_transform.h"
@@ -108,7 +109,8 @@ static void read_normals(grouping *g, const size_t *first_vertices)
     double *values = g->values;
     for (size_t i = 0; i < g->document->part_count; i++) {
         const mesh_part *part = &g->document->parts[i];
-        for (size_t at = 0; at < part->vertex_count && part->normal_count; at += BLOCK)
+        for (size_t at = 0; at < part->vertex_count && part->normal_count && !ffd_deadline_passed();
+             at += BLOCK)
             read_block(g, i, at, part->vertex_count - at < BLOCK ? part->vertex_count - at : BLOCK,
                        g->sides + first_vertices[i], values);
         values += 3 * part->normal_count;
@@ -164,7 +166,7 @@ static uint32_t find_or_add(grouping *g, size_t corner)
 static void join_corners(grouping *g)
 {
     const size_t corners = g->faces->start[g->faces->face_count];
-    for (size_t c = 0; c < corners; c++) {
+    for (size_t c = 0; c < corners && !ffd_deadline_passed_at(c); c++) {
         const uint32_t normal = g->corners[c];
         if (normal == MESH_NO_NORMAL || g->sides[g->faces->corners[c]] == SIDE_SINGULAR)
             continue;
@@ -235,11 +237,14 @@ static ffd_status make(grouping *g, ffd_error *error)
     ffd_status status;
     TRY_END(read_corners(g, error));
     read_normals(g, first_vertices);
+    TRY_END(ffd_deadline_check(error));
     join_corners(g);
+    TRY_END(ffd_deadline_check(error));
     g->groups->outcomes = ffd_alloc_zero(g->groups->group_count, 1);
     if (!g->groups->outcomes)
         TRY_END(ffd_fail_memory(error));
     touch_groups(g);
+    TRY_END(ffd_deadline_check(error));
     if (drop_kept(g))
         TRY_END(find_directions(g, error));
 end:

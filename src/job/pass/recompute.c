@@ -1,5 +1,6 @@
 #include "job/pass/recompute.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/vector/vec.h"
 #include "deform/attribute.h"
 #include "job/pass/normal_groups.h"
@@ -127,7 +128,7 @@ static void recompute_run(recomputing *r, size_t first, size_t from, size_t to, 
 static void recompute_part(recomputing *r)
 {
     const mesh_part *part = &r->document->parts[r->part];
-    for (size_t first = 0; first < part->vertex_count; first += BLOCK) {
+    for (size_t first = 0; first < part->vertex_count && !ffd_deadline_passed(); first += BLOCK) {
         const size_t last = part->vertex_count - first < BLOCK ? part->vertex_count : first + BLOCK;
         size_t from = part->normal_start ? part->normal_start[first] : first, vertex = first;
         const size_t end = part->normal_start ? part->normal_start[last] : last;
@@ -151,7 +152,7 @@ static ffd_status recompute_parts(recomputing *r, ffd_error *error)
         r->first_normal += part->normal_count;
     }
     ffd_free(first_vertices);
-    return FFD_OK;
+    return ffd_deadline_check(error);
 }
 
 ffd_status ffd_recompute_normals(mesh_document *document, mesh_state state, const mesh_faces *faces,

@@ -428,7 +428,7 @@ static ffd_status view_in_time(ffd_view_desc *desc, ffd_deform_desc *job, ffd_jo
     ffd_source deformed;
     job_memory memory = {0};
     deadline own;
-    work_watch watch = {.progress = job->progress, .user = job->progress_user};
+    work_watch watch = {.progress = job->progress, .user = job->progress_user, .cancel = job->cancel};
     const deadline *const before = ffd_deadline_begin(&own, job->timeout, &watch);
     ffd_status status;
     TRY_END(take_memory(&memory, desc, &deformed, job, &result->error));

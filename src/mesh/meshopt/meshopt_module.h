@@ -10,7 +10,7 @@
 
 #define MESHOPT_IDENTITY                                                                                     \
     {                                                                                                        \
-        "ffd-meshopt.so", FFD_VERSION, 4                                                                     \
+        "ffd-meshopt.so", FFD_VERSION, 5                                                                     \
     }
 
 typedef struct meshopt_module {

@@ -1,5 +1,6 @@
 #include "mesh/resource/copy_notes.h"
 #include "base/file/cache_folder.h"
+#include "base/file/folder.h"
 #include "base/file/input.h"
 #include "base/file/output.h"
 #include "base/file/path.h"
@@ -10,10 +11,14 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A note: a word, and the hash in 32 digits. */
-#define WORD "ffd-copy 1\n"
+/* A note: a word, the hash in 32 digits, and the copy's path. */
+#define WORD "ffd-copy 2\n"
 #define DIGITS "%016" PRIx64 "%016" PRIx64
 enum { NOTE = sizeof WORD - 1 + 33 };
+
+/* Its name: a word, and digits. */
+#define NAME "copy-"
+enum { NAME_SIZE = sizeof NAME - 1 + 32, CLEANED_SIZE = sizeof NAME - 1 + 2 };
 
 static void format_note(const hash128 *hash, char note[NOTE + 1])
 {
@@ -24,42 +29,46 @@ static void format_note(const hash128 *hash, char note[NOTE + 1])
 static char *note_of(const char *copy)
 {
     const hash128 place = ffd_place_of(NULL, copy);
-    char name[60];
-    snprintf(name, sizeof name, "copy-" DIGITS, load_u64(place.bytes), load_u64(place.bytes + 8));
+    char name[NAME_SIZE + 1];
+    snprintf(name, sizeof name, NAME DIGITS, load_u64(place.bytes), load_u64(place.bytes + 8));
     char *const folder = ffd_cache_folder(), *const path = folder ? ffd_path_join(folder, name) : NULL;
     ffd_free(folder);
     return path;
 }
 
-static bool read_note(const char *path, hash128 *hash)
+/* Returns the path in a note; NULL: there is no note, or memory runs out. Freed with ffd_free. */
+static char *read_note(const char *path, hash128 *hash)
 {
     file_input bytes;
-    char note[NOTE + 1];
+    char note[NOTE + 1] = "";
     uint64_t halves[2];
     if (!ffd_file_exists(path) || ffd_file_load(path, &bytes, NULL))
-        return false;
-    const bool has_size = bytes.size == NOTE;
-    if (has_size)
+        return NULL;
+    char *const copy = bytes.size > NOTE ? ffd_alloc_zero(bytes.size - NOTE + 1, 1) : NULL;
+    if (copy) {
         memcpy(note, bytes.data, NOTE);
+        memcpy(copy, bytes.data + NOTE, bytes.size - NOTE);
+    }
     ffd_file_unload(&bytes);
-    note[NOTE] = 0;
-    if (!has_size || sscanf(note, WORD "%16" SCNx64 "%16" SCNx64, &halves[0], &halves[1]) != 2)
-        return false;
+    if (sscanf(note, WORD "%16" SCNx64 "%16" SCNx64, &halves[0], &halves[1]) != 2) {
+        ffd_free(copy);
+        return NULL;
+    }
     store_u64(hash->bytes, halves[0]);
     store_u64(hash->bytes + 8, halves[1]);
-    return true;
+    return copy;
 }
 
 static bool find_note(void *context, const char *copy, hash128 *hash)
 {
-    char *const path = note_of(copy);
-    const bool found = path && read_note(path, hash);
+    char *const path = note_of(copy), *const noted = path ? read_note(path, hash) : NULL;
     (void)context;
     ffd_free(path);
-    return found;
+    ffd_free(noted);
+    return noted;
 }
 
-static ffd_status write_note(const char *path, const hash128 *hash)
+static ffd_status write_note(const char *path, const char *copy, const hash128 *hash)
 {
     char note[NOTE + 1];
     file_output *output = NULL;
@@ -70,6 +79,7 @@ static ffd_status write_note(const char *path, const hash128 *hash)
     TRY_END(folder ? ffd_output_folder(output, folder, NULL) : FFD_E_MEMORY);
     TRY_END(ffd_output_begin(output, path, true, NULL));
     TRY_END(ffd_output_write(output, note, NOTE, NULL));
+    TRY_END(ffd_output_write(output, copy, strlen(copy), NULL));
     TRY_END(ffd_output_commit(output, NULL));
 end:
     ffd_output_destroy(&output);
@@ -77,13 +87,49 @@ end:
     return status;
 }
 
+/* Removes a note if its copy is gone, or it is not whole. */
+static void clean_note(const char *path)
+{
+    hash128 hash;
+    char *const copy = read_note(path, &hash);
+    if (!copy || !ffd_file_exists(copy))
+        ffd_cache_remove(path);
+    ffd_free(copy);
+}
+
+/* Removes the notes of copies that are gone, among those whose names begin as that of the new note: one in
+   256, so that many new notes look at each old one now and then. */
+static void clean_notes(const char *new_note)
+{
+    path_list names = {0};
+    char *const folder = ffd_path_folder(new_note);
+    const ffd_status status = folder ? ffd_folder_list(folder, &names, NULL) : FFD_E_MEMORY;
+    for (size_t i = 0; !status && i < names.count; i++) {
+        const char *const name = names.paths[i];
+        if (strncmp(name, ffd_path_name(new_note), CLEANED_SIZE) != 0 || strlen(name) != NAME_SIZE)
+            continue;
+        char *const path = ffd_path_join(folder, name);
+        if (path)
+            clean_note(path);
+        ffd_free(path);
+    }
+    ffd_paths_free(&names);
+    ffd_free(folder);
+}
+
 static void put_note(void *context, const char *copy, const hash128 *hash)
 {
     hash128 old;
-    char *const path = note_of(copy);
-    if (path && !(read_note(path, &old) && ffd_hash_equal(&old, hash)))
-        write_note(path, hash);
+    char *const path = note_of(copy), *const whole = ffd_path_resolve(copy);
+    char *const noted = path ? read_note(path, &old) : NULL;
     (void)context;
+    if (path && whole && !(noted && ffd_hash_equal(&old, hash))) {
+        write_note(path, whole, hash);
+        if (!noted)
+            clean_notes(path);
+    }
+    ffd_free(noted);
+    ffd_free(whole);
     ffd_free(path);
 }
 

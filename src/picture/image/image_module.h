@@ -9,7 +9,7 @@
 
 #define IMAGE_IDENTITY                                                                                       \
     {                                                                                                        \
-        "ffd-image.so", FFD_VERSION, 2                                                                       \
+        "ffd-image.so", FFD_VERSION, 3                                                                       \
     }
 
 typedef struct image_module {

@@ -18,7 +18,7 @@ AnyLattice = Union[Lattice, Path, bytes]
 Files = Union[Mapping[str, Any], Callable[[str], Any]]
 
 # The settings that have arguments of their own, or none.
-_ARGUMENTS = {"output", "lattices", "morphs", "in_place", "depfile", "positions", "output_list", "progress"}
+_ARGUMENTS = {"output", "lattices", "morphs", "in_place", "depfile", "positions", "output_list", "progress", "cancel"}
 # Option -> the library's entry for it: called as the member is, without "input.".
 _MEMBERS = {"input_format" if member.name == "input.format" else member.name.removeprefix("input."): member
             for member in library.members() if member.name not in _ARGUMENTS}

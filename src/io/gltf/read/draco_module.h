@@ -9,7 +9,7 @@
 
 #define DRACO_IDENTITY                                                                                       \
     {                                                                                                        \
-        "ffd-draco.so", FFD_VERSION, 2                                                                       \
+        "ffd-draco.so", FFD_VERSION, 3                                                                       \
     }
 
 typedef struct draco_module {

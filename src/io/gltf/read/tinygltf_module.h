@@ -9,7 +9,7 @@
 
 #define TINYGLTF_IDENTITY                                                                                    \
     {                                                                                                        \
-        "ffd-tinygltf.so", FFD_VERSION, 3                                                                    \
+        "ffd-tinygltf.so", FFD_VERSION, 4                                                                    \
     }
 
 typedef struct tinygltf_module {
