@@ -31,6 +31,12 @@ def line(number, **members):
 @case
 def what_has_ended_is_there(run):
     """While the run waits for more, and after it was killed; so was what a later job did while one before it runs."""
+    def has(read, count):
+        try:
+            return len(read()) >= count
+        except ValueError:  # systems may show a write that they are in the middle of
+            return False
+
     start(run)
     run.write("long.obj", CUBE * 200000)
     for name, read in (("r.json", lambda: report(run)), ("r.jsonl", lambda: entries(run, "r.jsonl"))):
@@ -40,10 +46,10 @@ def what_has_ended_is_there(run):
         for i in range(3):
             process.stdin.write(line(i))
             process.stdin.flush()
-            wait_until(lambda: len(read()) == i + 1, "it does not come")
+            wait_until(lambda: has(read, i + 1), "it does not come")
         process.stdin.write(line(7, **{"in": "long.obj"}) + line(8))
         process.stdin.flush()
-        wait_until(lambda: len(read()) >= 4, "it does not come")
+        wait_until(lambda: has(read, 4), "it does not come")
         process.kill()
         process.communicate(timeout=SECONDS)
         equal([e["output"] for e in read()][:4], ["o0.obj", "o1.obj", "o2.obj", "o8.obj"], name)
