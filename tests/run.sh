@@ -6,7 +6,8 @@
 #                                     or one tag (threads compilers text), or peers (other packages; fetches 280 MB)
 #     sh tests/run.sh --all           in a bare root of Debian 12: data/demo.sh, then this script, then its other stages (tests/install/all.sh)
 #     sh tests/run.sh --stages        the stages that only --all has: slow suites, release, clang with sanitizers, valgrind, fuzzing, npm, arm64, the wraps
-#     sh tests/run.sh --release       every artefact of data/packaging/release.sh, made twice: the same bytes, and the whole job list
+#     sh tests/run.sh --release       every artefact of data/packaging/release.sh, made twice: the same bytes, and the whole job list;
+#                                     as root also in bare roots, by the lines of the README
 #     sh tests/run.sh --soak          the gcc build, what takes hours, with other random numbers every time
 #     --keep                          keeps the build folders of the stages that only --all has, and its root
 # FFD_MODELS names a folder of sample models (default: shared/models beside the checkout); without it the tests
@@ -339,9 +340,11 @@ test_wraps() {
     done
 }
 
-# What is delivered, from the last commit, by two runs in folders of their own.
+# What is delivered, from the last commit, by two runs in folders of their own. The second one compiles all anew, as somebody else
+# elsewhere would.
 release_twice() {
-    sh "$root/data/packaging/release.sh" "$work/artefacts" && sh "$root/data/packaging/release.sh" "$work/artefacts-again" &&
+    sh "$root/data/packaging/release.sh" "$work/artefacts" &&
+        (umask 077 && TZ=Asia/Tokyo CCACHE_RECACHE=1 sh "$root/data/packaging/release.sh" "$work/artefacts-again") &&
         cmp "$work/artefacts/SHA256SUMS" "$work/artefacts-again/SHA256SUMS"
 }
 test_release() {
@@ -351,6 +354,14 @@ test_release() {
     for name in sums sbom wheel wheel-musl static npm source deb; do
         case_of release "$name" python3 "$root/tests/release/test_artefacts.py" "$work/artefacts" "$name"
     done
+    clock=$(date +%s)
+    if [ "$(id -u)" -eq 0 ]; then
+        case_of release roots python3 "$root/tests/release/test_roots.py" "$work/artefacts"
+        grep 'skipped: ' "$logs/release-roots.log" && skipped=$((skipped + 1))
+    else
+        skipped=$((skipped + 1))
+        say release 'skipped: only root can make bare roots'
+    fi
     sed 's/^/    /' "$work/artefacts/SHA256SUMS"
 }
 

@@ -3,7 +3,7 @@
 with their spread, and of the bars that they are to reach.
 
     bench.py --ffd PATH [--runs 5] [--side 1000] [--jobs 1000] [--threads N] [--only SUBJECT...] [--large GB]
-             [--blender PATH] [--python PATH] [--folder DIR] [--csv FILE]
+             [--blender PATH] [--python PATH] [--static PATH] [--folder DIR] [--csv FILE]
 
 The meshes are made first (at the default size a GLB of 48 MB and an OBJ of v, vt, vn and quads of about 160 MB).
 What is compared is run in turns. Time is wall-clock, memory the largest resident set of the process.
@@ -28,6 +28,7 @@ import table
 
 SUBJECTS = {
     "start": jobs.start,
+    "static": jobs.static,
     "glb": jobs.glb,
     "sizes": jobs.sizes,
     "blocks": jobs.blocks,
@@ -54,7 +55,7 @@ class Bench:
 
     def __init__(self, arguments, folder):
         self.ffd, self.blender, self.large = arguments.ffd, arguments.blender, arguments.large
-        self.python = arguments.python
+        self.python, self.static = arguments.python, arguments.static
         self.runs, self.side, self.jobs, self.threads = (arguments.runs, arguments.side, arguments.jobs,
                                                          arguments.threads)
         self.build, self.folder, self.table = machine.build_folder(arguments.ffd), folder, table.Table()
@@ -104,10 +105,11 @@ def parse():
     parser.add_argument("--large", type=float, metavar="GB", help="also an OBJ of this many gigabytes")
     parser.add_argument("--blender", metavar="PATH", help="compare Blender too")
     parser.add_argument("--python", metavar="PATH", help="a Python that has ffd_mesh")
+    parser.add_argument("--static", metavar="PATH", help="compare the static program too")
     parser.add_argument("--folder", help="where the files are made (default: a temporary folder)")
     parser.add_argument("--csv", metavar="FILE", help="the table, with the values of all runs (of the kernels: least, median, greatest)")
     arguments = parser.parse_args()
-    for program in (arguments.ffd, arguments.blender):
+    for program in (arguments.ffd, arguments.blender, arguments.static):
         if program and not shutil.which(program):
             parser.error(f"{program}: no such program")
     return arguments

@@ -38,6 +38,23 @@ def start(bench):
         least = least or (row if nothing else None)
 
 
+def static(bench):
+    """The static program beside the dynamic one: on large meshes, and on a small one, where its start counts."""
+    bench.table.title(f"Static program, one thread ({vertices(bench.side)}, and 100)")
+    if not bench.static:
+        bench.table.say("  on request, --static PATH")
+        return
+    small = bench.mesh("small.obj", meshes.write_points, 100)
+    for source, runs in ((bench.glb(), bench.runs), (bench.obj(), bench.runs), (small, 6 * bench.runs + 1)):
+        for kind, lattice in bench.lattices.items():
+            dynamic = bench.deform(source, lattice, threads=1)
+            one, other = programs.in_turns([dynamic, dynamic._replace(words=[bench.static, *dynamic.words[1:]])], runs)
+            name = f"{os.path.basename(source)}, {kind}"
+            for clock, unit in (("seconds", "ms"), ("processor", "ms cpu")):
+                row = bench.table.add(f"{name}: dynamic", [1000 * seconds for seconds in getattr(one, clock)], unit)
+                bench.table.add(f"{name}: static", [1000 * seconds for seconds in getattr(other, clock)], unit, row, "<= 1.03")
+
+
 def beside_copy(bench, source, bars):
     """Time and memory with each kind of lattice beside a plain copy."""
     size = Row("the file", [os.path.getsize(source) / 1e6], "MB")

@@ -1,4 +1,4 @@
-"""Runs programs: their time by the clock on the wall, and the largest resident set of the process."""
+"""Runs programs: their time by the clock on the wall and on processors, and the largest resident set of the process."""
 
 import os
 import subprocess
@@ -15,6 +15,7 @@ class Command(typing.NamedTuple):
 
 class Samples(typing.NamedTuple):
     seconds: list
+    processor: list  # seconds too, of all threads: what else runs on the machine counts less
     megabytes: list
 
 
@@ -24,36 +25,36 @@ def remove(path):
 
 
 def measure(command):
-    """Seconds and peak megabytes of one run. The output is removed before: to replace a file costs time of its own,
-    which depends on the file system."""
+    """Seconds, those of processors, and peak megabytes of one run. The output is removed before: to replace a file costs
+    time of its own, which depends on the file system."""
     remove(command.output)
     start = time.perf_counter()
     processes = [subprocess.Popen(command.words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
                  for _ in range(command.at_once)]
-    megabytes = max(end(process) for process in processes)
-    return time.perf_counter() - start, megabytes
+    ended = [end(process) for process in processes]
+    seconds = time.perf_counter() - start
+    return seconds, sum(used.ru_utime + used.ru_stime for used in ended), max(used.ru_maxrss for used in ended) * 1024 / 1e6
 
 
 def end(process):
-    """Waits for the process; its peak megabytes."""
+    """Waits for the process; what it used."""
     with process.stderr:
         errors = process.stderr.read()
     _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode != 0:
         sys.exit(f"exit {process.returncode}: {' '.join(process.args)}\n{errors.decode(errors='replace')}")
-    return usage.ru_maxrss * 1024 / 1e6
+    return usage
 
 
 def in_turns(commands, runs):
     """What each command takes. They are run in turns, so that all meet the same machine; what they read and write stays
     in the page cache."""
-    samples = [Samples([], []) for _ in commands]
+    samples = [Samples([], [], []) for _ in commands]
     for _ in range(runs):
-        for command, (all_seconds, all_megabytes) in zip(commands, samples):
-            seconds, megabytes = measure(command)
-            all_seconds.append(seconds)
-            all_megabytes.append(megabytes)
+        for command, sample in zip(commands, samples):
+            for values, value in zip(sample, measure(command)):
+                values.append(value)
     for command in commands:
         remove(command.output)
     return samples

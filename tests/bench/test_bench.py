@@ -17,6 +17,7 @@ BENCH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "bench.py")
 SUBJECTS = {
     "Start": ["a C program that does nothing", "ffd --version", "100 vertices, box", "100 vertices, warped",
               "100 vertices, box, GLB"],
+    "Static program": ["in.glb, box: dynamic", "in.glb, warped: static", "in.obj, box: static", "small.obj, box: static"],
     ".glb, 1,600 vertices": ["box: dd bs=64M", "box: ffd deform", "box: peak memory", "warped: ffd deform"],
     "Lattice size": ["4^3: a vertex", "64^3: whole process"],
     "Blocks": ["8 blocks: a vertex", "1000 blocks: 100 vertices", "1000 blocks: a vertex"],
@@ -70,7 +71,7 @@ def check_all(ffd, folder):
     work, saved = os.path.join(folder, "work"), os.path.join(folder, "table.csv")
     blender = write_stub(os.path.join(folder, "blender"), STUB)
     os.mkdir(work)
-    done = run(ffd, "--blender", blender, "--large", "0.001", "--folder", work, "--csv", saved)
+    done = run(ffd, "--blender", blender, "--static", ffd, "--large", "0.001", "--folder", work, "--csv", saved)
     check(done.returncode == 0, f"exit {done.returncode}", done.stdout)
     with open(saved, encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))

@@ -4,7 +4,7 @@ nothing else; then what the page says next.
 
     test_roots.py OUT [wheel|static|deb|npm|old]...      default: all that OUT holds; needs root
 
-old: the shared libraries of the wheel on Debian 11 (glibc 2.31), loaded by ctypes, deform a mesh.
+old: the shared libraries of the wheel on Debian 11 (glibc 2.31), loaded by ctypes, deform a mesh; skipped where it cannot be had.
 """
 
 import os
@@ -37,14 +37,15 @@ spec = importlib.util.spec_from_file_location("declared", "/wheel/ffd_mesh/_decl
 declared = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(declared)
 lib = ctypes.CDLL("/wheel/ffd_mesh/libffd.so")
-desc, error = declared.ffd_deform_desc(), declared.ffd_error()
+desc, result, error = declared.ffd_deform_desc(), declared.ffd_job_result(), declared.ffd_error()
 lib.ffd_deform_desc_init(ctypes.byref(desc), ctypes.sizeof(desc))
+result.struct_size = ctypes.sizeof(result)
 desc.input.path, desc.output = b"models/knight.glb", b"/tmp/by_ctypes.glb"
 lattices = (declared.ffd_lattice_source * 1)()
 lattices[0].path = b"lattices/twist.json"
 desc.lattices, desc.lattice_count = lattices, 1
-status = lib.ffd_deform_run(ctypes.byref(desc), None, ctypes.byref(error))
-assert status == 0, error.message
+status = lib.ffd_deform_run(ctypes.byref(desc), ctypes.byref(result), ctypes.byref(error))
+assert status == 0 and result.moved == result.vertices > 0, error.message
 """
 
 
@@ -82,7 +83,12 @@ def install(kind, folder, out):
 
 
 def old(folder, out):
-    make(folder, "bullseye", ["python3", "unzip"], out)
+    """None where the machine's sources of packages have no Debian 11 any more."""
+    try:
+        make(folder, "bullseye", ["python3", "unzip"], out)
+    except subprocess.CalledProcessError:
+        print("old: skipped: no root of Debian 11 can be made from this machine's sources of packages")
+        return None
     with open(os.path.join(folder, "old.py"), "w", encoding="utf-8") as file:
         file.write(OLD)
     code, text = enter(folder, "mkdir /wheel; cd /wheel; unzip -q /dist/*manylinux*.whl; cd /src/ffd/data && python3 /old.py && "
@@ -96,15 +102,16 @@ def main():
     if os.geteuid() != 0:
         sys.exit("root is needed to make the roots")
     found = [kind for kind, (part, _, _) in KINDS.items() if any(part in name and not name.endswith(".json") for name in os.listdir(out))]
-    right = []
+    results = []
     for kind in chosen or [*found, "old"]:
         folder = tempfile.mkdtemp(prefix="ffd-root.")
         try:
-            right.append(old(folder, out) if kind == "old" else install(kind, folder, out))
+            results.append(old(folder, out) if kind == "old" else install(kind, folder, out))
         finally:
             subprocess.run(["rm", "-rf", "--one-file-system", folder], check=False)
-    print(f"{sum(right)} roots right of {len(right)}")
-    sys.exit(not all(right))
+    ran = [right for right in results if right is not None]
+    print(f"{sum(ran)} kinds right of {len(ran)}, {len(results) - len(ran)} skipped")
+    sys.exit(not all(ran))
 
 
 main()

@@ -1,5 +1,6 @@
 #include "base/system/deadline.h"
 #include "base/system/clock.h"
+#include "base/system/thread_local.h"
 #include <limits.h>
 #include <math.h>
 #include <stddef.h>
@@ -7,9 +8,9 @@
 /* Seconds between two calls of a watch. */
 #define PAUSE 0.1
 
-static _Thread_local const deadline *current = NULL;
-static _Thread_local const char this_thread = 0;       /* its address names the thread */
-static ffd_status (*program)(ffd_error *error) = NULL; /* in a module: what it asks */
+static _Thread_local const deadline *current FFD_ALLOCATED_WITH_THREAD = NULL;
+static _Thread_local const char this_thread FFD_ALLOCATED_WITH_THREAD = 0; /* its address names the thread */
+static ffd_status (*program)(ffd_error *error) = NULL;                     /* in a module: what it asks */
 
 void ffd_deadline_ask(ffd_status (*check)(ffd_error *error))
 {

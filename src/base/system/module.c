@@ -3,6 +3,7 @@
 #include "base/spelling.h"
 #include "base/system/deadline.h"
 #include "base/system/own_file.h"
+#include "base/system/thread_local.h"
 #include <dlfcn.h>
 #include <pthread.h>
 #include <stdbool.h>
@@ -100,7 +101,7 @@ static ffd_status open_module(const module *of, const module_head **head, ffd_er
    short. */
 static bool prepare_thread(const module_head *head)
 {
-    static _Thread_local bool is_prepared __attribute__((tls_model("initial-exec")));
+    static _Thread_local bool is_prepared FFD_ALLOCATED_WITH_THREAD;
     if (is_prepared || !head->prepare)
         return true;
     if (!has_memory(THREAD_BYTES))

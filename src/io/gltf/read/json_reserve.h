@@ -5,6 +5,7 @@
 #define FFD_IO_GLTF_READ_JSON_RESERVE_H
 
 #include "base/memory/memory.h"
+#include "base/system/thread_local.h"
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -54,9 +55,7 @@ class json_reserve
   private:
     static json_reserve *&current()
     {
-        /* The static TLS model: this memory is allocated together with each thread. With the dynamic model
-           the C library allocates it at first use, and ends the program if memory runs out. */
-        static thread_local json_reserve *reserve __attribute__((tls_model("initial-exec"))) = nullptr;
+        static thread_local json_reserve *reserve FFD_ALLOCATED_WITH_THREAD = nullptr;
         return reserve;
     }
     void *take(size_t bytes)
