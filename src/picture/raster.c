@@ -181,7 +181,7 @@ static bool set_up(const raster_corner corners[3], const samples *into, setup *s
 }
 
 /* Returns a mask (-1) of the samples in the triangle, for the pixel with its corner at (x, y). */
-static ALWAYS_INLINE numbers inside_by_64(const setup *s, int64_t x, int64_t y)
+static numbers inside_by_64(const setup *s, int64_t x, int64_t y)
 {
     numbers inside = {-1, -1, -1, -1};
     for (int k = 0; k < 3; k++) {

@@ -34,6 +34,7 @@ READ = {machine if "-linux-" in machine else machine + "-linux-gnu": []
         for machine in ("alpha", "arc", "arm-linux-gnueabi", "hppa", "mips", "mips64-linux-gnuabi64", "mips64el-linux-gnuabi64",
                         "mipsel", "powerpc", "powerpc64", "powerpc64le", "riscv64", "s390x", "sh4", "sparc64", "x86_64-linux-gnux32")}
 READ["i686-linux-gnu"] = ["-msse2", "-mfpmath=sse"]
+READ["powerpc-linux-gnu"] = ["-Wno-psabi"]
 
 # What is for this machine's processor, or says how this folder is compiled.
 DROPPED = re.compile(r"-m|-fcf-protection$|-fstack-protector|-DFFD_X86$|-O|-g|-D_FORTIFY_SOURCE|-fdiagnostics-color|-MD$|-c$|-W(no-)?error$")

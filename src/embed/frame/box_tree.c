@@ -1,5 +1,4 @@
 #include "embed/frame/box_tree.h"
-#include "base/inline.h"
 #include "base/memory/memory.h"
 #include <math.h>
 #include <stdlib.h>
@@ -161,7 +160,7 @@ bool ffd_box_tree_visit(const box_tree *tree, const double p[3], const double sl
 typedef double pair __attribute__((vector_size(16)));
 typedef int64_t pair_mask __attribute__((vector_size(16)));
 
-static ALWAYS_INLINE pair load_pair(const double *numbers)
+static pair load_pair(const double *numbers)
 {
     pair loaded;
     memcpy(&loaded, numbers, sizeof loaded);
