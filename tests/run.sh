@@ -295,17 +295,43 @@ test_windows() {
     fi
 }
 
-# The program for arm64, one static file, does the job list in qemu: its own kernels give the bytes of x86-64. The processes of a
-# batch would begin without qemu.
+# setup_arm64 FOLDER OPTIONS...: a build folder for arm64, of one static file. Meson reads its cross files again where a build file has
+# changed. Debian's cmocka for arm64 is a shared library.
+setup_arm64() {
+    cat >"$work/arm64.ini" <<EOF
+[constants]
+cache = [${ccache:+'ccache'}]
+[binaries]
+pkgconfig = 'pkg-config'
+exe_wrapper = ['qemu-aarch64', '-L', '/usr/aarch64-linux-gnu', '-E', 'LD_LIBRARY_PATH=/usr/lib/aarch64-linux-gnu']
+[properties]
+pkg_config_libdir = '/usr/lib/aarch64-linux-gnu/pkgconfig'
+EOF
+    folder=$work/$1
+    shift
+    [ -f "$folder/build.ninja" ] || meson setup "$folder" "$root" --cross-file "$root/data/packaging/arm64.ini" --cross-file "$work/arm64.ini" \
+        -Dwerror=true -Dbuildtype=release -Dstatic=true "$@"
+}
+
+# The program for arm64 does the job list in qemu: its own kernels give the bytes of x86-64. The processes of a batch would begin
+# without qemu.
 test_arm64() {
     can_cross arm64 aarch64-linux-gnu-g++ qemu-aarch64 || return
-    printf '[constants]\ncache = [%s]\n' "${ccache:+'ccache'}" >"$work/cache.ini"
-    # Meson reads its cross files again where a build file has changed.
-    [ -f "$work/arm64/build.ninja" ] || step arm64 setup meson setup "$work/arm64" "$root" --cross-file "$root/data/packaging/arm64.ini" \
-        --cross-file "$work/cache.ini" --wrap-mode=forcefallback -Dwerror=true -Dbuildtype=release -Dstatic=true -Dtests=disabled || return
+    step arm64 setup setup_arm64 arm64 --wrap-mode=forcefallback -Dtests=disabled || return
     if step arm64 build ninja -C "$work/arm64" src/cli/ffd; then
         say arm64 built
         case_of arm64 jobs python3 "$root/tests/release/run_jobs.py" --every 4 --without batch qemu-aarch64 "$work/arm64/src/cli/ffd"
+    fi
+}
+
+# The unit tests in qemu, where they take an hour. All libraries but cmocka are compiled by their wraps.
+test_arm64_units() {
+    can_cross arm64-unit aarch64-linux-gnu-g++ qemu-aarch64 || return
+    libraries=$(cd "$root/subprojects" && echo *.wrap | sed 's/\.wrap//g; s/ /,/g')
+    step arm64-unit setup setup_arm64 arm64-unit --wrap-mode=nodownload --force-fallback-for="$libraries" -Dtests=enabled || return
+    # shellcheck disable=SC2016 # the inner shell's
+    if step arm64-unit build sh -c 'ninja -C "$2" $(python3 "$1/tests/targets.py" "$2" unit)' sh "$root" "$work/arm64-unit"; then
+        suites arm64-unit arm64-unit --suite unit --no-suite slow --no-suite soak --timeout-multiplier 0
     fi
 }
 
@@ -340,7 +366,7 @@ test_release() {
     rm -rf "$work/artefacts" "$work/artefacts-again"
     step release setup sh "$root/.ci/setup" release || return
     case_of release twice release_twice || return
-    for name in sums sbom wheel wheel-musl static windows npm source deb; do
+    for name in sums sbom wheel wheel-arm64 wheel-musl static static-arm64 windows npm source deb; do
         case_of release "$name" python3 "$root/tests/release/test_artefacts.py" "$work/artefacts" "$name"
     done
     clock=$(date +%s)
@@ -380,6 +406,8 @@ if [ "$mode" != --release ] && build gcc '' gcc g++ -Dbuildtype=debugoptimized -
         export FFD_SEED
         echo "FFD_SEED=$FFD_SEED"
         suites soak gcc --suite soak --timeout-multiplier 0
+        test_arm64_units
+        drop arm64-unit
         case_of bare roots sh "$root/tests/install/bare.sh"
         # The Python package in an interpreter with the address sanitizer: the hours of soak have the time for that build.
         if [ -n "$python" ] && build_stage asan; then

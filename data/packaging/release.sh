@@ -5,7 +5,7 @@
 # whatever folder. In OUT each artefact has its SBOM beside it (FILE.spdx.json), and SHA256SUMS lists them.
 set -eu
 
-names='wheel wheel-musl static windows npm source deb'
+names='wheel wheel-arm64 wheel-musl static static-arm64 windows npm source deb'
 
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -28,7 +28,9 @@ is_one_of() {
 tools_of() {
     case $1 in
     wheel | wheel-musl) echo 'ninja @mesonpy @pycparser @ziglang' ;;
+    wheel-arm64) echo 'ninja qemu-aarch64 aarch64-linux-gnu-gcc @mesonpy @pycparser @ziglang' ;;
     static) echo 'meson ninja pkg-config gcc g++ strip' ;;
+    static-arm64) echo 'meson ninja qemu-aarch64 aarch64-linux-gnu-g++ aarch64-linux-gnu-strip' ;;
     windows) echo 'meson ninja x86_64-w64-mingw32-gcc-posix x86_64-w64-mingw32-g++-posix x86_64-w64-mingw32-strip' ;;
     npm) echo 'meson ninja emcc node' ;;
     source) ;;
@@ -124,7 +126,7 @@ for name in deb $names; do
     [ "$name" = deb ] || [ -n "${added-}" ] || { add_libraries "$source" && added=1; }
     clock=$(date +%s)
     log=$work/$name.log
-    if ! (. "$parts/${name%-musl}.sh") >"$log" 2>&1 </dev/null; then
+    if ! (. "$parts/${name%-*}.sh") >"$log" 2>&1 </dev/null; then
         tail -n 40 "$log" >&2
         fail "$name: failed"
     fi

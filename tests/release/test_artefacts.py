@@ -2,7 +2,7 @@
 """What data/packaging/release.sh has made is what its page says: names, sums, SBOMs, sizes, what it needs of a system and shows to it;
 and does the jobs of the list.
 
-    test_artefacts.py OUT [wheel|wheel-musl|static|windows|npm|source|deb|sums|sbom]...     default: all that OUT holds
+    test_artefacts.py OUT [NAME|sums|sbom]...     NAME: of an artefact; default: all that OUT holds
 
 The tools are those of `sh .ci/setup release`; numpy comes from the wheels of the suite python.
 """
@@ -28,13 +28,17 @@ ABI = ".".join(VERSION.split(".")[:2])
 NAMES = {
     "wheel": f"ffd_mesh-{VERSION}-cp311-abi3-manylinux_2_28_x86_64.whl",
     "wheel-musl": f"ffd_mesh-{VERSION}-cp311-abi3-musllinux_1_2_x86_64.whl",
+    "wheel-arm64": f"ffd_mesh-{VERSION}-cp311-abi3-manylinux_2_28_aarch64.whl",
     "static": f"ffd-{VERSION}-linux-x86_64.tar.xz",
+    "static-arm64": f"ffd-{VERSION}-linux-arm64.tar.xz",
     "windows": f"ffd-{VERSION}-windows-x86_64.zip",
     "source": f"ffd-{VERSION}.tar.xz",
     "npm": f"ffd-mesh-{VERSION}.tgz",
     "deb": f"ffd_{VERSION}-1_amd64.deb",
 }
 MEGABYTE = 1_000_000
+# Debian's cross compiler brings this system of arm64.
+SYSTEM = "/usr/aarch64-linux-gnu"
 findings = []
 
 
@@ -94,16 +98,25 @@ def test_sbom(out):
             check(hashlib.sha256(file.read()).hexdigest() == own["checksums"][0]["checksumValue"], f"{path}: the sum of another file")
 
 
-def test_static(out):
+def check_static(out, name, emulator, *options):
+    """emulator: what runs it, or none."""
     with tempfile.TemporaryDirectory() as folder:
-        tree = unpack(out, "static", folder)
-        for name in ("share/man/man1/ffd.1", "share/bash-completion/completions/ffd", "share/zsh/site-functions/_ffd",
+        tree = unpack(out, name, folder)
+        for page in ("share/man/man1/ffd.1", "share/bash-completion/completions/ffd", "share/zsh/site-functions/_ffd",
                      "share/doc/ffd/LICENSE", "share/doc/ffd/THIRD-PARTY.md", "share/doc/ffd/licenses/glibc.txt"):
-            check(os.path.isfile(os.path.join(tree, name)), f"static: lacks {name}")
+            check(os.path.isfile(os.path.join(tree, page)), f"{name}: lacks {page}")
         program = os.path.join(tree, "bin/ffd")
-        check(not needed(program) and "INTERP" not in run("readelf", "-lW", program), "static: needs a loader or a library")
-        in_empty_root(program, folder)
-        do_jobs("static", program)
+        check(not needed(program) and "INTERP" not in run("readelf", "-lW", program), f"{name}: needs a loader or a library")
+        in_empty_root(program, emulator, folder)
+        do_jobs(name, *emulator, program, options=options)
+
+
+def test_static(out):
+    check_static(out, "static", [])
+
+
+def test_static_arm64(out):
+    check_static(out, "static-arm64", ["qemu-aarch64-static"], "--without", "batch")
 
 
 def test_windows(out):
@@ -122,17 +135,20 @@ def test_windows(out):
         do_jobs("windows", shutil.which("wine64") or "/usr/lib/wine/wine64", program)
 
 
-def in_empty_root(program, folder):
-    """No /proc, no /dev, no home folder, no environment; with workers."""
+def in_empty_root(program, emulator, folder):
+    """No /proc, no /dev, no home folder, no environment; with workers, which an emulator cannot begin."""
     root = os.path.join(folder, "root")
     os.makedirs(os.path.join(root, "w"))
-    shutil.copy(program, root)
+    for file in [program, *map(shutil.which, emulator)]:
+        shutil.copy(file, root)
     for path in ("data/models/spot.obj", "data/lattices/twist.json"):
         shutil.copy(os.path.join(ROOT, path), os.path.join(root, "w"))
-    enter = [shutil.which("chroot", path="/usr/sbin:/usr/bin"), root, "/ffd"]
+    enter = [shutil.which("chroot", path="/usr/sbin:/usr/bin"), root, *("/" + name for name in emulator), "/ffd"]
     if os.geteuid() != 0:
         enter = ["unshare", "--map-root-user", *enter]
     run(*enter, "deform", "/w/spot.obj", "/w/one.obj", "-l", "/w/twist.json", env={})
+    if emulator:
+        return
     with open(os.path.join(root, "w/jobs.jsonl"), "w", encoding="utf-8") as file:
         file.write('{"in": "spot.obj", "lattice": "twist.json", "out": "two.obj"}\n'
                    '{"in": "spot.obj", "lattice": "twist.json", "out": "three.glb"}\n')
@@ -145,7 +161,8 @@ def in_empty_root(program, folder):
 def check_wheel(path, name):
     """What is in it needs the C library and itself alone, and shows its own names alone."""
     check(os.path.getsize(path) <= 4 * MEGABYTE, f"{name}: {os.path.getsize(path)} bytes")
-    system = {"libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "librt.so.1", "ld-linux-x86-64.so.2", "libc.so"}
+    system = {"libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "librt.so.1", "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1",
+              "libc.so"}
     with tempfile.TemporaryDirectory() as folder:
         with zipfile.ZipFile(path) as archive:
             archive.extractall(folder)
@@ -196,6 +213,20 @@ def test_wheel_musl(out):
         program = os.path.join(folder, "ffd_mesh/ffd")
         os.chmod(program, 0o755)
         do_jobs("wheel-musl", program)
+
+
+def test_wheel_arm64(out):
+    path = os.path.join(out, NAMES["wheel-arm64"])
+    check_wheel(path, "wheel-arm64")
+    done = subprocess.run([os.path.join(TOOLS, "abi3audit"), "--strict", path], capture_output=True, text=True, check=False)
+    check(done.returncode == 0, f"wheel-arm64: abi3audit: {done.stdout}{done.stderr}")
+    with tempfile.TemporaryDirectory() as folder:
+        with zipfile.ZipFile(path) as archive:
+            archive.extractall(folder)
+        program = os.path.join(folder, "ffd_mesh/ffd")
+        os.chmod(program, 0o755)  # zipfile forgets
+        do_jobs("wheel-arm64, ffd", "qemu-aarch64", "-L", SYSTEM, "-E", f"LD_LIBRARY_PATH={SYSTEM}/lib", program,
+                options=["--without", "batch"])
 
 
 def test_source(out):

@@ -24,7 +24,7 @@ def read(*path):
 def libraries(root, artefact):
     """(name, license, stem of its text) of each library that the artefact contains"""
     for row in ROW.finditer(read(root, "data/packaging/THIRD-PARTY.md")):
-        if row["places"] == "all" or artefact in row["places"].split(", "):
+        if row["places"] == "all" or artefact.removesuffix("-arm64") in row["places"].split(", "):
             yield row["name"], row["license"], row["text"]
 
 

@@ -1,10 +1,16 @@
 # The Python package with all that it needs, for CPython 3.11 and later; by zig, which compiles for older systems. Read by
 # release.sh.
 set -eu
+is_crossed=
 case $name in
 wheel)
     target=x86_64-linux-gnu.2.28
     platform=manylinux_2_28_x86_64
+    ;;
+wheel-arm64)
+    target=aarch64-linux-gnu.2.28
+    platform=manylinux_2_28_aarch64
+    is_crossed=1
     ;;
 wheel-musl)
     target=x86_64-linux-musl
@@ -27,12 +33,26 @@ EOF
 done
 export CCACHE_COMPILERTYPE=clang CCACHE_COMPILERCHECK="string:$("$zig" version) $target"
 export ZIG_GLOBAL_CACHE_DIR="$root/.build-release/zig" ZIG_LOCAL_CACHE_DIR="$root/.build-release/zig"
-# Debian's Python.h includes a header of the processor's folder, which zig does not search.
+# Debian's Python.h includes a header of the processor's folder, which zig does not search. Those of the systems that wheels are made
+# for say the same.
 mkdir -p "$work/python"
-ln -sf /usr/include/x86_64-linux-gnu "$work/python/"
+for machine in x86_64 aarch64; do
+    ln -sfn /usr/include/x86_64-linux-gnu "$work/python/$machine-linux-gnu"
+done
+options="'--wrap-mode=forcefallback', '-Dc_args=-I$work/python', '-Dc_link_args=-s', '-Dcpp_link_args=-s'"
+if [ -n "$is_crossed" ]; then
+    cat >"$work/zig.ini" <<EOF
+[constants]
+cache = [${ccache:+'ccache'}]
+[binaries]
+c = cache + ['$work/zig/$target/cc']
+cpp = cache + ['$work/zig/$target/c++']
+EOF
+    options="$options, '--cross-file=$source/data/packaging/arm64.ini', '--cross-file=$work/zig.ini'"
+fi
 # What is installed is told by this name of the system.
 export _PYTHON_HOST_PLATFORM="$platform"
 cd "$source"
 PATH=$tools/bin:$PATH CC="$ccache$work/zig/$target/cc" CXX="$ccache$work/zig/$target/c++" "$tools/bin/python3" -c "
 import sys, mesonpy
-mesonpy.build_wheel(sys.argv[1], {'setup-args': ['--wrap-mode=forcefallback', '-Dc_args=-I$work/python', '-Dc_link_args=-s', '-Dcpp_link_args=-s']})" "$made"
+mesonpy.build_wheel(sys.argv[1], {'setup-args': [$options]})" "$made"
