@@ -1,8 +1,8 @@
 #!/bin/sh
 # Builds ffd and runs its tests, in build folders of its own under .build-test/.
-#     sh tests/run.sh                 the gcc build, every quick suite (all but slow, soak, npm, python and packages)
+#     sh tests/run.sh                 the gcc build, every quick suite (all but slow, soak, npm, windows, python and packages)
 #     sh tests/run.sh --suite NAME    the gcc build, one suite (unit property oracle fuzz golden cli rules python packages bench
-#                                     slow npm arm64)
+#                                     slow npm arm64 windows)
 #                                     or one tag (threads compilers text), or peers (other packages; fetches 280 MB)
 #     sh tests/run.sh --all           in a bare root of Debian 12: data/demo.sh, then this script, then its other stages (tests/install/all.sh)
 #     sh tests/run.sh --stages        the stages that only --all has: slow suites, release, clang with sanitizers, valgrind, fuzzing, npm, arm64, the wraps
@@ -65,7 +65,7 @@ logs=$work/logs
 mkdir -p "$logs" || exit 1
 case "$mode$suite" in
 --suitepeers | --soak) needs=peers ;;
---suiteslow | --suitepython | --suitepackages | --suitenpm | --suitearm64 | --stages | --release) needs=stages ;;
+--suiteslow | --suitepython | --suitepackages | --suitenpm | --suitearm64 | --suitewindows | --stages | --release) needs=stages ;;
 *) needs=test ;;
 esac
 sh "$root/.ci/setup" $needs || exit 1
@@ -280,6 +280,21 @@ test_npm() {
     fi
 }
 
+# The program for Windows, under wine, beside the program of the gcc build.
+test_windows() {
+    can_cross windows x86_64-w64-mingw32-gcc-posix x86_64-w64-mingw32-g++-posix || return
+    printf '[constants]\ncache = [%s]\n' "${ccache:+'ccache'}" >"$work/cache.ini"
+    [ -f "$work/windows/build.ninja" ] || step windows setup meson setup "$work/windows" "$root" \
+        --cross-file "$root/data/packaging/windows.ini" --cross-file "$work/cache.ini" --wrap-mode=forcefallback \
+        -Dbuildtype=release -Dstatic=true -Ddefault_library=static -Dtests=disabled || return
+    if step windows build ninja -C "$work/windows" src/cli/ffd.exe tests/windows/ffd_fault.exe tests/windows/hold.exe; then
+        say windows built
+        FFD_WINDOWS=$work/windows
+        export FFD_WINDOWS
+        suites windows gcc --suite windows
+    fi
+}
+
 # setup_arm64 FOLDER OPTIONS...: a build folder for arm64, of one static file. Meson reads its cross files again where a build file has
 # changed. Debian's cmocka for arm64 is a shared library.
 setup_arm64() {
@@ -351,7 +366,7 @@ test_release() {
     rm -rf "$work/artefacts" "$work/artefacts-again"
     step release setup sh "$root/.ci/setup" release || return
     case_of release twice release_twice || return
-    for name in sums sbom wheel wheel-arm64 wheel-musl static static-arm64 npm source deb; do
+    for name in sums sbom wheel wheel-arm64 wheel-musl static static-arm64 windows npm source deb; do
         case_of release "$name" python3 "$root/tests/release/test_artefacts.py" "$work/artefacts" "$name"
     done
     clock=$(date +%s)
@@ -373,7 +388,7 @@ step node npm install_node_packages
 if [ "$mode" != --release ] && build gcc '' gcc g++ -Dbuildtype=debugoptimized -Dc_args=-g1 -Dcpp_args=-g1; then
     if [ "$suite" = peers ]; then
         suites gcc gcc --suite peers
-    elif [ "$suite" = npm ] || [ "$suite" = arm64 ]; then
+    elif [ "$suite" = npm ] || [ "$suite" = arm64 ] || [ "$suite" = windows ]; then
         "test_$suite"
     elif [ -n "$suite" ]; then
         suites gcc gcc --suite "$suite" --no-suite soak
@@ -384,6 +399,8 @@ if [ "$mode" != --release ] && build gcc '' gcc g++ -Dbuildtype=debugoptimized -
         drop npm
         test_arm64
         drop arm64
+        test_windows
+        drop windows
     elif [ -n "$soak" ]; then
         FFD_SEED=${FFD_SEED-$started}
         export FFD_SEED
@@ -398,7 +415,7 @@ if [ "$mode" != --release ] && build gcc '' gcc g++ -Dbuildtype=debugoptimized -
             drop asan
         fi
     else
-        suites gcc gcc --no-suite python --no-suite packages --no-suite npm --no-suite slow --no-suite soak
+        suites gcc gcc --no-suite python --no-suite packages --no-suite npm --no-suite windows --no-suite slow --no-suite soak
     fi
 fi
 
@@ -423,7 +440,7 @@ if [ -n "$all" ]; then
     if build_stage asan; then
         ahead clang
         suites asan asan --no-suite oracle --no-suite rules --no-suite bench --no-suite node --no-suite slow \
-            --no-suite packages --no-suite npm --no-suite soak --timeout-multiplier 6
+            --no-suite packages --no-suite npm --no-suite windows --no-suite soak --timeout-multiplier 6
 
         # The fuzz targets themselves, for a moment and always the same one: a search for what is new takes hours, and
         # is not what a change is judged by. Their corpus was replayed by every suite `fuzz` above.

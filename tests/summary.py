@@ -9,6 +9,7 @@ failed. So has a run without tests.
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 
@@ -47,6 +48,7 @@ LACKS = {
     "models": lambda: not os.environ.get("FFD_MODELS"),
     "mounts": lambda: not succeeds(*MOUNT_EXT4),
     "Debian 12": lambda: not is_debian_12(),
+    "wine": lambda: not shutil.which("wine64") and not shutil.which("wine64", path="/usr/lib/wine"),
     "wheels": lambda: not is_debian_12() or not os.path.exists(WHEELS),
 }
 

@@ -5,7 +5,7 @@
 # whatever folder. In OUT each artefact has its SBOM beside it (FILE.spdx.json), and SHA256SUMS lists them.
 set -eu
 
-names='wheel wheel-arm64 wheel-musl static static-arm64 npm source deb'
+names='wheel wheel-arm64 wheel-musl static static-arm64 windows npm source deb'
 
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -31,6 +31,7 @@ tools_of() {
     wheel-arm64) echo 'ninja qemu-aarch64 aarch64-linux-gnu-gcc @mesonpy @pycparser @ziglang' ;;
     static) echo 'meson ninja pkg-config gcc g++ strip' ;;
     static-arm64) echo 'meson ninja qemu-aarch64 aarch64-linux-gnu-g++ aarch64-linux-gnu-strip' ;;
+    windows) echo 'meson ninja x86_64-w64-mingw32-gcc-posix x86_64-w64-mingw32-g++-posix x86_64-w64-mingw32-strip' ;;
     npm) echo 'meson ninja emcc node' ;;
     source) ;;
     deb) echo 'dpkg-buildpackage dh meson ninja' ;;

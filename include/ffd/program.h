@@ -19,8 +19,9 @@ extern "C" {
 FFD_API void ffd_occupy_closed_streams(void);
 
 /* Installs handlers for those of SIGHUP, SIGINT, SIGPIPE, SIGQUIT and SIGTERM that would end the program:
-   they remove the temporary files of unfinished outputs before it ends. To be called once when the program
-   starts. */
+   they remove the temporary files of unfinished outputs before it ends. On Windows the same for Ctrl-C and
+   for a console that is closed. Beyond a limit on the sizes of files (SIGXFSZ), writing fails from now on
+   instead of ending the program. To be called once when the program starts. */
 FFD_API void ffd_cleanup_on_signals(void);
 
 /* Installs a SIGBUS handler. Large input files are mapped into memory; if another program truncates one while

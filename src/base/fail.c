@@ -1,4 +1,5 @@
 #include "base/fail.h"
+#include "base/posix.h"
 #include "base/spelling.h"
 #include <errno.h>
 #include <ffd/program.h>

@@ -9,7 +9,9 @@
 extern "C" {
 #endif
 
-#ifdef __GNUC__
+#ifdef __MINGW32__ /* whose __printf__ is that of the C runtime of Windows */
+#define FFD_PRINTF(text, first) __attribute__((__format__(__gnu_printf__, text, first)))
+#elif defined(__GNUC__)
 #define FFD_PRINTF(text, first) __attribute__((__format__(__printf__, text, first)))
 #else
 #define FFD_PRINTF(text, first)

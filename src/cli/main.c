@@ -3,7 +3,6 @@
 #include "cli/member.h"
 #include <errno.h>
 #include <ffd/program.h>
-#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -161,18 +160,9 @@ static int run(int count, char **arguments)
                    : unknown_command(count, arguments);
 }
 
-/* Beyond a limit on file sizes, a write must fail with a message instead of ending the program. */
-static void ignore_size_signal(void)
-{
-#ifdef SIGXFSZ
-    signal(SIGXFSZ, SIG_IGN);
-#endif
-}
-
 int main(int argc, char **argv)
 {
     ffd_occupy_closed_streams();
-    ignore_size_signal();
     ffd_cleanup_on_signals();
     ffd_spell_members(cli_spell);
     int code;

@@ -105,7 +105,7 @@ bool cli_parse_number(const char *text, double *value);
 bool cli_parse(const cli_table *options, void *settings, const bool *help, int count, char **arguments,
                cli_words *words);
 
-#ifdef __GNUC__
+#if defined(__GNUC__) && !defined(__MINGW32__) /* whose __printf__ is that of Windows */
 __attribute__((__format__(__printf__, 1, 2)))
 #endif
 /* Prints one line "ffd: ..." to stderr. */

@@ -31,6 +31,7 @@ NAMES = {
     "wheel-arm64": f"ffd_mesh-{VERSION}-cp311-abi3-manylinux_2_28_aarch64.whl",
     "static": f"ffd-{VERSION}-linux-x86_64.tar.xz",
     "static-arm64": f"ffd-{VERSION}-linux-arm64.tar.xz",
+    "windows": f"ffd-{VERSION}-windows-x86_64.zip",
     "source": f"ffd-{VERSION}.tar.xz",
     "npm": f"ffd-mesh-{VERSION}.tgz",
     "deb": f"ffd_{VERSION}-1_amd64.deb",
@@ -116,6 +117,22 @@ def test_static(out):
 
 def test_static_arm64(out):
     check_static(out, "static-arm64", ["qemu-aarch64-static"], "--without", "batch")
+
+
+def test_windows(out):
+    path = os.path.join(out, NAMES["windows"])
+    check(os.path.getsize(path) <= 8 * MEGABYTE, f"windows: {os.path.getsize(path)} bytes")
+    with tempfile.TemporaryDirectory() as folder:
+        with zipfile.ZipFile(path) as archive:
+            archive.extractall(folder)
+        tree = os.path.join(folder, f"ffd-{VERSION}")
+        check(sorted(os.listdir(tree)) == ["LICENSE", "THIRD-PARTY.md", "ffd.exe", "licenses"], f"windows: holds {os.listdir(tree)}")
+        program = os.path.join(tree, "ffd.exe")
+        check(os.path.getsize(program) <= 8 * MEGABYTE, f"windows: ffd.exe has {os.path.getsize(program)} bytes")
+        libraries = set(re.findall(r"DLL Name: (\S+)", run("x86_64-w64-mingw32-objdump", "-p", program)))
+        check(libraries <= {"ADVAPI32.dll", "KERNEL32.dll", "msvcrt.dll"}, f"windows: needs {sorted(libraries)}")
+        os.environ |= {"WINEPREFIX": os.path.join(folder, "wine"), "WINEDEBUG": "-all"}
+        do_jobs("windows", shutil.which("wine64") or "/usr/lib/wine/wine64", program)
 
 
 def in_empty_root(program, emulator, folder):

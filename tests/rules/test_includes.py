@@ -9,12 +9,13 @@ import tree
 
 # Folder under src/ -> the folders under src/ that its files may include from.
 LAYERS = {
-    "base": set(),
+    "base/windows": set(),
+    "base": {"base/windows"},
     "base/memory": {"base"},
-    "base/file": {"base", "base/memory", "base/system", "base/text"},
+    "base/file": {"base", "base/memory", "base/system", "base/text", "base/windows"},
     "base/vector": {"base"},
     "base/text": {"base", "base/memory", "base/vector"},
-    "base/system": {"base", "base/memory", "base/text"},
+    "base/system": {"base", "base/memory", "base/text", "base/windows"},
     "io/npy": {"base", "base/file", "base/memory"},
     "json": {"base", "base/memory", "base/text"},
     "splat": {"base", "base/vector"},
@@ -140,7 +141,7 @@ OUTSIDE = [
     (r"xxhash\.h|xxh3\.h", {"base/memory"}),
     (r"sys/platform/", {"base/vector"}),
     (r"unistd\.h|fcntl\.h|pthread\.h|sys/(?!platform/)|dirent\.h|dlfcn\.h|sched\.h|spawn\.h|glob\.h|poll\.h|windows\.h",
-     {"base/file", "base/memory", "base/system"}),
+     {"base", "base/file", "base/memory", "base/system", "base/windows"}),
 ]
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.M)

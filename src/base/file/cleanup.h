@@ -2,7 +2,8 @@
    program.
 
    A lock protects the list. Its holder blocks signals, so a handler can take the lock safely: no handler runs
-   in the thread that holds it, and in other threads the handler waits. The list belongs to one process: a
+   in the thread that holds it, and in other threads the handler waits. (The lock and the handlers are in
+   cleanup_signals.c and cleanup_signals_windows.c.) The list belongs to one process: a
    forked child does not remove what its parent has noted. Do not fork while another thread holds the lock. */
 #ifndef FFD_BASE_FILE_CLEANUP_H
 #define FFD_BASE_FILE_CLEANUP_H

@@ -1,8 +1,8 @@
 #include "base/file/file_folder.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/posix.h"
 #include <errno.h>
-#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -6,11 +6,10 @@
 #include "base/file/path.h"
 #include "base/file/temporary.h"
 #include "base/memory/memory.h"
+#include "base/posix.h"
 #include <errno.h>
 #include <ffd/job.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 static bool exists(const char *path)
 {
@@ -61,6 +60,23 @@ static ffd_status check_places(const set_record *record, ffd_error *error)
     return FFD_OK;
 }
 
+/* Restores an old file. Windows does not replace a file that is open, as the new one still is after a failure
+   of this run: there it gets its temporary name again before it is removed. */
+static int bring_back(const set_entry *entry)
+{
+    if (ffd_place(entry->aside, entry->target, true) == 0)
+        return 0;
+    const int reason = errno;
+    char *const name = is_placed(entry) ? ffd_temporary_name(entry->target) : NULL;
+    const bool is_moved = name && ffd_place(entry->target, name, false) == 0;
+    const int failed = is_moved ? ffd_place(entry->aside, entry->target, false) : -1;
+    if (is_moved && !failed)
+        unlink(name);
+    ffd_free(name);
+    errno = is_moved ? errno : reason;
+    return failed;
+}
+
 /* Rolls back: removes the new files and restores those that were set aside, the head last. */
 static ffd_status undo(const set_record *record, ffd_error *error)
 {
@@ -71,7 +87,7 @@ static ffd_status undo(const set_record *record, ffd_error *error)
         if (entry->was_there && ffd_file_same(entry->aside, entry->target)) /* two hard links to one file */
             failed = unlink(entry->aside);
         else if (entry->was_there && exists(entry->aside))
-            failed = ffd_place(entry->aside, entry->target, true);
+            failed = bring_back(entry);
         else if (!entry->was_there && is_placed(entry))
             failed = unlink(entry->target);
         if (failed)

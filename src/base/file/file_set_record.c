@@ -5,15 +5,13 @@
 #include "base/file/path.h"
 #include "base/file/temporary.h"
 #include "base/memory/memory.h"
+#include "base/posix.h"
 #include "base/system/clock.h"
 #include "base/text/buffer.h"
 #include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 /* The content of the file: first_line, then for each file "old" or "new" (whether there was an old one), size
    and time of the new file, and its path (only a name if it is in the folder of the head); then last_line.

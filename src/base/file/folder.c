@@ -3,13 +3,9 @@
 #include "base/file/input.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
-#include <dirent.h>
+#include "base/posix.h"
 #include <errno.h>
-#include <limits.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 /* As many symbolic links in a row as systems follow. */
 #define MOST_LINKS 40
@@ -21,7 +17,7 @@
 static size_t next_folder(const char *path, size_t at)
 {
     for (size_t i = at; path[i]; i++)
-        if (path[i + 1] == '/' || path[i + 1] == 0)
+        if (ffd_is_separator(path[i + 1]) || path[i + 1] == 0)
             return i + 1;
     return 0;
 }
@@ -74,6 +70,10 @@ static char *find_existing(const char *path)
     char *at = ffd_text_copy(path);
     while (at && lstat(at, &info) != 0 && errno == ENOENT && strcmp(at, ".") != 0) {
         char *const above = ffd_path_folder(at);
+        if (above && strcmp(above, at) == 0) { /* a drive that is not there */
+            ffd_free(above);
+            return at;
+        }
         ffd_free(at);
         at = above;
     }
@@ -97,7 +97,7 @@ ffd_status ffd_folder_check(const char *path, ffd_error *error)
 void ffd_folder_unmake(char *path, size_t made)
 {
     for (size_t end = strlen(path); made && end >= made; end--) {
-        if (path[end] != '/' && path[end] != 0)
+        if (!ffd_is_separator(path[end]) && path[end] != 0)
             continue;
         path[end] = 0;
         rmdir(path);
@@ -195,7 +195,7 @@ bool ffd_paths_meet(const char *a, const char *b)
 {
     if (strcmp(a, b) == 0 || ffd_file_same(a, b))
         return true;
-    if (ffd_file_exists(a) || ffd_file_exists(b) || strcmp(ffd_path_name(a), ffd_path_name(b)) != 0)
+    if (ffd_file_exists(a) || ffd_file_exists(b) || !ffd_names_equal(ffd_path_name(a), ffd_path_name(b)))
         return false;
     char *const here = ffd_path_folder(a), *const there = ffd_path_folder(b);
     const bool meet = here && there && (strcmp(here, there) == 0 || ffd_file_same(here, there));

@@ -4,11 +4,9 @@
 #include "base/file/output.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/posix.h"
 #include <errno.h>
-#include <fcntl.h>
 #include <string.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 struct growing_file {
     char *path;

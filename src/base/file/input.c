@@ -3,16 +3,11 @@
 #include "base/file/input.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/posix.h"
 #include "base/system/deadline.h"
 #include <errno.h>
-#include <fcntl.h>
-#include <poll.h>
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 /* The most bytes that are read from a stream, which may be endless. */
 #define LONGEST_STREAM (SIZE_MAX > UINT32_MAX ? (size_t)UINT32_MAX + 1 : SIZE_MAX / 2)
@@ -313,9 +308,8 @@ ffd_status ffd_file_map(const char *path, file_input *input, ffd_error *error)
 static bool is_inside(const char *folder, const char *path)
 {
     const size_t length = strlen(folder);
-    if (strcmp(folder, "/") == 0)
-        return true;
-    return strncmp(folder, path, length) == 0 && path[length] == '/';
+    const bool is_root = length > 0 && folder[length - 1] == '/';
+    return strncmp(folder, path, length) == 0 && (is_root || path[length] == '/');
 }
 
 ffd_status ffd_file_load_within(const char *folder, const char *relative, const char *named_by, size_t *most,
@@ -329,7 +323,9 @@ ffd_status ffd_file_load_within(const char *folder, const char *relative, const 
     ffd_status status = FFD_OK;
     if (!joined)
         TRY_END(ffd_fail_memory(error));
-    else if (relative[0] == '/')
+    else if (ffd_path_flaw(relative))
+        TRY_END(ffd_fail_file(error, FFD_E_IO, named_by, "\"%s\" %s", relative, ffd_path_flaw(relative)));
+    else if (ffd_path_is_absolute(relative))
         TRY_END(ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" is outside the model's folder",
                               relative));
     else if (!root || !path)

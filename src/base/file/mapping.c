@@ -1,17 +1,11 @@
-#define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
 #include "base/file/mapping.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
-#include <errno.h>
-#include <ffd/program.h>
+#include "base/posix.h"
 #include <pthread.h>
-#include <signal.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdio.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 /* The signal handler reads the atomic members in any thread at any time; the lock protects the others. */
 struct file_mapping {
@@ -36,9 +30,6 @@ static mapping_block first;
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static unsigned losses;
 static char lost[1024]; /* path of the file that was truncated last */
-
-static size_t page_size;
-static struct sigaction other_handler;
 
 /* Returns a free entry; NULL if memory runs out. */
 static file_mapping *find_place(void)
@@ -134,9 +125,7 @@ ffd_status ffd_mapping_judge(unsigned before, ffd_status status, ffd_error *erro
     return status;
 }
 
-/* Maps pages of zeros over a truncated mapping, from the page of an address on. Returns false if the address
-   is not in a mapped input. */
-static bool patch(uintptr_t address)
+size_t ffd_mapping_cut(uintptr_t address)
 {
     for (mapping_block *block = &first; block; block = atomic_load(&block->next))
         for (int i = 0; i < BLOCK; i++) {
@@ -145,44 +134,8 @@ static bool patch(uintptr_t address)
             const size_t size = atomic_load(&mapping->size);
             if (begin == 0 || address < begin || address - begin >= size)
                 continue;
-            const uintptr_t page = address / page_size * page_size;
             atomic_store(&mapping->is_cut, true);
-            return mmap((void *)page, begin + size - page, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED,
-                        -1, 0) != MAP_FAILED;
+            return size - (address - begin);
         }
-    return false;
-}
-
-/* Passes a signal that does not concern an input to the previous handler. */
-static void pass_on(int number, siginfo_t *info, void *context)
-{
-    const bool is_default = other_handler.sa_handler == SIG_DFL || other_handler.sa_handler == SIG_IGN;
-    if (is_default || other_handler.sa_flags & (int)SA_RESETHAND) {
-        sigaction(number, &other_handler, NULL);
-        if (info->si_code <= 0) /* sent by a process: it does not recur when the handler returns */
-            raise(number);
-    } else if (other_handler.sa_flags & SA_SIGINFO) {
-        other_handler.sa_sigaction(number, info, context);
-    } else {
-        other_handler.sa_handler(number);
-    }
-}
-
-static void on_bus_error(int number, siginfo_t *info, void *context)
-{
-    const int before = errno;
-    if (info->si_code <= 0 || !patch((uintptr_t)info->si_addr))
-        pass_on(number, info, context);
-    errno = before;
-}
-
-void ffd_guard_inputs(void)
-{
-    struct sigaction action = {.sa_sigaction = on_bus_error, .sa_flags = SA_SIGINFO | SA_ONSTACK}, old;
-    sigemptyset(&action.sa_mask);
-    page_size = (size_t)sysconf(_SC_PAGESIZE);
-    if (sigaction(SIGBUS, NULL, &old) != 0 || (old.sa_flags & SA_SIGINFO && old.sa_sigaction == on_bus_error))
-        return;
-    other_handler = old;
-    sigaction(SIGBUS, &action, NULL);
+    return 0;
 }

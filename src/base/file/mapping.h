@@ -9,6 +9,7 @@
 #define FFD_BASE_FILE_MAPPING_H
 
 #include "base/fail.h"
+#include <stddef.h>
 #include <stdint.h>
 
 typedef struct file_mapping file_mapping;
@@ -18,6 +19,9 @@ typedef struct file_mapping file_mapping;
 file_mapping *ffd_mapping_note(const void *begin, size_t size, const char *path, const uint64_t identity[2]);
 /* Removes the record. To be called before unmapping. */
 void ffd_mapping_forget(file_mapping *mapping);
+/* Notes that the page of an address can no longer be read. Returns how many bytes of its input there are from
+   that address on; 0: the address is not in a mapped input. For a signal handler. */
+size_t ffd_mapping_cut(uintptr_t address);
 /* Returns how many mapped inputs of this process were truncated so far. */
 unsigned ffd_mapping_losses(void);
 /* Returns status; but FFD_E_IO with the name of the input if there are more losses than `before`, because

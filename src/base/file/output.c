@@ -8,15 +8,12 @@
 #include "base/file/temporary.h"
 #include "base/file/written_files.h"
 #include "base/memory/memory.h"
+#include "base/posix.h"
 #include "base/system/deadline.h"
 #include "base/text/buffer.h"
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 /* Size of the write buffer. */
 #define BLOCK ((size_t)1 << 16)
@@ -223,6 +220,10 @@ static ffd_status fail_exists(const char *path, ffd_error *error)
 static ffd_status check_target(const char *path, bool force, struct stat *info, bool *exists,
                                ffd_error *error)
 {
+    const char *const flaw = ffd_path_flaw(path);
+    *exists = false;
+    if (flaw)
+        return ffd_fail_file(error, FFD_E_IO, path, "cannot be written: \"%s\" %s", path, flaw);
     *exists = lstat(path, info) == 0;
     if (!*exists)
         return errno == ENOENT ? FFD_OK : ffd_fail_errno(error, path, "cannot be written");

@@ -1,14 +1,26 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/text/buffer.h"
+#ifdef _WIN32
+#include "base/windows/names.h"
+#endif
 #include <string.h>
 
-static bool is_separator(char c)
+bool ffd_is_separator(char c)
 {
 #ifdef _WIN32
     return c == '/' || c == '\\';
 #else
     return c == '/';
+#endif
+}
+
+uint32_t ffd_fold_case(uint32_t c)
+{
+#ifdef _WIN32
+    return ffd_small_letter(c);
+#else
+    return c;
 #endif
 }
 
@@ -21,7 +33,7 @@ const char *ffd_path_name(const char *path)
 {
     const char *name = path;
     for (const char *c = path; *c; c++)
-        if (is_separator(*c))
+        if (ffd_is_separator(*c))
             name = c + 1;
     return name;
 }
@@ -32,7 +44,21 @@ bool ffd_path_is_absolute(const char *path)
     if (path[0] && path[1] == ':')
         return true;
 #endif
-    return is_separator(path[0]);
+    return ffd_is_separator(path[0]);
+}
+
+/* Returns the length of the part of an absolute path that ".." does not leave: "/", and on Windows "C:/" and
+   the first two separators of "//server/share"; 0: the path is relative. */
+static size_t root_length(const char *path)
+{
+    size_t length = 0;
+#ifdef _WIN32
+    if (path[0] && path[1] == ':')
+        length = 2;
+    else if (ffd_is_separator(path[0]) && ffd_is_separator(path[1]))
+        return 2;
+#endif
+    return length + ffd_is_separator(path[length]);
 }
 
 const char *ffd_path_ending(const char *path)
@@ -67,8 +93,9 @@ char *ffd_path_folder(const char *path)
     const char *name = ffd_path_name(path);
     if (name == path)
         return copy_range(".", 1);
+    const size_t root = root_length(path);
     size_t length = (size_t)(name - path);
-    while (length > 1 && is_separator(path[length - 1]))
+    while (length > root && ffd_is_separator(path[length - 1]))
         length--;
     return copy_range(path, length);
 }
@@ -82,7 +109,7 @@ char *ffd_path_stem(const char *path)
 char *ffd_path_join(const char *folder, const char *name)
 {
     const size_t a = strlen(folder), b = strlen(name);
-    const bool separator = a > 0 && !is_separator(folder[a - 1]);
+    const bool separator = a > 0 && !ffd_is_separator(folder[a - 1]);
     char *text = ffd_alloc(a + separator + b + 1, 1);
     if (!text)
         return NULL;
@@ -123,18 +150,27 @@ char *ffd_text_copy(const char *text)
     return copy_range(text, strlen(text));
 }
 
+/* Returns the length of the name at the beginning of a path. */
+static size_t name_length(const char *path)
+{
+    size_t length = 0;
+    while (path[length] && !ffd_is_separator(path[length]))
+        length++;
+    return length;
+}
+
 char *ffd_path_normalize(const char *path)
 {
     char *out = ffd_alloc(strlen(path) + 1, 1);
     if (!out)
         return NULL;
     size_t length = 0, kept = 0; /* kept: length of the leading "/" or "../" sequence */
-    const bool absolute = *path == '/';
-    if (absolute)
-        out[length++] = *path++;
+    const bool absolute = ffd_path_is_absolute(path);
+    for (size_t root = root_length(path); root > 0; root--, path++)
+        out[length++] = (char)(ffd_is_separator(*path) ? '/' : *path);
     kept = length;
     while (*path) {
-        size_t part = strcspn(path, "/");
+        size_t part = name_length(path);
         const bool up = part == 2 && path[0] == '.' && path[1] == '.';
         if (up && length > kept) {
             while (length > kept && out[length - 1] != '/')
@@ -150,7 +186,7 @@ char *ffd_path_normalize(const char *path)
                 kept = length;
         }
         path += part;
-        path += *path == '/';
+        path += ffd_is_separator(*path);
     }
     out[length] = 0;
     return out;
@@ -178,4 +214,13 @@ char *ffd_path_relative(const char *from, const char *to)
     to += common;
     ffd_buffer_text(&out, *to == '/' ? to + 1 : to);
     return ffd_buffer_finish(&out);
+}
+
+bool ffd_names_equal(const char *a, const char *b)
+{
+#ifdef _WIN32
+    return ffd_equal_without_case(a, b);
+#else
+    return strcmp(a, b) == 0;
+#endif
 }

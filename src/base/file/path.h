@@ -4,7 +4,12 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
+/* Whether a character separates names. */
+bool ffd_is_separator(char c);
+/* Returns a character of Unicode as names are compared: small on Windows, unchanged elsewhere. */
+uint32_t ffd_fold_case(uint32_t c);
 /* "a/b.obj" -> "b.obj"; points into path. */
 const char *ffd_path_name(const char *path);
 /* "a/b.obj" -> ".obj", or ""; points into path. */
@@ -14,6 +19,8 @@ bool ffd_path_has_ending(const char *path, const char *ending);
 /* Returns whether path is absolute. */
 bool ffd_path_is_absolute(const char *path);
 
+/* Returns whether two names are those of one file. */
+bool ffd_names_equal(const char *a, const char *b);
 /* Returns whether a normalized relative path leads out of its folder. */
 bool ffd_path_leads_out(const char *path);
 

@@ -3,8 +3,11 @@
 #include "base/file/folder.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/posix.h"
+#ifdef _WIN32
+#include "base/windows/names.h"
+#endif
 #include <string.h>
-#include <sys/stat.h>
 
 /* Folders that are remembered by device and inode, at most. */
 #define MOST_KNOWN 4096
@@ -36,7 +39,9 @@ static char *resolve(const char *path)
     char *const led = is_link(path) ? resolve_target(path) : NULL;
     if (led)
         return led;
-    char *const folder = ffd_path_folder(path), *const above = folder ? resolve(folder) : NULL;
+    char *const folder = ffd_path_folder(path), *const above = folder && strcmp(folder, path) != 0
+                                                                   ? resolve(folder)
+                                                                   : NULL;
     char *const joined = above ? ffd_path_join(above, ffd_path_name(path)) : NULL;
     char *const plain = joined ? ffd_path_normalize(joined) : NULL;
     ffd_free(folder);
@@ -104,8 +109,16 @@ static const char *find_folder(file_places *places, const char *path, size_t len
 
 static hash128 hash_of(const char *folder, const char *name)
 {
-    const hash_block blocks[] = {{folder, strlen(folder) + 1}, {name, strlen(name)}};
-    return ffd_hash_blocks(blocks, 2);
+#ifdef _WIN32
+    char *const same = ffd_small_letters(name);
+#else
+    char *const same = NULL;
+#endif
+    const char *const hashed = same ? same : name;
+    const hash_block blocks[] = {{folder, strlen(folder) + 1}, {hashed, strlen(hashed)}};
+    const hash128 hash = ffd_hash_blocks(blocks, 2);
+    free(same);
+    return hash;
 }
 
 /* base: NULL, or the folder that the place is seen from. */
@@ -115,7 +128,7 @@ static hash128 find_place(file_places *places, const char *base, const char *pat
     const char *const whole = target ? target : path;
     const char *const name = ffd_path_name(whole);
     size_t length = (size_t)(name - whole);
-    while (length > 1 && whole[length - 1] == '/')
+    while (length > 1 && ffd_is_separator(whole[length - 1]))
         length--;
     const char *const folder = find_folder(places, whole, length);
     char *const seen = base && folder ? ffd_path_relative(base, folder) : NULL;

@@ -1,36 +1,13 @@
 #define _DEFAULT_SOURCE /* madvise */
 #include "base/file/spill.h"
-#include "base/file/cleanup.h"
+#include "base/file/unnamed_file.h"
 #include "base/memory/memory.h"
+#include "base/posix.h"
 #include <errno.h>
-#include <fcntl.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 /* Bytes that are copied at a time: a multiple of any page size. */
 #define COPIED ((size_t)1 << 22)
-
-/* Opens a temporary file without a name. Returns -1 if that is not possible. */
-static int make_file(void)
-{
-    const char *folder = getenv("TMPDIR");
-    char path[4096];
-    const int length =
-        snprintf(path, sizeof path, "%s/ffd-spill-XXXXXX", folder && *folder ? folder : "/var/tmp");
-    if (length < 0 || (size_t)length >= sizeof path)
-        return -1;
-    ffd_cleanup_hold(); /* so that a signal cannot leave a file with a name */
-    const int file = mkstemp(path);
-    if (file >= 0) {
-        unlink(path);
-        fcntl(file, F_SETFD, FD_CLOEXEC);
-    }
-    ffd_cleanup_release();
-    return file;
-}
 
 /* Maps the first `size` bytes of the file after allocating them on the disk: writing to a mapped page without
    disk space would raise SIGBUS. Returns NULL if there is not enough disk space or memory. */
@@ -71,7 +48,7 @@ static bool leave_file(spill_array *array, size_t size)
 /* Moves the array into a file. Returns false if that is not possible. */
 static bool move_to_file(spill_array *array, size_t size)
 {
-    const int file = make_file();
+    const int file = ffd_unnamed_file();
     spill_array moved = {
         .data = file < 0 ? NULL : map_bytes(file, size), .size = size, .file = file, .is_mapped = true};
     if (!moved.data) {

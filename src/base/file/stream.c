@@ -1,11 +1,9 @@
 #include "base/file/stream.h"
 #include "base/file/input.h"
 #include "base/memory/memory.h"
+#include "base/posix.h"
 #include <errno.h>
-#include <poll.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #define BLOCK ((size_t)1 << 16)
 

@@ -3,15 +3,11 @@
 #include "base/file/input.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/posix.h"
 #include <errno.h>
-#include <fcntl.h>
 #include <stdatomic.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 /* The longest file name that file systems accept, in bytes. */
 #define LONGEST_NAME 255

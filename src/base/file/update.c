@@ -3,11 +3,8 @@
 #include "base/file/path.h"
 #include "base/file/temporary.h"
 #include "base/memory/memory.h"
+#include "base/posix.h"
 #include <errno.h>
-#include <fcntl.h>
-#include <stdlib.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 struct update_file {
     int fd;

@@ -1,9 +1,9 @@
 #define _DEFAULT_SOURCE /* madvise */
 #include "base/memory/memory.h"
+#include "base/posix.h"
 #include <stdatomic.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include <sys/mman.h>
 
 /* Blocks of at least this size get huge pages. */
 #define LARGE_BLOCK ((size_t)4 << 20)

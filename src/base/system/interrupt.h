@@ -9,8 +9,14 @@
 void ffd_interrupt_watch(void);
 /* Returns whether there was a request. */
 bool ffd_interrupt_requested(void);
-/* Returns a file descriptor that becomes readable at the first request; -1: none. For ffd_process_wait. */
+/* For ffd_process_wait. */
+#ifdef _WIN32
+/* Returns an event that is set at the first request; NULL: none. */
+void *ffd_interrupt_event(void);
+#else
+/* Returns a file descriptor that becomes readable at the first request; -1: none. */
 int ffd_interrupt_stream(void);
+#endif
 
 /* In a worker: ignores such requests, which can reach all processes of a terminal or a cluster job; the
    parent process handles them. */

@@ -1,5 +1,5 @@
-/* process.h - workers: child processes that communicate over a channel (a socket pair). A
-   crash or a system limit that ends a worker does not affect other processes. */
+/* process.h - workers: child processes that communicate over a channel (a socket pair; on Windows two pipes).
+   A crash or a system limit that ends a worker does not affect other processes. */
 #ifndef FFD_BASE_SYSTEM_PROCESS_H
 #define FFD_BASE_SYSTEM_PROCESS_H
 
@@ -42,6 +42,10 @@ void ffd_process_finish(worker_process **process, process_end *end);
 
 /* In a worker: lets the system end it when its parent process ends, if the system can do that. */
 void ffd_process_follow_parent(void);
+#ifdef _WIN32
+/* In a worker: calls a function, which ends the process, in another thread at ffd_process_stop. */
+void ffd_process_on_stop(void (*function)(void));
+#endif
 /* In a worker: from now on ffd_process_stop is deferred (wait), or takes effect (not wait). To be called when
    the worker has only one thread. */
 void ffd_process_defer_stop(bool wait);

@@ -1,11 +1,15 @@
 #include "base/system/worker_program.h"
+#include "base/posix.h"
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
+#ifdef _WIN32
+#define PROGRAM "ffd.exe"
+#define BETWEEN ";" /* folders in PATH */
+#else
 #define PROGRAM "ffd"
+#define BETWEEN ":"
+#endif
 
 /* Absolute, or relative to the folder of the library. */
 static const char *const folders[] = {FFD_PROGRAM_FOLDERS};
@@ -16,13 +20,22 @@ static bool is_program(const char *path)
     return stat(path, &info) == 0 && S_ISREG(info.st_mode) && access(path, X_OK) == 0;
 }
 
+static bool is_absolute(const char *folder)
+{
+#ifdef _WIN32
+    if (folder[0] && folder[1] == ':')
+        return true;
+#endif
+    return *folder == '/';
+}
+
 /* Relative folders of PATH do not count: the process may have changed its own. */
 static bool find_in_path(char path[LONGEST_PATH])
 {
     const char *folder = getenv("PATH");
     for (size_t length; folder; folder = folder[length] ? folder + length + 1 : NULL) {
-        length = strcspn(folder, ":");
-        if (*folder == '/' &&
+        length = strcspn(folder, BETWEEN);
+        if (is_absolute(folder) &&
             snprintf(path, LONGEST_PATH, "%.*s/" PROGRAM, (int)length, folder) < LONGEST_PATH &&
             is_program(path))
             return true;

@@ -29,7 +29,7 @@ struct job_source {
     bool numbers_outputs; /* several rows may use one mesh, so outputs get the number of the row */
     file_table
         meshes;      /* number of rows that use each mesh (2: several); unknown for a stream, where all may */
-    file_list files; /* matches of the pattern */
+    path_list files; /* matches of the pattern */
 };
 
 /* Lines */
@@ -143,7 +143,7 @@ static int compare_names(const void *a, const void *b)
 /* Refuses files whose outputs have equal names: they would overwrite each other. */
 static ffd_status refuse_equal_names(const job_source *source, ffd_error *error)
 {
-    const file_list *const files = &source->files;
+    const path_list *const files = &source->files;
     const job_commons commons = list_commons(source);
     named_file *const sorted = ffd_alloc_zero(files->count, sizeof *sorted);
     ffd_status status;
@@ -181,7 +181,7 @@ static void free_source(job_source *source)
     ffd_lines_close(&source->reader);
     ffd_table_free(&source->table);
     ffd_files_free(&source->meshes);
-    ffd_glob_free(&source->files);
+    ffd_paths_free(&source->files);
     ffd_free(source->folder);
 }
 

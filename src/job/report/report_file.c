@@ -333,6 +333,7 @@ static ffd_status put_in_order(ffd_report *report, ffd_error *error)
     if (!text->failed)
         TRY_END(ffd_output_write(output, text->data, text->size, error));
     TRY_END(copy_entries(report, output, error));
+    ffd_growing_close(&report->file); /* Windows does not replace a file that is open */
     text->size = 0;
     ffd_report_end_text(report->lines, false, text);
     TRY_END(text->failed ? ffd_fail_memory(error) : ffd_output_write(output, text->data, text->size, error));
