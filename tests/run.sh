@@ -320,7 +320,7 @@ test_arm64() {
     step arm64 setup setup_arm64 arm64 --wrap-mode=forcefallback -Dtests=disabled || return
     if step arm64 build ninja -C "$work/arm64" src/cli/ffd; then
         say arm64 built
-        case_of arm64 jobs python3 "$root/tests/release/run_jobs.py" --every 4 --without batch qemu-aarch64 "$work/arm64/src/cli/ffd"
+        case_of arm64 jobs python3 "$root/tests/release/run_jobs.py" --every 7 --without batch qemu-aarch64 "$work/arm64/src/cli/ffd"
     fi
 }
 

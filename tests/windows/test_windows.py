@@ -253,7 +253,7 @@ def check_faults(folder, kind, what):
 
 
 def test_jobs(_):
-    done = subprocess.run([sys.executable, os.path.join(ROOT, "tests/release/run_jobs.py"), "--every", "4", WINE, FFD], check=False)
+    done = subprocess.run([sys.executable, os.path.join(ROOT, "tests/release/run_jobs.py"), "--every", "6", WINE, FFD], check=False)
     assert done.returncode == 0
 
 
