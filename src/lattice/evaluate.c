@@ -161,7 +161,7 @@ static inline void copy_block(const ffd_lattice *lattice, const double *field, s
 {
     const size_t *const u = index->at[0];
     const size_t count = (size_t)index->count[0], row = components * count;
-    const bool wraps = u[count - 1] < u[0];
+    const bool wraps = u[count - 1] != u[0] + count - 1; /* a block may go round more than once */
     for (int k = 0; k < index->count[2]; k++)
         for (int j = 0; j < index->count[1]; j++, copy += row) {
             const double *const start = field + components * row_start(lattice, index, j, k);
