@@ -255,7 +255,7 @@ static ffd_status list_outputs(batch_worker *worker, const wire_task *task, cons
 }
 
 /* Adds the names and paths of outputs to the answer, and makes the depfile rule. */
-static ffd_status tell_outputs(batch_worker *worker, const wire_task *task, const wire_answer *answer,
+static ffd_status add_outputs(batch_worker *worker, const wire_task *task, const wire_answer *answer,
                                const ffd_deform_desc *desc, ffd_status done, ffd_error *error)
 {
     path_list *const paths = &worker->written->names;
@@ -484,7 +484,7 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const cha
     desc->shared_box = task->has_box ? &shared : NULL;
     TRY(ffd_mapping_judge(losses, hash_files(worker, task, desc, answer, error), error));
     ffd_status status = do_job(worker, task, *picture ? picture : NULL, row, desc, answer, result);
-    status = tell_outputs(worker, task, answer, desc, status, error);
+    status = add_outputs(worker, task, answer, desc, status, error);
     answer->end.own_box = result->own_box;
     return status;
 }
