@@ -256,7 +256,7 @@ static ffd_status list_outputs(batch_worker *worker, const wire_task *task, cons
 
 /* Adds the names and paths of outputs to the answer, and makes the depfile rule. */
 static ffd_status add_outputs(batch_worker *worker, const wire_task *task, const wire_answer *answer,
-                               const ffd_deform_desc *desc, ffd_status done, ffd_error *error)
+                              const ffd_deform_desc *desc, ffd_status done, ffd_error *error)
 {
     path_list *const paths = &worker->written->names;
     const char *const picture = worker->texts.picture;
