@@ -249,9 +249,31 @@ static void no_block_is_taken_for_another(void **state)
     (void)state;
 }
 
+/* Of a ring of five points, from any of them on; no cell reaches further than twice round. */
+static void a_block_goes_round_more_than_once(void **state)
+{
+    const lattice_kinds ring = {{KNOTS_CLOSED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {2, 1, 1}, {5, 2, 2}};
+    ffd_lattice *lattice = lattice_of_kinds(&ring);
+    double points[3 * 9 * 2 * 2];
+    for (size_t n = 0; n < 3 * lattice->count; n++)
+        lattice->rest[n] = (double)n;
+    for (size_t from = 0; from < 5; from++)
+        for (size_t count = 2; from + count <= 10 && count <= 9; count++) {
+            const size_t first[3] = {from, 0, 0}, counts[3] = {count, 2, 2};
+            ffd_lattice_block_points(lattice, lattice->rest, first, counts, points);
+            for (size_t i = 0; i < count * 4; i++)
+                for (size_t c = 0; c < 3; c++)
+                    assert_true(points[3 * i + c] ==
+                                (double)(3 * (i / count * 5 + (from + i % count) % 5) + c));
+        }
+    ffd_lattice_destroy(&lattice);
+    (void)state;
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(no_turn_is_passed_over),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_block_goes_round_more_than_once),
+                                       cmocka_unit_test(no_turn_is_passed_over),
                                        cmocka_unit_test(no_block_is_taken_for_another)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
