@@ -3,6 +3,7 @@
 #include "base/file/mapping.h"
 #include "base/file/output.h"
 #include "base/memory/memory.h"
+#include "base/text/number.h"
 #include "job/report/report.h"
 #include "job/report/report_file.h"
 #include "job/report/report_reader.h"
@@ -84,11 +85,9 @@ typedef struct junit_case {
     double seconds; /* negative: not known */
 } junit_case;
 
-/* Appends a time to microseconds; %f would write the comma of a locale. */
 static void put_time(byte_buffer *xml, double seconds)
 {
-    const double microseconds = round(fmin(seconds, LONGEST) * 1e6), part = fmod(microseconds, 1e6);
-    ffd_buffer_format(xml, " time=\"%.0f.%06.0f\"", (microseconds - part) / 1e6, part);
+    ffd_buffer_format(xml, " time=\"%s\"", ffd_number_decimals(fmin(seconds, LONGEST), 6).text);
 }
 
 static void add_case(junit_suite *suite, const junit_case *c)
