@@ -186,9 +186,10 @@ static ffd_status open_default_journal(const char *path, job_journal **journal, 
 {
     size_t made;
     char *const folder = ffd_path_folder(path);
-    ffd_status status = folder ? ffd_folder_make(folder, &made, error) : ffd_fail_memory(error);
-    if (!status)
-        status = ffd_journal_open(path, journal, error);
+    ffd_status status;
+    TRY_END(folder ? ffd_folder_make(folder, &made, error) : ffd_fail_memory(error));
+    TRY_END(ffd_journal_open(path, journal, error));
+end:
     ffd_free(folder);
     return status;
 }
@@ -233,11 +234,13 @@ static ffd_status open_journal(batch_run *run, ffd_error *error)
     ffd_error reason;
     ffd_status status = name_journal(run);
     const char *const path = run->journal_path;
-    /* A dry run writes nothing, not even a journal. */
-    if (path && desc->pool.wishes.dry && !(desc->pool.wishes.resume && ffd_file_exists(path)))
+    const bool is_dry = desc->pool.wishes.dry; /* it writes nothing, not even a journal */
+    if (path && is_dry && !(desc->pool.wishes.resume && ffd_file_exists(path)))
         return FFD_OK;
     if (status)
         status = ffd_fail(&reason, FFD_E_IO, "there is no folder for the journal ({journal} names one)");
+    else if (is_dry)
+        status = ffd_journal_read(path, &run->journal, &reason);
     else if (desc->given->journal)
         status = ffd_journal_open(path, &run->journal, &reason);
     else

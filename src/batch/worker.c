@@ -77,7 +77,7 @@ static bool find_copy(void *context, const char *copy, hash128 *hash)
     const task_texts *const texts = &worker->texts;
     job_record record;
     if (*texts->journal && !worker->journal)
-        ffd_journal_open(texts->journal, &worker->journal, NULL);
+        ffd_journal_read(texts->journal, &worker->journal, NULL);
     const hash128 key = ffd_journal_copy_key(texts->base, copy);
     const bool found = worker->journal && ffd_journal_find(worker->journal, &key, &record, NULL);
     if (found)

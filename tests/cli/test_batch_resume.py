@@ -247,6 +247,26 @@ def a_dry_run_tells(run):
 
 
 @case
+def a_dry_run_leaves_a_journal_of_another_version(run):
+    """Also where workers look in it for the notes of copies."""
+    start(run)
+    asset, data = gltf_json([[0, 0, 0], [1, 0, 0], [0, 1, 0]], uri="in.bin")
+    asset["images"] = [{"uri": "t.png"}]
+    for name, content in (("in.gltf", asset), ("in.bin", data), ("t.png", PNG + b"one")):
+        run.write("in/" + name, content)
+    run.write("m.jsonl", lines_of([{"in": "in/in.gltf", "lattice": "l.json", "out": "out/out.gltf"}]))
+    batch(run, "m.jsonl", "--journal", "j", done=1)
+    written = run.read("j")
+    check(written.startswith(b"ffd-journal "), written[:20])
+    run.write("j", b"ffd-journal 1\n\0\0" + written[16:])
+    run.write("in/t.png", PNG + b"another one")
+    before = run.read("j")
+    for words in (["--force", "--resources", "refresh"], ["--resume"]):
+        run.ffd("batch", "m.jsonl", "--journal", "j", "--dry-run", *words, code=(0, 1), err=lambda said: None)
+        check(run.read("j") == before, words, "the journal has changed")
+
+
+@case
 def a_folder_for_journals_that_cannot_be_had(run):
     """No journal only costs time."""
     start(run, [job(0)])
