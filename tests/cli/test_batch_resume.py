@@ -275,6 +275,13 @@ def a_folder_for_journals_that_cannot_be_had(run):
     done = run.ffd("batch", "m.jsonl", "--resume", err=lambda said: None)
     check(any("file" in line for line in done.err), "nobody is told:", done.err)
     check(run.exists("o0.obj"), "nothing was made")
+    # The reason is that of the folder, not that it is not there.
+    options = run.unprivileged()
+    if options:
+        os.mkdir(run.path("others"), 0o555)
+        os.environ["XDG_CACHE_HOME"] = run.path("others")
+        done = run.ffd("batch", "m.jsonl", "--resume", code=(0, 1), err=lambda said: None, **options)
+        check(any("others/ffd: the folder cannot be made: Permission denied" in line for line in done.err), done.err)
 
 
 @case
