@@ -317,7 +317,8 @@ def the_commit_of_a_build(run):
     script = os.path.join(os.environ["FFD_DATA"], "../src/base/commit.sh")
 
     def commit(folder):
-        return subprocess.run(["sh", script, run.path(folder)], capture_output=True, text=True, check=True, timeout=SECONDS).stdout
+        return subprocess.run(["sh", script, run.path(folder)], env={**os.environ, "commit": "of others"}, capture_output=True, text=True,
+                              check=True, timeout=SECONDS).stdout
 
     def git(*words):
         subprocess.run(["git", "-C", run.path("clone"), "-c", "user.name=a", "-c", "user.email=a@b", *words], check=True, capture_output=True, timeout=SECONDS)
