@@ -201,13 +201,15 @@ static const char *file_of_jobs(const job_source_desc *jobs)
     return file && !ffd_file_is_stream(file) ? file : NULL;
 }
 
-/* Finds the folder that the names in the journal are relative to. */
+/* Finds the folder that the names in the journal are relative to: the root if the current one was removed. */
 static ffd_status find_base(batch_run *run, ffd_error *error)
 {
     const char *const file = file_of_jobs(&run->desc->jobs);
     char *const folder = ffd_path_folder(file ? file : "");
     run->base = folder ? ffd_path_resolve(folder) : NULL;
     ffd_free(folder);
+    if (!run->base)
+        run->base = ffd_text_copy("/");
     if (!run->base)
         return ffd_fail_memory(error);
     if (run->desc->given->positions)

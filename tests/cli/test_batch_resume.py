@@ -2,9 +2,10 @@
 """ffd batch --resume: an output is left alone only where it is what its job would make, judged by content."""
 
 import os
+import subprocess
 
 from batches import MOVE, batch, case, check, equal, job, lattice, lines_of, main, start, statuses
-from harness import CUBE, PNG, gltf_json
+from harness import CUBE, FFD, PNG, SECONDS, gltf_json
 
 ALL = ["o0.obj", "o1.obj", "o2.obj"]
 
@@ -304,6 +305,18 @@ def a_journal_moves_with_its_manifest(run):
     batch(run, "far/away/two/other/m.jsonl", *[word.format("far/away/two") for word in words], kept=2)
     run.write("far/away/two/m.jsonl", lines.replace("../", ""))
     batch(run, "far/away/two/m.jsonl", *[word.format("far/away/two") for word in words], done=2)
+
+
+@case
+def a_folder_that_was_removed(run):
+    """Jobs that come from no file have their journal by the current folder, which may be gone."""
+    start(run)
+    for words in ("done", "up to date"):
+        run.folder_of("gone")
+        done = subprocess.run(["sh", "-c", 'cd gone && rmdir ../gone && exec "$@"', "sh", FFD, "batch", "--in", run.path("a*.obj"),
+                               "-l", run.path("l.json"), "--out-dir", run.path("out"), "--resume"],
+                              cwd=run.folder, capture_output=True, text=True, timeout=SECONDS, check=False)
+        equal((done.returncode, f"1 {words}" in done.stderr), (0, True), done.stderr)
 
 
 main()
