@@ -208,8 +208,7 @@ static ffd_status allocate(fold_work *work, int threads, ffd_error *error)
 {
     const size_t cells = work->plan.cell_count;
     work->tile_count = cells / TILE_CELLS + (cells % TILE_CELLS != 0);
-    if ((size_t)threads > work->tile_count)
-        threads = (int)work->tile_count;
+    threads = ffd_threads_for(threads, work->tile_count);
     work->lower = ffd_alloc(cells, sizeof(double));
     work->verdicts = ffd_alloc(cells, 1);
     work->tiles = ffd_alloc(work->tile_count, sizeof *work->tiles);
@@ -232,7 +231,7 @@ static ffd_status find(const ffd_lattice *lattice, int threads, ffd_folds *folds
     if (!ffd_lattice_get_points(lattice, FFD_VOLUME_REST))
         return ffd_fail(error, FFD_E_ARGUMENT,
                         "the lattice has no control points yet: its box is that of a mesh");
-    TRY(ffd_threads_choose(threads, &threads, error));
+    TRY(ffd_threads_check(threads, error));
     folds->cells = lattice->knots[0].span_count * lattice->knots[1].span_count * lattice->knots[2].span_count;
     folds->relative_to = FFD_FOLDS_TO_PLACE;
     if (ffd_fold_is_affine(lattice, &folds->min_det))

@@ -75,7 +75,16 @@ ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bo
     if (check && desc->morphs)
         return ffd_fail(&result->error, FFD_E_ARGUMENT,
                         "morphs: only ffd_deform_run supports several targets");
-    return ffd_threads_choose(desc->threads, &job->threads, &result->error);
+    return ffd_threads_check(desc->threads, &result->error);
+}
+
+/* Returns the number of threads of the job. A plain job on a part of few vertices is done by one; figures of
+   the lattice and of faces may take long for any mesh. */
+static int choose_threads(const deform_job *job)
+{
+    const bool measures = ffd_figures_wanted(job) || job->desc->fail_on;
+    const uint64_t pieces = ffd_mesh_vertex_count(job->document) / MESH_RANGE_STEP + 1;
+    return ffd_threads_for(job->desc->threads, measures ? UINT64_MAX : pieces);
 }
 
 static ffd_status open_mesh(deform_job *job, bool only_positions, ffd_error *error)
@@ -88,8 +97,8 @@ static ffd_status open_mesh(deform_job *job, bool only_positions, ffd_error *err
     const bool is_file =
         ffd_job_cache_holds_meshes(desc->cache) && !source.bytes.data && ffd_file_stamp(source.path, &stamp);
     TRY(is_file && ffd_job_cache_take_bytes(desc->cache, source.path, &stamp, &bytes)
-            ? ffd_source_open_bytes(&source, job->threads, &bytes, &job->document, error)
-            : ffd_source_open(&source, job->threads, &job->document, error));
+            ? ffd_source_open_bytes(&source, desc->threads, &bytes, &job->document, error)
+            : ffd_source_open(&source, desc->threads, &job->document, error));
     TRY(ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(&desc->input), job->document,
                             error));
     ffd_job_cache_describe_mesh(desc->cache, desc, only_positions, is_file ? &stamp : NULL, job->document);
@@ -130,6 +139,7 @@ ffd_status ffd_deform_job_open(deform_job *job, unsigned needs, ffd_job_result *
     job->document_is_cached = job->document;
     if (!job->document)
         TRY_END(open_mesh(job, only_positions, error));
+    job->threads = choose_threads(job);
     if (desc->rig == FFD_RIG_FOLLOW && !job->document->format->places)
         TRY_END(ffd_fail_file(error, FFD_E_ARGUMENT, ffd_source_name(&desc->input),
                               "has no nodes that could follow: only glTF has ({rig=follow})"));
@@ -202,7 +212,7 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, figure_arrays 
                                   .directions = job->desc->normals != FFD_NORMALS_KEEP,
                                   .converted = job->converts,
                                   .replace = !ffd_job_cache_holds_meshes(job->desc->cache) &&
-                                             !ffd_figures_wanted(job) && !job->recomputes &&
+                                             !ffd_figures_count_flipped(job) && !job->recomputes &&
                                              !job->desc->morphs};
     TRY(job->document->format->begin_results(job->document, &results, error));
     if (job->desc->normals == FFD_NORMALS_RECOMPUTE && !job->recomputes && !job->document->has_face_normals)

@@ -191,8 +191,8 @@ static ffd_status embed(const ffd_embed_desc *desc, embedding *made, double star
 {
     const mesh_log log = {desc->log, desc->log_user};
     pass_totals totals;
-    int threads;
-    TRY(ffd_threads_choose(desc->threads, &threads, error));
+    TRY(ffd_threads_check(desc->threads, error));
+    const int threads = ffd_threads_for(desc->threads, UINT64_MAX);
     TRY(open_mesh(desc, made, threads, error));
     const double opened = ffd_clock_seconds();
     result->seconds.read = opened - start;

@@ -16,12 +16,11 @@ ffd_status ffd_point_run_begin(const ffd_run_options *options, size_t total, poi
     const size_t tiles = total / POINT_TILE + 1;
     TRY(options ? ffd_struct_take(&run->options, sizeof run->options, options, "ffd_run_options", error)
                 : FFD_OK);
-    TRY(ffd_threads_choose(run->options.threads, &run->options.threads, error));
+    TRY(ffd_threads_check(run->options.threads, error));
     if (run->options.isa != FFD_ISA_AUTO && !ffd_isa_available(run->options.isa))
         return ffd_fail(error, FFD_E_ARGUMENT, "instruction set %d is not available here",
                         (int)run->options.isa);
-    if (tiles < (size_t)run->options.threads)
-        run->options.threads = (int)tiles;
+    run->options.threads = ffd_threads_for(run->options.threads, tiles);
     atomic_init(&run->done, 0);
     atomic_init(&run->stopped, false);
     const size_t threads = (size_t)run->options.threads;

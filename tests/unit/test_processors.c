@@ -10,6 +10,7 @@
 #include "../support/test_folder.h"
 #include "base/system/cgroup.h"
 #include "base/system/processors.h"
+#include "base/system/thread.h"
 #include <sched.h>
 #include <sys/stat.h>
 
@@ -22,10 +23,12 @@
 static struct {
     size_t bits; /* of the system's mask; SIZE_MAX: there is none */
     int allowed;
+    int calls;
 } shown;
 
 int sched_getaffinity(pid_t process, size_t size, cpu_set_t *set)
 {
+    shown.calls++;
     CPU_ZERO_S(size, set);
     if (shown.bits == 0)
         return syscall(SYS_sched_getaffinity, process, size, set) < 0 ? -1 : 0;
@@ -430,6 +433,34 @@ static void machines_may_have_thousands_of_processors(void **state)
     shown.bits = 0;
 }
 
+static void one_piece_of_work_does_not_count_the_processors(void **state)
+{
+    const uint64_t limit = ffd_cgroup_processor_limit(CGROUP_SELF);
+    const int most = limit < 5 ? (int)limit : 5;
+    ffd_error error;
+    (void)state;
+    shown.allowed = 5;
+    shown.bits = 1024;
+    shown.calls = 0;
+    assert_int_equal(ffd_threads_for(0, 0), 1);
+    assert_int_equal(ffd_threads_for(0, 1), 1);
+    assert_int_equal(ffd_threads_for(7, 1), 1);
+    assert_int_equal(ffd_threads_for_bytes(0, 0), 1);
+    assert_int_equal(ffd_threads_for_bytes(0, 131071), 1);
+    assert_int_equal(ffd_threads_for(7, 8), 7);
+    assert_int_equal(ffd_threads_for(7, 6), 6);
+    assert_int_equal(shown.calls, 0);
+    assert_int_equal(ffd_threads_for(0, UINT64_MAX), most);
+    assert_int_equal(ffd_threads_for(0, 2), most < 2 ? most : 2);
+    assert_int_equal(ffd_threads_for_bytes(0, 131072), most < 2 ? most : 2);
+    assert_int_equal(ffd_threads_for_bytes(0, UINT64_MAX), most);
+    assert_int_equal(shown.calls, 4);
+    shown.bits = 0;
+    assert_int_equal(ffd_threads_check(0, &error), FFD_OK);
+    assert_int_equal(ffd_threads_check(3, &error), FFD_OK);
+    assert_int_equal(ffd_threads_check(-1, &error), FFD_E_ARGUMENT);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -447,6 +478,7 @@ int main(void)
         cmocka_unit_test_teardown(what_cannot_be_read_is_no_limit, clear),
         cmocka_unit_test(the_affinity_of_the_thread_counts),
         cmocka_unit_test(machines_may_have_thousands_of_processors),
+        cmocka_unit_test(one_piece_of_work_does_not_count_the_processors),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -206,10 +206,24 @@ bool ffd_parallel_in_order(size_t count, size_t tile_size, int threads, tile_fun
     return true;
 }
 
-ffd_status ffd_threads_choose(int wanted, int *threads, ffd_error *error)
+ffd_status ffd_threads_check(int wanted, ffd_error *error)
 {
-    if (wanted < 0)
-        return ffd_fail(error, FFD_E_ARGUMENT, "threads is %d: it is 0 for all cores, or positive", wanted);
-    *threads = wanted > 0 ? wanted : ffd_processor_count();
-    return FFD_OK;
+    return wanted >= 0
+               ? FFD_OK
+               : ffd_fail(error, FFD_E_ARGUMENT, "threads is %d: it is 0 for all cores, or positive", wanted);
+}
+
+int ffd_threads_for(int wanted, uint64_t pieces)
+{
+    if (pieces <= 1)
+        return 1;
+    const int most = wanted > 0 ? wanted : ffd_processor_count();
+    return pieces < (uint64_t)most ? (int)pieces : most;
+}
+
+#define PIECE_BYTES ((uint64_t)128 * 1024)
+
+int ffd_threads_for_bytes(int wanted, uint64_t bytes)
+{
+    return ffd_threads_for(wanted, bytes / PIECE_BYTES + 1);
 }

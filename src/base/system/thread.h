@@ -5,6 +5,7 @@
 #include "base/fail.h"
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 /* A callback for the tile with the index `tile`, items [begin, end). worker is 0..threads-1, to select
    scratch memory. */
@@ -24,8 +25,14 @@ bool ffd_parallel_in_order(size_t count, size_t tile_size, int threads, tile_fun
 /* Returns the number of values of `worker` in ffd_parallel_in_order. */
 int ffd_ordered_slots(int threads);
 
-/* Sets *threads to the number that a caller wants, or to that of the processors (processors.h) if it is 0.
-   Errors: FFD_E_ARGUMENT (the number is negative). */
-ffd_status ffd_threads_choose(int wanted, int *threads, ffd_error *error);
+/* Checks a number of threads that a caller wants; 0: that of the processors. Errors: FFD_E_ARGUMENT (it is
+   negative). */
+ffd_status ffd_threads_check(int wanted, ffd_error *error);
+/* Returns the number that a caller wants, or that of the processors (processors.h) if it is 0, but at most
+   the number of pieces of work and at least 1. A single piece does not count the processors: to read their
+   limits takes as long as a tenth of a small job. */
+int ffd_threads_for(int wanted, uint64_t pieces);
+/* The same for text or data of this many bytes: to start a thread takes longer than to read a small piece. */
+int ffd_threads_for_bytes(int wanted, uint64_t bytes);
 
 #endif

@@ -1,7 +1,7 @@
 /* gltf_open.c - opens and closes a document. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
-#include "base/system/processors.h"
+#include "base/system/thread.h"
 #include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/model/gltf_instancing.h"
@@ -305,6 +305,15 @@ ffd_status ffd_gltf_list_files(const mesh_document *document, path_list *files, 
     return FFD_OK;
 }
 
+/* Returns the size of the file and its buffers. */
+static uint64_t count_bytes(const gltf_document *d)
+{
+    uint64_t bytes = d->input.size;
+    for (size_t i = 0; i < d->buffer_values.count; i++)
+        bytes += d->buffers[i].size;
+    return bytes;
+}
+
 static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_error *error)
 {
     d->path = ffd_text_copy(source->path);
@@ -318,6 +327,7 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
     TRY(join_json(d, error));
     TRY(ffd_gltf_read_drawings(d, error));
     TRY(load_buffers(d, error));
+    d->threads = ffd_threads_for_bytes(source->threads, count_bytes(d));
     TRY(ffd_gltf_check_contents(d, error));
     ffd_gltf_choose_pages(d);
     d->layouts = ffd_alloc_zero(d->model.accessor_count, sizeof *d->layouts);
@@ -357,7 +367,7 @@ ffd_status ffd_gltf_open(file_input *input, const ffd_source *source, mesh_docum
     ffd_budget_add_file(&d->base.budget, input->size, KEPT_PER_BYTE);
     d->base.flaws.strict = source->strict;
     d->space = source->space;
-    d->threads = source->threads > 0 ? source->threads : ffd_processor_count();
+    d->threads = ffd_threads_for_bytes(source->threads, input->size);
     d->input = *input; /* the caller keeps it until everything has succeeded */
     const ffd_status status = read_document(d, source, error);
     if (status) {

@@ -49,17 +49,22 @@ bool ffd_obj_walk_corner(obj_walk *walk, obj_face_corner *corner)
     return true;
 }
 
+static bool are_plain(const obj_block *first, const obj_block *last)
+{
+    while (first < last && first->plain)
+        first++;
+    return first->plain;
+}
+
 static void walk_blocks(const obj_document *d, size_t first, size_t last, obj_walk *walk)
 {
     const obj_block *from = &d->blocks.list[first], *to = &d->blocks.list[last];
-    *walk = (obj_walk){.scan = {.at = from->first,
-                                .last = to->last,
-                                .line = from->line,
-                                .plain = first == last && from->plain},
-                       .vertices = {d->vertices, from->vertices},
-                       .texcoords = {d->texcoords, from->texcoords},
-                       .normals = {d->normals, from->normals},
-                       .faces = {d->faces, from->faces}};
+    *walk = (obj_walk){
+        .scan = {.at = from->first, .last = to->last, .line = from->line, .plain = are_plain(from, to)},
+        .vertices = {d->vertices, from->vertices},
+        .texcoords = {d->texcoords, from->texcoords},
+        .normals = {d->normals, from->normals},
+        .faces = {d->faces, from->faces}};
 }
 
 void ffd_obj_document_walk(const obj_document *d, obj_walk *walk)

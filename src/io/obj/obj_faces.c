@@ -193,42 +193,6 @@ bool ffd_obj_find_pair(const obj_document *d, const obj_face_corner *corner, siz
     return *pair < end && d->pair_normal[*pair] == corner->normal;
 }
 
-static ffd_status fill_faces(const obj_document *d, mesh_faces *faces, ffd_error *error)
-{
-    obj_walk walk;
-    obj_face_corner corner;
-    face_filler filler = {.faces = faces, .corners = d->corners};
-    ffd_obj_document_walk_users(d, &walk);
-    while (!filler.ends && ffd_obj_walk_next(&walk)) {
-        if (walk.scan.keyword != OBJ_FACE)
-            continue;
-        ffd_filler_face(&filler);
-        while (ffd_obj_walk_corner(&walk, &corner))
-            ffd_filler_corner(&filler, corner.vertex);
-    }
-    return ffd_filler_end(&filler, d->file.name, error);
-}
-
-ffd_status ffd_obj_faces(const mesh_document *document, mesh_state state, mesh_faces *faces, ffd_error *error)
-{
-    const obj_document *d = ffd_obj_of(document);
-    (void)state;
-    *faces = (mesh_faces){
-        .vertex_count = d->vertices, .face_count = d->faces, .lines = d->lines, .points = d->points};
-    TRY(ffd_mesh_faces_make(document, faces, d->corners, error));
-    if (d->file.new_positions && d->file.new_positions == d->file.positions)
-        ffd_obj_read_again(d, NULL, 0, faces->positions);
-    else
-        ffd_obj_read(document, 0, MESH_POSITIONS, MESH_STORED, 0, d->vertices, faces->positions);
-    return fill_faces(d, faces, error);
-}
-
-typedef struct mixed_search {
-    const obj_document *document;
-    vertex_marks marks;
-    face_list *lists; /* of each block */
-} mixed_search;
-
 /* Corners of a face that is looked at without care. */
 #define PLAIN_CORNERS 8
 
@@ -286,6 +250,48 @@ static size_t list_plainly(const obj_document *d, const obj_scan *scan, uint32_t
     }
     return 0;
 }
+
+static ffd_status fill_faces(const obj_document *d, mesh_faces *faces, ffd_error *error)
+{
+    obj_walk walk;
+    obj_face_corner corner;
+    uint32_t plain[PLAIN_CORNERS];
+    face_filler filler = {.faces = faces, .corners = d->corners};
+    ffd_obj_document_walk_users(d, &walk);
+    while (!filler.ends && ffd_obj_walk_next(&walk)) {
+        if (walk.scan.keyword != OBJ_FACE)
+            continue;
+        ffd_filler_face(&filler);
+        const size_t count = list_plainly(d, &walk.scan, plain);
+        for (size_t i = 0; i < count; i++)
+            ffd_filler_corner(&filler, plain[i]);
+        if (count > 0)
+            continue;
+        while (ffd_obj_walk_corner(&walk, &corner))
+            ffd_filler_corner(&filler, corner.vertex);
+    }
+    return ffd_filler_end(&filler, d->file.name, error);
+}
+
+ffd_status ffd_obj_faces(const mesh_document *document, mesh_state state, mesh_faces *faces, ffd_error *error)
+{
+    const obj_document *d = ffd_obj_of(document);
+    (void)state;
+    *faces = (mesh_faces){
+        .vertex_count = d->vertices, .face_count = d->faces, .lines = d->lines, .points = d->points};
+    TRY(ffd_mesh_faces_make(document, faces, d->corners, error));
+    if (d->file.new_positions && d->file.new_positions == d->file.positions)
+        ffd_obj_read_again(d, NULL, 0, faces->positions);
+    else
+        ffd_obj_read(document, 0, MESH_POSITIONS, MESH_STORED, 0, d->vertices, faces->positions);
+    return fill_faces(d, faces, error);
+}
+
+typedef struct mixed_search {
+    const obj_document *document;
+    vertex_marks marks;
+    face_list *lists; /* of each block */
+} mixed_search;
 
 static void search_tile(void *context, size_t tile, size_t first, size_t last, int worker)
 {

@@ -1,6 +1,6 @@
 /* obj_open.c - opens and closes an OBJ file. */
 #include "base/memory/memory.h"
-#include "base/system/processors.h"
+#include "base/system/thread.h"
 #include "base/text/words.h"
 #include "io/obj/obj_document.h"
 #include "io/obj/obj_faces.h"
@@ -101,16 +101,6 @@ end:
     return status;
 }
 
-/* Bytes for each thread: starting a thread takes longer than reading fewer. */
-#define THREAD_BYTES ((size_t)128 * 1024)
-
-static int threads_for(const ffd_source *source, size_t size)
-{
-    const int threads = source->threads > 0 ? source->threads : ffd_processor_count();
-    const size_t busy = size / THREAD_BYTES + 1;
-    return (size_t)threads < busy ? threads : (int)busy;
-}
-
 /* What a backslash took from the file can be what is missing below: leads to that line too. */
 static ffd_status lead_to_joined(const obj_document *d, ffd_status status, ffd_error *error)
 {
@@ -127,7 +117,7 @@ ffd_status ffd_obj_open(file_input *input, const ffd_source *source, mesh_docume
     obj_document *d = ffd_file_document_make(sizeof *d, input, source, error);
     if (!d)
         return FFD_E_MEMORY;
-    d->threads = threads_for(source, input->size);
+    d->threads = ffd_threads_for_bytes(source->threads, input->size);
     d->only_positions = source->only_positions;
     ffd_status status;
     TRY_END(check_bytes(d, error));

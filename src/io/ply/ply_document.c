@@ -1,6 +1,5 @@
 #include "io/ply/ply_document.h"
 #include "base/memory/memory.h"
-#include "base/system/processors.h"
 #include "base/system/thread.h"
 #include "base/text/words.h"
 #include <float.h>
@@ -146,7 +145,7 @@ ffd_status ffd_ply_open(file_input *input, const ffd_source *source, mesh_docume
     ply_document *d = ffd_file_document_make(sizeof *d, input, source, error);
     if (!d)
         return FFD_E_MEMORY;
-    d->threads = source->threads > 0 ? source->threads : ffd_processor_count();
+    d->threads = ffd_threads_for_bytes(source->threads, input->size);
     ffd_status status;
     TRY_END(ffd_ply_header_read(input, d->file.name, &d->header, error));
     TRY_END(note_marks(d, error));

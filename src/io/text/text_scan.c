@@ -57,31 +57,40 @@ void ffd_text_begin(text_scan *scan, const void *data, size_t size, bool comment
         scan->at += TEXT_MARK_SIZE;
 }
 
+static const char *pass_blanks(const char *at, const char *last)
+{
+    while (at < last && classes[(unsigned char)*at] == BLANK)
+        at++;
+    return at;
+}
+
+/* Returns the end of the word that begins at first. */
+static const char *find_word_end(const text_scan *scan, const char *first)
+{
+    const char *const last = scan->last;
+    for (const char *at = first;; at++) {
+        while (at < last && classes[(unsigned char)*at] == ORDINARY)
+            at++;
+        if (at == last || *at != '#' || (scan->comments && !ffd_text_hash_is_of_word(first, at, last)))
+            return at;
+    }
+}
+
 bool ffd_text_word(text_scan *scan, text_word *word)
 {
-    const char *at = scan->at;
-    while (at < scan->last && class_of(scan, at) == BLANK)
-        at++;
-    word->first = at;
-    while (at < scan->last &&
-           (class_of(scan, at) == ORDINARY ||
-            (class_of(scan, at) == HASH && ffd_text_hash_is_of_word(word->first, at, scan->last))))
-        at++;
-    word->last = scan->at = at;
+    word->first = pass_blanks(scan->at, scan->last);
+    word->last = scan->at = find_word_end(scan, word->first);
     return word->first < word->last;
 }
 
 bool ffd_text_short_whole(text_scan *scan, text_word *word, uint64_t *value)
 {
-    const char *at = scan->at;
+    const char *const last = scan->last, *const first = pass_blanks(scan->at, last), *at = first;
     uint64_t number = 0;
-    while (at < scan->last && class_of(scan, at) == BLANK)
-        at++;
-    const char *const first = at;
-    for (unsigned digit; at < scan->last && (digit = (unsigned)(*at - '0')) < 10; at++)
+    for (unsigned digit; at < last && (digit = (unsigned)(*at - '0')) < 10; at++)
         number = number * 10 + digit;
     const ptrdiff_t digits = at - first;
-    if (digits == 0 || digits > TEXT_SHORT_DIGITS || (at < scan->last && class_of(scan, at) == ORDINARY))
+    if (digits == 0 || digits > TEXT_SHORT_DIGITS || (at < last && class_of(scan, at) == ORDINARY))
         return false;
     *word = (text_word){first, at};
     scan->at = at;
@@ -89,13 +98,20 @@ bool ffd_text_short_whole(text_scan *scan, text_word *word, uint64_t *value)
     return true;
 }
 
+static const char *find_line_end(const char *at, const char *last)
+{
+    while (at < last && classes[(unsigned char)*at] != LINE_END)
+        at++;
+    return at;
+}
+
 bool ffd_text_next_line(text_scan *scan)
 {
-    while (scan->at < scan->last && class_of(scan, scan->at) != LINE_END)
-        scan->at++;
-    if (scan->at == scan->last)
+    const char *const last = scan->last, *const end = find_line_end(scan->at, last);
+    scan->at = end;
+    if (end == last)
         return false;
-    scan->at += *scan->at == '\r' && scan->last - scan->at > 1 && scan->at[1] == '\n' ? 2 : 1;
+    scan->at += *end == '\r' && last - end > 1 && end[1] == '\n' ? 2 : 1;
     scan->line++;
     return true;
 }
@@ -103,8 +119,7 @@ bool ffd_text_next_line(text_scan *scan)
 bool ffd_text_find(text_scan *scan)
 {
     do {
-        while (scan->at < scan->last && class_of(scan, scan->at) == BLANK)
-            scan->at++;
+        scan->at = pass_blanks(scan->at, scan->last);
         if (scan->at < scan->last && class_of(scan, scan->at) == ORDINARY)
             return true;
     } while (ffd_text_next_line(scan));

@@ -55,7 +55,8 @@ ffd_status ffd_source_open_bytes(const ffd_source *source, int threads, file_inp
     *document = NULL;
     ffd_status status;
     TRY_END(ffd_source_format(source, &typed.format, error));
-    TRY_END(ffd_threads_choose(source->threads ? source->threads : threads, &typed.threads, error));
+    typed.threads = source->threads ? source->threads : threads;
+    TRY_END(ffd_threads_check(typed.threads, error));
     status = ffd_format_open(ffd_format_table(typed.format), input, &typed, document, error);
     ffd_fail_name_file(status ? error : NULL, ffd_source_name(source));
 end:

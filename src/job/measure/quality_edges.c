@@ -1,7 +1,6 @@
 #include "job/measure/quality_edges.h"
 #include "base/memory/memory.h"
 #include "base/system/deadline.h"
-#include "base/system/processors.h"
 #include "base/system/thread.h"
 #include "base/vector/vec.h"
 #include "embed/frame/box_tree.h"
@@ -580,11 +579,11 @@ ffd_status ffd_quality_edges(const mesh_document *document, mesh_state state, co
                       .deformed = deformed,
                       .chain = chain,
                       .layers = ffd_chain_layers(chain)};
-    size_t workers = (size_t)(threads > 0 ? threads : ffd_processor_count()), tiles = 0;
+    size_t workers = 0, tiles = 0;
     *result = (edge_quality){0};
     TRY(ffd_edges_collect(faces, &work.list, error));
     tiles = work.list.count / TILE + (work.list.count % TILE != 0);
-    workers = tiles && tiles < workers ? tiles : workers;
+    workers = (size_t)ffd_threads_for(threads, tiles);
     work.scratch = make_scratch(workers, work.layers);
     work.tiles = ffd_alloc_zero(tiles, sizeof *work.tiles);
     ffd_status status;
