@@ -354,7 +354,7 @@ bool ffd_journal_put(job_journal *journal, const hash128 *target, const job_reco
 hash128 ffd_journal_copy_key(const char *base, const char *copy)
 {
     static const char word[] = "copy";
-    const hash128 place = ffd_place_relative(base, copy);
+    const hash128 place = ffd_place_relative(NULL, base, copy);
     const hash_block blocks[] = {{word, sizeof word}, {place.bytes, sizeof place.bytes}};
     return ffd_hash_blocks(blocks, 2);
 }

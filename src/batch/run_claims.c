@@ -28,7 +28,7 @@ static ffd_status claim_picture(batch_run *run, pool_task *task, ffd_error *erro
 {
     hash128 file;
     TRY(ffd_run_view_name(run->view, task, &file, error));
-    const hash128 seen = ffd_place_relative(run->base, task->picture);
+    const hash128 seen = ffd_place_relative(&run->files.places, run->base, task->picture);
     const hash_block blocks[] = {{seen.bytes, sizeof seen.bytes}, {task->target.bytes, sizeof seen.bytes}};
     task->picture_target = ffd_hash_blocks(blocks, 2);
     return ffd_claims_picture(&run->files, &task->job, &file, task->picture, error);
@@ -42,7 +42,7 @@ static ffd_status claim_output(batch_run *run, pool_task *task, ffd_error *error
     if (job->target && ffd_claims_output(&run->files, job, &task->target, error))
         return FFD_E_MEMORY;
     if (job->target)
-        task->target = ffd_place_relative(run->base, job->target);
+        task->target = ffd_place_relative(&run->files.places, run->base, job->target);
     if (run->desc->given->positions)
         task->target = ffd_run_rows_target(&run->rows, job->row, job->target ? &task->target : NULL);
     task->order.needs = ffd_claims_need(&run->files, job, &kind);
