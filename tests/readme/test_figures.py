@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The figures of data/tutorial.md are what the program computes.
+"""The figures of data/tutorial.md and data/README.md are what the program computes, and so is what they say of the sample lattices.
 
     test_figures.py FFD SOURCE
 """
@@ -189,8 +189,56 @@ def errors_of_differences(place):
         near(of_stl, stated[1], f"the derivative of an STL by a step of {step}")
 
 
+def sample_lattice(place, name):
+    with open(os.path.join(place.source, "data/lattices", name), encoding="utf-8") as file:
+        return json.load(file)
+
+
+def moved_vase(place, lattice):
+    """The vase at rest and deformed, its lowest and its highest vertices at rest."""
+    place.write("of-vase.json", json.dumps(lattice))
+    place.run("deform", place.model("vase.obj"), "moved-vase.obj", "-l", "of-vase.json", "--force")
+    rest = place.points(place.model("vase.obj"))
+    heights = [p[1] for p in rest]
+    ends = [[i for i, height in enumerate(heights) if height == end] for end in (min(heights), max(heights))]
+    return rest, place.points("moved-vase.obj"), ends
+
+
+def sample_lattices_on_a_vase(place):
+    """What data/README.md says of the foot and of the top."""
+    with open(os.path.join(place.source, "data/README.md"), encoding="utf-8") as file:
+        place.pages = file.read()
+    rest, moved, (foot, _) = moved_vase(place, sample_lattice(place, "taller.json"))
+    if any(rest[i] != moved[i] for i in foot):
+        sys.exit("taller.json moves the foot")
+    height = [max(p[1] for p in points) - min(p[1] for p in points) for points in (rest, moved)]
+    near(height[1] / height[0], place.stated(r"makes it ([\d.]+) times as tall; the foot stays")[0], "the height of taller.json")
+    for tall in (0.8, 1.3):
+        sweep = re.search(r"```json sweep\.json\n(.*?)```", pages(place.source), re.S)[1]
+        for name, value in (("GIRTH", 1), ("HEIGHT", tall), ("DEGREES", 0)):
+            sweep = sweep.replace('{"$": "%s"}' % name, str(value))
+        rest, moved, (foot, _) = moved_vase(place, json.loads(sweep))
+        if any(rest[i] != moved[i] for i in foot):
+            sys.exit(f"sweep.json moves the foot of a variant of height {tall}")
+
+    rest, moved, ends = moved_vase(place, sample_lattice(place, "wind.json"))
+    foot, top = (max(math.dist(rest[i], moved[i]) for i in end) for end in ends)
+    near(foot / top, place.stated(r"the top moves by a (\d+)th of what the foot does")[0], "the top of wind.json")
+
+    rest, moved, ends = moved_vase(place, sample_lattice(place, "twist.json"))
+    turns = [math.degrees(math.atan2(moved[end[0]][0], moved[end[0]][2]) - math.atan2(rest[end[0]][0], rest[end[0]][2]))
+             for end in ends]
+    near((turns[1] - turns[0]) % 360, place.stated(r"top against its foot by (\d+) of the 120 degrees")[0], "the turn of twist.json")
+
+    rest, moved, ends = moved_vase(place, sample_lattice(place, "taper.json"))
+    foot, top = (100 * math.hypot(moved[i][0], moved[i][2]) / math.hypot(rest[i][0], rest[i][2]) for i in (end[0] for end in ends))
+    stated = place.stated(r"narrows its top to (\d+) percent and its foot to (\d+)")
+    near(top, stated[0], "the top of taper.json")
+    near(foot, stated[1], "the foot of taper.json")
+
+
 def main():
-    checks = (turn_of_the_column, exact_corners, outer_layers, falloff_that_folds, errors_of_differences)
+    checks = (turn_of_the_column, exact_corners, outer_layers, falloff_that_folds, errors_of_differences, sample_lattices_on_a_vase)
     for check in checks:
         with tempfile.TemporaryDirectory(prefix="ffd-test-") as folder:
             check(Place(*sys.argv[1:], folder))
