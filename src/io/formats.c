@@ -1,11 +1,11 @@
 #include "io/formats.h"
 #include "base/file/path.h"
+#include "base/text/content.h"
 #include "io/gltf/gltf_format.h"
 #include "io/obj/obj_format.h"
 #include "io/off/off_format.h"
 #include "io/ply/ply_format.h"
 #include "io/stl/stl_format.h"
-#include "io/text/content.h"
 #include <stdio.h>
 #include <string.h>
 

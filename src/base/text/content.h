@@ -1,6 +1,6 @@
 /* content.h - guesses the kind of a file that is not a mesh, or not of the format that its name says. */
-#ifndef FFD_IO_TEXT_CONTENT_H
-#define FFD_IO_TEXT_CONTENT_H
+#ifndef FFD_BASE_TEXT_CONTENT_H
+#define FFD_BASE_TEXT_CONTENT_H
 
 #include <ffd/job.h>
 #include <stdbool.h>
