@@ -33,9 +33,8 @@ const mesh_format *ffd_format_table(ffd_format format)
 static void mention_content(const mesh_format *format, const file_input *input, ffd_error *error)
 {
     const content_kind *const kind = ffd_content_kind(input->data, input->size);
-    const size_t length = strlen(error->message);
     if (kind && ffd_format_table(kind->format) != format)
-        snprintf(error->message + length, sizeof error->message - length, "; it seems to be %s", kind->name);
+        ffd_content_mention(kind, error);
 }
 
 ffd_status ffd_format_open(const mesh_format *format, file_input *input, const ffd_source *source,

@@ -1,5 +1,6 @@
 #include "base/text/content.h"
 #include "base/text/stand_in.h"
+#include <stdio.h>
 #include <string.h>
 
 /* Bytes of JSON text that are looked at. */
@@ -162,15 +163,38 @@ static bool is_objects(const unsigned char *data, size_t size)
     return at < end && (*at == '"' || *at == '}');
 }
 
+/* Whether two bytes are a character of ASCII in UTF-16. */
+static bool is_unit(const unsigned char *bytes, size_t low)
+{
+    const unsigned char byte = bytes[low];
+    return bytes[1 - low] == 0 && byte < 127 && (byte >= ' ' || is_blank(byte));
+}
+
+bool ffd_content_is_utf16(const void *data, size_t size)
+{
+    const unsigned char *const bytes = data;
+    if (size < 2)
+        return false;
+    if ((bytes[0] == 0xff && bytes[1] == 0xfe) || (bytes[0] == 0xfe && bytes[1] == 0xff))
+        return true;
+    const size_t low = bytes[0] == 0;
+    return is_unit(bytes, low) && (size < 4 || is_unit(bytes + 2, low));
+}
+
+void ffd_content_mention(const content_kind *kind, ffd_error *error)
+{
+    const size_t length = strlen(error->message);
+    if (kind && !(kind->name == utf16 && strstr(error->message, "UTF-16")))
+        snprintf(error->message + length, sizeof error->message - length, "; it seems to be %s", kind->name);
+}
+
 /* Whether text in UTF-16 follows the mark: letters of ASCII, more than numbers have by chance. */
 static bool is_utf16(const unsigned char *data, size_t size)
 {
     const size_t low = data[0] == 0xff ? 0 : 1;
     bool is_text = size >= 2 + 2 * UTF16_SEEN;
-    for (size_t i = 2; i < 2 + 2 * UTF16_SEEN && is_text; i += 2) {
-        const unsigned char byte = data[i + low];
-        is_text = data[i + 1 - low] == 0 && byte < 127 && (byte >= ' ' || is_blank(byte));
-    }
+    for (size_t i = 2; i < 2 + 2 * UTF16_SEEN && is_text; i += 2)
+        is_text = is_unit(data + i, low);
     return is_text;
 }
 
