@@ -189,6 +189,27 @@ def values_of_other_commands(run):
 
 
 @case
+def values_that_do_not_fit_each_other_are_named_by_their_options(run):
+    files(run)
+    for options, message in (
+            (["--shape", "cylinder", "--size", "2,2,2"],
+             "--size: 2 control points of degree 1 along v are too few for this angle of the cylinder"),
+            (["--degree", "4"], "--degree 4 along u needs --size 5 or more there, not 4"),
+            (["--size", "4,3,4", "--degree", "3"], "--degree 3 along v needs --size 4 or more there, not 3"),
+            (["--knots", "clamped,closed,open"], "--knots closed: direction v of a box cannot be closed"),
+            (["--shape", "cylinder", "--knots", "clamped,open,closed"], "--knots closed: direction w of a cylinder cannot be closed"),
+            (["--spacing", "uniform", "--knots", "clamped,open,clamped"],
+             "--spacing uniform needs --knots clamped, which direction v does not have"),
+            (["--shape", "cylinder", "--spacing", "uniform"], "--spacing uniform is for boxes, not for cylinders")):
+        refused(run, "lattice", "new", "a.obj", "-o", "n.json", *options, says=message)
+    run.ffd("lattice", "new", "a.obj", "-o", "n.json", "--size", "1000000", code=LIMIT, err=re.compile("^--size: a lattice of 1000000 by "))
+    refused(run, "jacobian", "a.obj", "-l", "l.json", "-o", "j.npz", "--of", "1", says="--of: there is no lattice 1: the job has 1,")
+    other = "neon" if os.uname().machine in ("x86_64", "i686") else "avx2"
+    refused(run, "check", "a.obj", "-l", "l.json", "--isa", other, says=f"--isa: this build or this processor does not support the "
+            f"instruction set {other}")
+
+
+@case
 def words_of_deform(run):
     work = files(run)
     refused(run, "deform", says="lattice")
