@@ -148,7 +148,8 @@ const cli_command cli_batch = {
     "       MANIFEST: a job a line, as {\"in\": \"a.glb\", \"lattice\": \"x.json\",\n"
     "       \"out\": \"o/a.glb\", \"options\": {\"normals\": \"keep\"}}; - is standard input\n"
     "       exit 1: a job failed\n",
-    {own_options, cli_job_options, cli_deform_options},
+    {own_options, cli_job_options, cli_deform_options,
+     "outputs are named in the manifest, or put into --out-dir DIR"},
     run,
     "MANIFEST",
     examples};

@@ -93,7 +93,11 @@ def an_unknown_command_gets_the_nearest_one_proposed(run):
     refused(run, "report", "mrge", "a.json", says="report merge")
     refused(run, "help", "deform", "x", says="x")
     refused(run, "DEFORM", says="DEFORM")
-    refused(run, "", says="nearest")
+    for word in ("", "fit", "animate", "edit", "mesh"):
+        refused(run, word, says=f'unknown command "{word}" (ffd help lists the known ones)')
+    for word in ("refine", "set", "convert"):
+        refused(run, "lattice", word, says=f'unknown command "lattice {word}" (ffd help lists the known ones)')
+    refused(run, "--xyz", says="unknown option --xyz (options follow a command)")
     for typed, nearest in (("repot", "report merge"), ("latice", "lattice new"), ("bach", "batch")):
         refused(run, typed, says=f"nearest: {nearest}")
 
@@ -113,7 +117,10 @@ def an_unknown_option_gets_the_nearest_one_proposed(run):
         refused(run, *work, option, says=f"nearest: {nearest}")
         refused(run, *work, f"{option}=1", says=f"nearest: {nearest}")
     refused(run, *work, "-x", says="-x")
-    refused(run, *work, "-o", "x", says="-o")
+    refused(run, *work, "-o", "x", says="unknown option -o: OUT is the second argument")
+    refused(run, "batch", "m.jsonl", "-o", "x", says="unknown option -o: outputs are named in the manifest")
+    refused(run, "info", "a.obj", "-m", says="unknown option -m (nearest: --memory)")
+    refused(run, "info", "a.obj", "-s", says="unknown option -s (--help lists the known ones)")
     refused(run, *work, "-qx", says="-x")
     refused(run, "--bogus", says="--bogus")
     refused(run, "--verson", says="--version")
@@ -236,6 +243,8 @@ def what_needs_what(run):
         refused(run, *command, "--embedding", "e.npy", "--report", "e.npy", says="embedding")
         refused(run, *command, "--fail-on", "outsied", says="nearest: outside")
         refused(run, *command, "--fail-on", "folds,mutliple", says="nearest: multiple")
+        refused(run, *command, "--fail-on", "folds,edges", says="the gate edges needs a length: edges=LENGTH")
+        refused(run, *command, "--fail-on", "folds=3", says='the gate folds takes no value: "folds=3"')
     for rest in (["--in-place"], ["--out-dir", "."]):
         refused(run, "deform", "a.obj", "b.glb", *rest, "-l", "l.json", "--embedding", "e.npy", says="IN")
     refused(run, "check", "a.obj", "b.glb", "-l", "l.json", "--embedding", "e.npy", says="IN")
@@ -294,6 +303,9 @@ def unknown_endings_are_refused(run):
     refused(run, "compare", "a.obj", "a.txt", says="a.txt")
     refused(run, "compare", "a", "a.obj", says="a: ")
     refused(run, "info", "a.txt", says="a.txt")
+    run.folder_of("meshes/a.obj")
+    for name in ("meshes", "meshes/"):
+        refused(run, "info", name, says=f"{name}: is a folder: name its meshes, such as meshes/*.obj")
     refused(run, "lattice", "new", "a.txt", "-o", "n.json", says="a.txt")
     refused(run, "lattice", "new", "a.obj", "-o", "n.obj", says="JSON")
     check(run.ffd(*work), "the right words")
