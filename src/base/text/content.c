@@ -1,7 +1,11 @@
 #include "base/text/content.h"
+#include "base/little_endian.h"
 #include "base/text/stand_in.h"
 #include <stdio.h>
 #include <string.h>
+
+#define STL_START 84
+#define STL_FACET 50
 
 /* Bytes of JSON text that are looked at. */
 #define TEXT_SEEN 512
@@ -60,6 +64,9 @@ static const struct {
     {"off", {"an OFF file", FFD_FORMAT_OFF, false, false}},
     {"v", {"an OBJ file", FFD_FORMAT_OBJ, false, false}},
     {"mtllib", {"an OBJ file", FFD_FORMAT_OBJ, false, false}},
+    {"usemtl", {"an OBJ file", FFD_FORMAT_OBJ, false, false}},
+    {"o", {"an OBJ file", FFD_FORMAT_OBJ, false, false}},
+    {"g", {"an OBJ file", FFD_FORMAT_OBJ, false, false}},
     {"newmtl", {"an MTL file", FFD_FORMAT_AUTO, false, false}},
 };
 
@@ -128,9 +135,18 @@ static size_t find_magic(const unsigned char *data, size_t size)
     return SIZE_MAX;
 }
 
+/* The header of a binary STL file, and each of its facets, have a fixed size. */
+static bool is_binary_stl(const unsigned char *data, size_t size)
+{
+    return size >= STL_START && STL_START + (uint64_t)load_u32(data + STL_START - 4) * STL_FACET == size;
+}
+
 const content_kind *ffd_content_kind(const void *data, size_t size)
 {
+    static const content_kind binary_stl = {"a binary STL file", FFD_FORMAT_STL, true, false};
     const size_t found = find_magic(data, size);
+    if (found == SIZE_MAX && is_binary_stl(data, size))
+        return &binary_stl;
     return found != SIZE_MAX ? &magic_numbers[found].kind : kind_of_words(data, size);
 }
 
