@@ -1,5 +1,5 @@
-#define _GNU_SOURCE /* RTLD_NEXT */
 /* test_glob.c - patterns find the files that those of the C library find, and characters beyond ASCII. */
+#define _GNU_SOURCE /* RTLD_NEXT */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
