@@ -313,6 +313,7 @@ static void keep_arrays(figure_arrays *arrays, job_details *details, memory_budg
     details->faces = arrays->faces;
     details->deformed = arrays->deformed;
     details->gradients = arrays->gradients;
+    details->collapsed = arrays->collapsed;
     *arrays = (figure_arrays){0};
 }
 
@@ -373,6 +374,7 @@ static ffd_status warn(const deform_job *job, const ffd_job_result *result, ffd_
         ffd_log_line(&job->file_log, FFD_LOG_WARNING, "%s",
                      job->desc->only_count ? SPELLED("{only} selects no vertices")
                                            : "there are no vertices to deform");
+    ffd_collapse_warn(&job->totals, &job->log);
     if (!job->check) {
         ffd_folds_warn(result, &job->totals, job->desc->lattices, &job->log);
         ffd_tears_warn(result, job->desc->only_count > 0, &job->log);

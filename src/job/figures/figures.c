@@ -204,6 +204,8 @@ const figure ffd_figures[] = {
     {FROM(inverted, JOIN_SUM)},
     {FROM(det_inverted, JOIN_LEAST)}, /* the first of equal ones */
     {FROM(first_inverted, JOIN_WITH)},
+    {FROM(collapsed, JOIN_SUM)},
+    {FROM(first_collapsed, JOIN_LEAST)},
     {FROM(det_min, JOIN_LEAST)},
     {FROM(det_max, JOIN_HIGHEST)},
     {FROM(embed_seconds, JOIN_SUM)},

@@ -76,6 +76,7 @@ typedef struct pass_totals {
      * likewise. */
     uint64_t inverted, first_inverted;
     double det_inverted;
+    uint64_t collapsed, first_collapsed; /* vertices in a lattice with det F = 0 within rounding; likewise */
     double det_min, det_max; /* range of det F over non-singular vertices that a link moves, if wanted; empty:
                                 min > max */
     /* Vertices that are not simply inside and not visible (used by no face, line or point, or of hidden
