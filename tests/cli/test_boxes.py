@@ -218,9 +218,12 @@ def standard_input_has_no_shared_box(run):
 
 @case
 def a_vertex_that_nothing_uses_widens_no_box_and_fails_no_gate(run):
-    """Faces, lines and points use vertices; where there is none of them all count."""
+    """Faces, lines, points and free-form geometry use vertices; where there is none of them all count."""
     unused = "v 900 900 900\n"
-    for name, text in (("face", "f 1 2 3\n"), ("line", "l 1 2 3\n"), ("points", "p 1 2 3\n")):
+    for name, text in (("face", "f 1 2 3\n"), ("line", "l 1 2 3\n"), ("points", "p 1 2 3\n"), ("curve", "cstype bezier\ndeg 2\ncurv 0 4 1 2 3\nparm u 0 4\nend\n"),
+                       ("surface", "surf 0 4 0 4 -4//1 2/3/4 \\\n  3/1\nend\n"), ("patch", "bzp 1 2 3\n"), ("cardinal curve", "cdc 1 2 3\n"),
+                       # A control vertex that is not there, and points of the parameter space, use nothing.
+                       ("curve and more", "vp 1\ncurv 0 1 1 2 3 9\ncurv2 4\nsp 4\nscrv 4 4 4\n")):
         run.write("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 1\n" + unused + text)
         near(sides(new(run, "a.obj", "--margin", "0")), [[0, 0, 0], [1, 1, 1]], 1e-15, name)
         run.write("l.json", lattice(moves=[{"by": [0, 0, 1]}]))

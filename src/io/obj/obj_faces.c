@@ -382,7 +382,7 @@ static void mark_tile(void *context, size_t tile, size_t first, size_t last, int
         return;
     ffd_obj_document_walk_block(d, first, &walk);
     while (ffd_obj_walk_next(&walk)) {
-        if (walk.scan.keyword != OBJ_FACE && walk.scan.keyword != OBJ_LINE && walk.scan.keyword != OBJ_POINT)
+        if (!ffd_obj_walk_uses(&walk))
             continue;
         const size_t count = list_plainly(d, &walk.scan, plain);
         for (size_t i = 0; i < count; i++)
