@@ -147,7 +147,8 @@ ffd_status ffd_deform_job_open(deform_job *job, unsigned needs, ffd_job_result *
     ffd_deadline_done(JOB_IS_OPEN);
     TRY_END(ffd_deadline_check(error));
 end:
-    for (size_t l = 0; l < job->chain.count; l++)
+    /* A mesh that cannot be read gets no box. */
+    for (size_t l = 0; l < job->chain.count && job->document; l++)
         result->own_box = result->own_box || !job->chain.links[l].locator;
     result->seconds.read = ffd_clock_seconds() - start;
     return status;

@@ -191,6 +191,25 @@ def without_it_one_line_warns(run):
 
 
 @case
+def meshes_that_are_not_read_have_no_box(run):
+    """Neither a missing one nor a broken one: of two meshes that are read it is said that there are two, of one nothing."""
+    mesh_box(run)
+    run.write("broken.obj", "v 0 0 x\n")
+    bad = ("gone.obj", "broken.obj")
+    for good in (["body.obj"], ["body.obj", "door.obj"]):
+        jobs = [{"in": mesh, "lattice": "l.json", "out": f"o/{mesh}"} for mesh in (*bad, *good)]
+        run.write("m.jsonl", lines_of(jobs))
+        run.write("m.csv", "in,lattice,out\n" + "".join("{in},{lattice},{out}\n".format(**one) for one in jobs))
+        for words in (["deform", *bad, *good, "--out-dir", "o", "-l", "l.json", "--force"], ["check", *bad, *good, "-l", "l.json"],
+                      ["batch", "m.jsonl", "--force"], ["batch", "--csv", "m.csv", "--force"]):
+            done = run.ffd(*words, code=NO, err=anything, data=True)
+            equal(len(lines_with(done, "cannot be opened")), 1, words)
+            equal(len(lines_with(done, "broken.obj")), 1, words)
+            equal([re.search("each of (the )?2 meshes by itself", line) is not None for line in lines_with(done, "--shared-box")],
+                  [True] * (len(good) - 1), words)
+
+
+@case
 def a_shared_box_of_a_manifest_is_of_all_shards(run):
     mesh_box(run)
     run.write("m.jsonl", lines_of([{"in": mesh, "lattice": "l.json", "out": "o/" + mesh} for mesh in ("body.obj", "door.obj")]))
