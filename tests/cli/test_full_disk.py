@@ -131,7 +131,9 @@ def a_full_device_is_exit_3(run):
         with open("/dev/full", "wb") as stdout:
             run.ffd("deform", f"a.{ending}", "-", "--output-format", ending, "-l", "l.json", code=IO, stdout=stdout,
                     err=f"standard output: cannot be written: {SPACE}")
-    run.ffd("embed", "a.obj", "-l", "l.json", "-o", "/dev/full", "--status", "s.npy", code=IO)
+    os.symlink("/dev/full", run.path("full.npy"))
+    run.ffd("embed", "a.obj", "-l", "l.json", "-o", "full.npy", "--status", "s.npy", code=IO, err=f"full.npy: cannot be written: {SPACE}")
+    os.remove(run.path("full.npy"))
     run.ffd("lattice", "new", "a.obj", "-o", "/dev/full", code=IO)
     for n, option in enumerate(("--report", "--depfile")):
         run.ffd("deform", "a.obj", f"b{n}.obj", "-l", "l.json", option, "/dev/full", code=IO, err=f"/dev/full: cannot be written: {SPACE}")
