@@ -330,8 +330,8 @@ typedef struct ffd_deform_desc {
        ffd_deform_run, ffd_check_run and ffd_view_run; NULL: no callback. */
     bool (*progress)(void *user, double done);
     void *progress_user;
-    /* Another way to the same end, of the same functions: the job is cancelled when *cancel is not 0. Another
-       thread or the handler of a signal may set it, by an atomic store; NULL: nobody does. */
+    /* The same functions cancel the job also when *cancel is not 0. Another thread or the handler of a signal
+       may set it, by an atomic store; NULL: nobody does. */
     const int *cancel;
 } ffd_deform_desc;
 
@@ -612,8 +612,8 @@ typedef struct ffd_report ffd_report;
 /* Starts a report at path ("-": standard output): JSON or, if the name ends in .jsonl, JSON Lines with an
    entry on each line. The file is under its own name from now on, so an unwritable path fails before the
    first job. It is valid JSON after each entry, and keeps its entries if the program is killed. An existing
-   file is replaced only if it is a report of the same kind. stable: leave out times. written may be NULL. The
-   caller destroys *report. Errors: FFD_E_IO, FFD_E_EXISTS, FFD_E_MEMORY. */
+   file is replaced only if it is a report of the same kind. stable: leave out times. output_set may be NULL.
+   The caller destroys *report. Errors: FFD_E_IO, FFD_E_EXISTS, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_report_create(const char *path, bool stable, ffd_output_set *output_set,
                                      ffd_report **report, ffd_error *error);
 /* As ffd_report_create, in memory: ffd_report_write passes the whole report to sink. The ending of name
@@ -625,8 +625,7 @@ FFD_API ffd_status ffd_report_create_sink(const char *name, bool stable, ffd_sin
 FFD_API void ffd_report_destroy(ffd_report **report);
 /* Adds the entry of a job. input and output: the paths that the entry gives; output may be NULL. It has the
    names of all outputs if the job had an output_list, which must still hold them; else only output is known.
-   Errors:
-   FFD_E_IO, FFD_E_MEMORY. */
+   Errors: FFD_E_IO, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,
                                   const ffd_job_result *result, ffd_error *error);
 /* Completes the report. To be called at most once, after the jobs. Errors: FFD_E_IO, FFD_E_MEMORY, and those
@@ -634,7 +633,8 @@ FFD_API ffd_status ffd_report_add(ffd_report *report, const char *input, const c
 FFD_API ffd_status ffd_report_write(ffd_report *report, ffd_error *error);
 
 /* `ffd report merge`: joins count reports (at least one; "-": standard input) and writes the result to output
-   ("-": standard output). Names that end in .jsonl are JSON Lines. Entries keep their bytes. Without
+   ("-": standard output), which replaces a file only with force. Names that end in .jsonl are JSON Lines.
+   Entries keep their bytes. Without
    interleave the entries of each report follow those of the one before. With interleave one entry of each
    report is taken in turn, which restores the order of the manifest for the reports of shards 0 to count-1
    (FFD_E_INVALID if a report has too few entries). All reports are checked before anything is written; those
@@ -645,8 +645,8 @@ FFD_API ffd_status ffd_report_merge_run(const char *const *reports, size_t count
 
 /* `ffd report junit`: writes count reports, or comparisons of two folders (ffd_compare_folders_json), as
    JUnit XML to output: a suite for each, a case for each job or mesh. A job with exit code 1, or a mesh that
-   differs, is a failure; one with another exit code, or that could not be read, an error. As of
-   ffd_report_merge_run names, force and errors. */
+   differs, is a failure; one with another exit code, or that could not be read, an error. Names, force and
+   errors: as of ffd_report_merge_run. */
 FFD_API ffd_status ffd_report_junit_run(const char *const *reports, size_t count, const char *output,
                                         bool force, ffd_error *error);
 

@@ -222,9 +222,9 @@ typedef struct ffd_seconds {
     uint64_t room[2];
 } ffd_seconds;
 
-/* The names of the files that a job has written: the output as the caller has named it, and behind it the
-   files beside it (buffers, copied images and material libraries). ffd/job.h has its functions. One thread at
-   a time. */
+/* The names of the files that a job has written: first the output, as the caller has named it, then the files
+   that belong to it (buffers, copied images and material libraries). ffd/job.h has its functions. One thread
+   at a time. */
 typedef struct ffd_output_list ffd_output_list;
 
 /* The result of a job. Of a glTF all figures are of the shape that the default weights of morph targets show;

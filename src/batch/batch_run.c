@@ -186,9 +186,10 @@ static ffd_status open_default_journal(const char *path, job_journal **journal, 
 {
     size_t made;
     char *const folder = ffd_path_folder(path);
-    ffd_status status = folder ? ffd_folder_make(folder, &made, error) : ffd_fail_memory(error);
-    if (!status)
-        status = ffd_journal_open(path, journal, error);
+    ffd_status status;
+    TRY_END(folder ? ffd_folder_make(folder, &made, error) : ffd_fail_memory(error));
+    TRY_END(ffd_journal_open(path, journal, error));
+end:
     ffd_free(folder);
     return status;
 }
@@ -200,7 +201,7 @@ static const char *file_of_jobs(const job_source_desc *jobs)
     return file && !ffd_file_is_stream(file) ? file : NULL;
 }
 
-/* Finds the folder that the names in the journal are relative to. */
+/* Finds the folder that the names in the journal are relative to: the root if the current one was removed. */
 static ffd_status find_base(batch_run *run, ffd_error *error)
 {
     const char *const file = file_of_jobs(&run->desc->jobs);
@@ -208,9 +209,11 @@ static ffd_status find_base(batch_run *run, ffd_error *error)
     run->base = folder ? ffd_path_resolve(folder) : NULL;
     ffd_free(folder);
     if (!run->base)
+        run->base = ffd_text_copy("/");
+    if (!run->base)
         return ffd_fail_memory(error);
     if (run->desc->given->positions)
-        run->rows.file = ffd_place_relative(run->base, run->desc->given->positions);
+        run->rows.file = ffd_place_relative(&run->files.places, run->base, run->desc->given->positions);
     return FFD_OK;
 }
 
@@ -233,11 +236,13 @@ static ffd_status open_journal(batch_run *run, ffd_error *error)
     ffd_error reason;
     ffd_status status = name_journal(run);
     const char *const path = run->journal_path;
-    /* A dry run writes nothing, not even a journal. */
-    if (path && desc->pool.wishes.dry && !(desc->pool.wishes.resume && ffd_file_exists(path)))
+    const bool is_dry = desc->pool.wishes.dry; /* it writes nothing, not even a journal */
+    if (path && is_dry && !(desc->pool.wishes.resume && ffd_file_exists(path)))
         return FFD_OK;
     if (status)
         status = ffd_fail(&reason, FFD_E_IO, "there is no folder for the journal ({journal} names one)");
+    else if (is_dry)
+        status = ffd_journal_read(path, &run->journal, &reason);
     else if (desc->given->journal)
         status = ffd_journal_open(path, &run->journal, &reason);
     else

@@ -216,10 +216,11 @@ static bool is_journal(const update_file *file)
     return ffd_update_read(file, 0, start, size) && memcmp(start, magic, size) == 0;
 }
 
-static ffd_status open_table(job_journal *journal, ffd_error *error)
+/* Reads the table of the open file. *is_there: it has one of this version. Errors: FFD_E_INVALID (no journal,
+   or a damaged one). */
+static ffd_status read_table(job_journal *journal, bool *is_there, ffd_error *error)
 {
     bool own = false;
-    TRY(ffd_update_open(journal->path, &journal->file, error));
     /* Only the first table is written under the journal's own name, so only it can be truncated. */
     if (read_head(journal, &own) && journal->slots != 0 && journal->slots != FIRST_SLOTS &&
         !has_slots(journal, own ? sizeof(journal_slot) : LEAST_SLOT))
@@ -227,10 +228,15 @@ static ffd_status open_table(job_journal *journal, ffd_error *error)
                              "is a damaged journal: it has not the %" PRIu64
                              " records that it tells of; to begin a new one, remove it",
                              journal->slots);
-    if (own && has_slots(journal, sizeof(journal_slot)) && read_slots(journal))
-        return FFD_OK;
-    if (!is_journal(journal->file))
-        return ffd_fail_file(error, FFD_E_INVALID, journal->path, "is not a journal; it is not replaced");
+    *is_there = own && has_slots(journal, sizeof(journal_slot)) && read_slots(journal);
+    return *is_there || is_journal(journal->file)
+               ? FFD_OK
+               : ffd_fail_file(error, FFD_E_INVALID, journal->path, "is not a journal; it is not replaced");
+}
+
+/* Writes an empty table. */
+static ffd_status make_table(job_journal *journal, ffd_error *error)
+{
     errno = 0;
     journal->slots = FIRST_SLOTS;
     journal->end = figures_begin(FIRST_SLOTS);
@@ -240,17 +246,35 @@ static ffd_status open_table(job_journal *journal, ffd_error *error)
     return FFD_OK;
 }
 
+/* reads: as ffd_journal_read. */
+static ffd_status open_journal(const char *path, bool reads, job_journal **journal, ffd_error *error)
+{
+    bool is_there = false;
+    ffd_status status;
+    *journal = ffd_alloc_zero(1, sizeof **journal);
+    TRY_END(*journal ? FFD_OK : ffd_fail_memory(error));
+    (*journal)->path = ffd_text_copy(path);
+    TRY_END((*journal)->path ? FFD_OK : ffd_fail_memory(error));
+    TRY_END(reads ? ffd_update_open_there(path, &(*journal)->file, error)
+                  : ffd_update_open(path, &(*journal)->file, error));
+    TRY_END(read_table(*journal, &is_there, error));
+    if (!is_there && !reads)
+        TRY_END(make_table(*journal, error));
+    if (is_there || !reads)
+        return FFD_OK;
+end:
+    ffd_journal_close(journal);
+    return status;
+}
+
 ffd_status ffd_journal_open(const char *path, job_journal **journal, ffd_error *error)
 {
-    *journal = ffd_alloc_zero(1, sizeof **journal);
-    if (*journal)
-        (*journal)->path = ffd_text_copy(path);
-    ffd_status status = *journal && (*journal)->path ? FFD_OK : ffd_fail_memory(error);
-    if (!status)
-        status = open_table(*journal, error);
-    if (status)
-        ffd_journal_close(journal);
-    return status;
+    return open_journal(path, false, journal, error);
+}
+
+ffd_status ffd_journal_read(const char *path, job_journal **journal, ffd_error *error)
+{
+    return open_journal(path, true, journal, error);
 }
 
 bool ffd_journal_find(job_journal *journal, const hash128 *target, job_record *record, byte_buffer *figures)
@@ -330,7 +354,7 @@ bool ffd_journal_put(job_journal *journal, const hash128 *target, const job_reco
 hash128 ffd_journal_copy_key(const char *base, const char *copy)
 {
     static const char word[] = "copy";
-    const hash128 place = ffd_place_relative(base, copy);
+    const hash128 place = ffd_place_relative(NULL, base, copy);
     const hash_block blocks[] = {{word, sizeof word}, {place.bytes, sizeof place.bytes}};
     return ffd_hash_blocks(blocks, 2);
 }

@@ -14,6 +14,9 @@ typedef struct job_journal job_journal;
 /* Opens a journal; creates it if missing, in a folder that is there. Refuses a file that is not a journal.
    Errors: FFD_E_IO, FFD_E_INVALID, FFD_E_MEMORY. */
 ffd_status ffd_journal_open(const char *path, job_journal **journal, ffd_error *error);
+/* Opens an existing journal to look up records, and changes nothing. *journal is NULL for one of another
+   version. Errors: those of ffd_journal_open. */
+ffd_status ffd_journal_read(const char *path, job_journal **journal, ffd_error *error);
 /* Looks up the record of an output (target: ffd_place_relative, as seen from the folder of the jobs' file).
    figures: NULL, or replaced by the stored text. Returns false if there is none. */
 bool ffd_journal_find(job_journal *journal, const hash128 *target, job_record *record, byte_buffer *figures);

@@ -294,11 +294,26 @@ static void end_task(pool_worker *worker, task_outcome outcome)
     worker->deadline = 0;
 }
 
-/* Takes the result of a scan; the task goes back to the window. */
+/* For a list of the texts of a task, in the order of an answer. */
+#define TEXT_OF_TASK(name) &task->name,
+
+/* Returns the size of an answer with its texts; 0: it is invalid. */
+static uint64_t answer_size(const wire_answer *head)
+{
+    uint64_t size = sizeof *head;
+    for (int i = 0; i < ANSWER_TEXTS; i++) {
+        if (head->sizes[i] > WIRE_MOST)
+            return 0;
+        size += head->sizes[i];
+    }
+    return size;
+}
+
+/* Takes the result of a scan, the first text; the task goes back to the window. */
 static void take_scan(pool_worker *worker, const wire_answer *head, const char *found)
 {
     pool_task *const task = worker->task;
-    ffd_buffer_append(&task->found, found, head->rule_size);
+    ffd_buffer_append(&task->found, found, head->sizes[0]);
     task->end.sidecars = (size_t)head->end.sidecars;
     task->has_scanned = true;
     task->was_returned = false;
@@ -308,9 +323,24 @@ static void take_scan(pool_worker *worker, const wire_answer *head, const char *
         end_task(worker, OUTCOME_FAILED);
         return;
     }
-    task->state = TASK_LOOKED;
+    task->state = TASK_SCANNED;
     worker->task = NULL;
     worker->deadline = 0;
+}
+
+/* Takes the texts of an answer. Returns false if memory runs out. */
+static bool take_texts(pool_task *task, const wire_answer *head, const char *at)
+{
+    byte_buffer *const texts[ANSWER_TEXTS] = {FOR_EACH_ANSWER_TEXT(TEXT_OF_TASK)};
+    bool is_whole = true;
+    if (head->end.outcome != OUTCOME_SKIPPED)
+        task->figures.size = 0;
+    for (int i = 0; i < ANSWER_TEXTS; i++) {
+        ffd_buffer_append(texts[i], at, head->sizes[i]);
+        at += head->sizes[i];
+        is_whole = is_whole && !texts[i]->failed;
+    }
+    return is_whole;
 }
 
 /* Takes a worker's answer if it is complete. Returns false if it is invalid. */
@@ -321,13 +351,10 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
     if (bytes->size < sizeof head)
         return true;
     memcpy(&head, bytes->data, sizeof head);
-    if (!worker->task || ((head.scanned || head.goes_on) && !worker->task->order.scans) ||
-        head.log_size > WIRE_MOST || head.entry_size > WIRE_MOST || head.rule_size > WIRE_MOST ||
-        head.figures_size > WIRE_MOST || head.result_size > WIRE_MOST || head.outputs_size > WIRE_MOST ||
-        head.targets_size > WIRE_MOST || head.copies_size > WIRE_MOST)
+    const uint64_t size = answer_size(&head);
+    if (!worker->task || ((head.scanned || head.goes_on) && !worker->task->order.scans) || size == 0)
         return false;
-    if (bytes->size < sizeof head + head.log_size + head.entry_size + head.rule_size + head.figures_size +
-                          head.result_size + head.outputs_size + head.targets_size + head.copies_size)
+    if (bytes->size < size)
         return true;
     pool_task *const task = worker->task;
     if (head.goes_on) { /* the rest of the answer may be here already */
@@ -337,30 +364,13 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
         memmove(bytes->data, bytes->data + sizeof head, bytes->size);
         return take_answer(pool, worker);
     }
-    const char *const log = bytes->data + sizeof head, *const entry = log + head.log_size,
-                      *const rule = entry + head.entry_size, *const figures = rule + head.rule_size,
-                      *const result = figures + head.figures_size, *const outputs = result + head.result_size,
-                      *const targets = outputs + head.outputs_size,
-                      *const copies = targets + head.targets_size;
     if (head.scanned) {
-        take_scan(worker, &head, rule);
+        take_scan(worker, &head, bytes->data + sizeof head);
         bytes->size = 0;
         return true;
     }
     task->scanned_in_vain = task->scanned_in_vain || task->order.scans;
-    ffd_buffer_append(&task->log, log, head.log_size);
-    ffd_buffer_append(&task->entry, entry, head.entry_size);
-    ffd_buffer_append(&task->rule, rule, head.rule_size);
-    if (head.end.outcome != OUTCOME_SKIPPED)
-        task->figures.size = 0;
-    ffd_buffer_append(&task->figures, figures, head.figures_size);
-    ffd_buffer_append(&task->result, result, head.result_size);
-    ffd_buffer_append(&task->outputs, outputs, head.outputs_size);
-    ffd_buffer_append(&task->targets, targets, head.targets_size);
-    ffd_buffer_append(&task->copies, copies, head.copies_size);
-    const bool lost = task->log.failed || task->entry.failed || task->rule.failed || task->figures.failed ||
-                      task->result.failed || task->outputs.failed || task->targets.failed ||
-                      task->copies.failed;
+    const bool lost = !take_texts(task, &head, bytes->data + sizeof head);
     if (head.out_of_memory || lost)
         ffd_fail_file(&task->failure, FFD_E_MEMORY, task->job.input, "out of memory");
     task->end = head.end;
@@ -539,14 +549,9 @@ void ffd_task_free(pool_task *task)
         return;
     ffd_job_free(&task->job);
     ffd_free(task->picture);
-    ffd_buffer_free(&task->log);
-    ffd_buffer_free(&task->entry);
-    ffd_buffer_free(&task->rule);
-    ffd_buffer_free(&task->figures);
-    ffd_buffer_free(&task->result);
-    ffd_buffer_free(&task->outputs);
-    ffd_buffer_free(&task->targets);
-    ffd_buffer_free(&task->copies);
+    byte_buffer *const texts[ANSWER_TEXTS] = {FOR_EACH_ANSWER_TEXT(TEXT_OF_TASK)};
+    for (int i = 0; i < ANSWER_TEXTS; i++)
+        ffd_buffer_free(texts[i]);
     ffd_buffer_free(&task->found);
     ffd_buffer_free(&task->passed);
     ffd_free(task);

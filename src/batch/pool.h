@@ -22,7 +22,7 @@ typedef struct pool_desc {
 typedef enum task_state {
     TASK_WAITS, /* ready to run: all files that it writes are known */
     TASK_NEW,   /* ready to run, but its worker must first scan for files beside and copied with its output */
-    TASK_LOOKED,  /* such files were found: it waits until the files of all earlier jobs are known */
+    TASK_SCANNED, /* such files were found: it waits until the files of all earlier jobs are known */
     TASK_ORDERED, /* its output is not claimed yet; it waits likewise, unless the output has the ending of a
                      mesh format */
     TASK_RUNS,
@@ -40,27 +40,22 @@ typedef struct pool_task {
     bool is_large;          /* the input is large: only one worker may read it */
     uint64_t memory;        /* bytes that it may take; 0: the pool has not asked yet */
     bool has_mesh_name;     /* the output has the ending of a mesh format */
-    byte_buffer figures;    /* of the run that made the output, as JSON terminated by 0; or empty */
     task_order order;
     task_end end;
     task_state state;
     char *picture;            /* path; NULL: none is wanted */
     const char *picture_name; /* part of that path below the folder of pictures */
     bool scanned_in_vain;     /* the scan found nothing */
-    bool is_learned;          /* that was taken to heart (ffd_run_learn) */
+    bool is_learned;          /* ffd_run_learn knows that */
     bool has_scanned;         /* the results of a scan are here: */
-    byte_buffer found;        /* end.beside, and what else it found (scan.h) */
+    byte_buffer found;        /* end.sidecars, and what else it found (scan.h) */
     byte_buffer passed;       /* names that the output must not take (ffd_claims_others) */
     bool was_returned;        /* a worker had ended before it could take the task */
     bool noted;               /* its end was handled (ffd_run_note_ends) */
-    byte_buffer log;          /* after the end: lines of messages; */
-    byte_buffer rule;         /* rule of the depfile; of a measured mesh: its files; */
-    byte_buffer result;       /* as in wire_answer; or empty */
-    byte_buffer outputs;      /* likewise */
-    byte_buffer targets;      /* likewise */
-    byte_buffer copies;       /* likewise */
-    byte_buffer entry;        /* of the report; empty if no worker has made it */
-    ffd_error failure;        /* of a job whose worker died, or that was invalid from the start */
+    /* After the end: the texts of the answer, or empty. The figures are those of the journal's record before,
+       and stay if the output is up to date. */
+    FOR_EACH_ANSWER_TEXT(ANSWER_TEXT_BUFFER)
+    ffd_error failure; /* of a job whose worker died, or that was invalid from the start */
 } pool_task;
 
 typedef struct worker_pool worker_pool;

@@ -28,7 +28,7 @@ static ffd_status claim_picture(batch_run *run, pool_task *task, ffd_error *erro
 {
     hash128 file;
     TRY(ffd_run_view_name(run->view, task, &file, error));
-    const hash128 seen = ffd_place_relative(run->base, task->picture);
+    const hash128 seen = ffd_place_relative(&run->files.places, run->base, task->picture);
     const hash_block blocks[] = {{seen.bytes, sizeof seen.bytes}, {task->target.bytes, sizeof seen.bytes}};
     task->picture_target = ffd_hash_blocks(blocks, 2);
     return ffd_claims_picture(&run->files, &task->job, &file, task->picture, error);
@@ -42,12 +42,12 @@ static ffd_status claim_output(batch_run *run, pool_task *task, ffd_error *error
     if (job->target && ffd_claims_output(&run->files, job, &task->target, error))
         return FFD_E_MEMORY;
     if (job->target)
-        task->target = ffd_place_relative(run->base, job->target);
+        task->target = ffd_place_relative(&run->files.places, run->base, job->target);
     if (run->desc->given->positions)
         task->target = ffd_run_rows_target(&run->rows, job->row, job->target ? &task->target : NULL);
     task->order.needs = ffd_claims_need(&run->files, job, &kind);
     task->state = task->order.needs.mesh || task->order.needs.lattices ? TASK_NEW
-                  : task->order.needs.others                           ? TASK_LOOKED
+                  : task->order.needs.others                           ? TASK_SCANNED
                                                                        : TASK_WAITS;
     task->order.only_scans = ffd_job_count_sidecars(&kind) > 0;
     if (run->view && !job->error.status && claim_picture(run, task, error))
@@ -122,7 +122,7 @@ ffd_status ffd_run_claim_tasks(batch_run *run, ffd_error *error)
             TRY(ffd_run_learn(run, task, error));
         if (task->state == TASK_ORDERED && (settled || (task->has_mesh_name && !run->files.comes_once)))
             TRY(claim_output(run, task, error));
-        if (settled && (task->state == TASK_LOOKED || is_known(run, task)))
+        if (settled && (task->state == TASK_SCANNED || is_known(run, task)))
             TRY(claim_others(run, task, error));
         settled = settled && ffd_task_is_settled(task);
     }

@@ -91,17 +91,21 @@ typedef struct copy_note {
     hash128 target, content; /* its key (ffd_journal_copy_key), and the hash of its bytes */
 } copy_note;
 
+/* The texts that follow an answer, in this order: X(NAME) for each. Workers and tasks have a buffer for each.
+   `rule` is the rule of the depfile; of a measured mesh its files, each terminated by 0; after a scan what
+   was found (scan.h). `log` has messages, each with its line break, `entry` that of the report. `figures` are
+   those of the job, as JSON terminated by 0; `result` is its ffd_job_result, and one for each of its morph
+   targets. `outputs` has the names of its outputs for the report, `targets` their paths for the depfile, each
+   terminated by 0; `copies` the notes of copies (copy_note). */
+#define FOR_EACH_ANSWER_TEXT(X) X(rule) X(log) X(entry) X(figures) X(result) X(outputs) X(targets) X(copies)
+
+#define ANSWER_TEXT_BUFFER(name) byte_buffer name;
+#define ANSWER_TEXT_ONE(name) +1
+enum { ANSWER_TEXTS = 0 FOR_EACH_ANSWER_TEXT(ANSWER_TEXT_ONE) };
+
 /* An answer of a worker, followed by its texts. */
 typedef struct wire_answer {
-    uint64_t log_size;     /* messages, each with its line break */
-    uint64_t entry_size;   /* of the report */
-    uint64_t rule_size;    /* depfile rule; of a measured mesh: its files, each terminated by 0; after a scan:
-                              what was found (scan.h) */
-    uint64_t figures_size; /* of the job, as JSON terminated by 0 */
-    uint64_t result_size;  /* of the job: ffd_job_result, and one for each of its morph targets */
-    uint64_t outputs_size; /* names of its outputs for the report, each terminated by 0 */
-    uint64_t targets_size; /* likewise, their paths for the depfile */
-    uint64_t copies_size;  /* notes of copies (copy_note) */
+    uint64_t sizes[ANSWER_TEXTS]; /* of the texts */
     task_end end;
     bool scanned;       /* the scan found files, and nothing else was done */
     bool goes_on;       /* the scan found nothing: the answer has no more yet */

@@ -36,18 +36,18 @@ typedef struct task_texts {
 } task_texts;
 
 typedef struct batch_worker {
-    hash_cache hashes;    /* of the files of all jobs so far */
-    ffd_job_cache *cache; /* cache between jobs */
-    byte_buffer text;     /* of the task */
-    ffd_deform_desc desc; /* likewise, in that text */
-    task_texts texts;     /* what else is in it */
-    byte_buffer log, entry, rule, figures, result, outputs, targets, copies; /* of the answer */
-    path_list inputs;           /* files of the task that its outputs depend on */
-    ffd_output_list *written;   /* paths of the files that the task writes */
-    path_list names;            /* likewise, as the report has them */
-    copy_notes notes;           /* in the journal */
-    job_journal *journal;       /* opened for the notes of copies; or NULL */
-    byte_buffer message;        /* the whole answer */
+    hash_cache hashes;                       /* of the files of all jobs so far */
+    ffd_job_cache *cache;                    /* cache between jobs */
+    byte_buffer text;                        /* of the task */
+    ffd_deform_desc desc;                    /* likewise, in that text */
+    task_texts texts;                        /* what else is in it */
+    FOR_EACH_ANSWER_TEXT(ANSWER_TEXT_BUFFER) /* of the answer */
+    path_list inputs;                        /* files of the task that its outputs depend on */
+    ffd_output_list *written;                /* paths of the files that the task writes */
+    path_list names;                         /* likewise, as the report has them */
+    copy_notes notes;                        /* in the journal */
+    job_journal *journal;                    /* opened for the notes of copies; or NULL */
+    byte_buffer message;                     /* the whole answer */
     ffd_output_set *output_set; /* of the task: the models that share files with its output; or NULL */
 } batch_worker;
 
@@ -77,7 +77,7 @@ static bool find_copy(void *context, const char *copy, hash128 *hash)
     const task_texts *const texts = &worker->texts;
     job_record record;
     if (*texts->journal && !worker->journal)
-        ffd_journal_open(texts->journal, &worker->journal, NULL);
+        ffd_journal_read(texts->journal, &worker->journal, NULL);
     const hash128 key = ffd_journal_copy_key(texts->base, copy);
     const bool found = worker->journal && ffd_journal_find(worker->journal, &key, &record, NULL);
     if (found)
@@ -254,23 +254,35 @@ static ffd_status list_outputs(batch_worker *worker, const wire_task *task, cons
     return task->has_row ? ffd_paths_add(&worker->names, worker->texts.rows, error) : FFD_OK;
 }
 
-/* Adds the names and paths of outputs to the answer, and makes the depfile rule. */
-static ffd_status add_outputs(batch_worker *worker, const wire_task *task, const wire_answer *answer,
-                              const ffd_deform_desc *desc, ffd_status done, ffd_error *error)
+/* Lists the outputs of a job that has ended like this, with its picture, and makes the depfile rule. */
+static ffd_status describe_outputs(batch_worker *worker, const wire_task *task, const wire_answer *answer,
+                                   const ffd_deform_desc *desc, ffd_status done, ffd_error *error)
 {
-    path_list *const paths = &worker->written->names;
     const char *const picture = worker->texts.picture;
     const bool has_picture =
         *picture && (answer->end.has_picture || (!done && task->wishes.dry)); /* also of a gate */
+    if (!done)
+        TRY(list_outputs(worker, task, desc, error));
+    if (has_picture)
+        TRY(ffd_paths_add(&worker->names, picture, error));
+    if (done)
+        return FFD_OK;
+    if (has_picture)
+        TRY(ffd_paths_add(&worker->written->names, picture, error));
+    return task->wishes.depfile && !task->wishes.dry && desc->output
+               ? ffd_depfile_rule(&worker->written->names, &worker->inputs, &worker->rule, error)
+               : FFD_OK;
+}
+
+/* Adds the names and paths of outputs to the answer. done: the status of the job. Returns it, or a failure.
+ */
+static ffd_status add_outputs(batch_worker *worker, const wire_task *task, const wire_answer *answer,
+                              const ffd_deform_desc *desc, ffd_status done, ffd_error *error)
+{
+    const path_list *const paths = &worker->written->names;
     if (!task->wishes.report && !task->wishes.depfile && !task->wishes.result)
         return done;
-    ffd_status status = done ? FFD_OK : list_outputs(worker, task, desc, error);
-    if (!status && has_picture)
-        status = ffd_paths_add(&worker->names, picture, error);
-    if (!status && !done && has_picture)
-        status = ffd_paths_add(paths, picture, error);
-    if (!status && !done && task->wishes.depfile && !task->wishes.dry && desc->output)
-        status = ffd_depfile_rule(paths, &worker->inputs, &worker->rule, error);
+    const ffd_status status = describe_outputs(worker, task, answer, desc, done, error);
     for (size_t i = 0; i < worker->names.count; i++)
         ffd_buffer_append(&worker->outputs, worker->names.paths[i], strlen(worker->names.paths[i]) + 1);
     for (size_t i = 0; i < paths->count && task->wishes.depfile; i++)
@@ -616,29 +628,26 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
     ffd_deform_desc_clear(&worker->desc);
 }
 
+/* For a list of the texts of the answer, in their order. */
+#define TEXT_OF_WORKER(name) &worker->name,
+
 /* Sends one message: several would wake the first process several times. If memory runs out for it, sends a
    header that says so. */
 static bool send_answer(batch_worker *worker, wire_answer *answer)
 {
-    const byte_buffer *const texts[] = {&worker->log,    &worker->entry,   &worker->rule,    &worker->figures,
-                                        &worker->result, &worker->outputs, &worker->targets, &worker->copies};
-    uint64_t *const sizes[] = {&answer->log_size,     &answer->entry_size,  &answer->rule_size,
-                               &answer->figures_size, &answer->result_size, &answer->outputs_size,
-                               &answer->targets_size, &answer->copies_size};
-    enum { TEXTS = sizeof texts / sizeof *texts };
+    const byte_buffer *const texts[ANSWER_TEXTS] = {FOR_EACH_ANSWER_TEXT(TEXT_OF_WORKER)};
     byte_buffer *const message = &worker->message;
-    for (int i = 0; i < TEXTS; i++)
-        *sizes[i] = texts[i]->size;
+    for (int i = 0; i < ANSWER_TEXTS; i++)
+        answer->sizes[i] = texts[i]->size;
     message->size = 0;
     ffd_buffer_append(message, answer, sizeof *answer);
-    for (int i = 0; i < TEXTS; i++) {
+    for (int i = 0; i < ANSWER_TEXTS; i++) {
         ffd_buffer_append(message, texts[i]->data, texts[i]->size);
         message->failed = message->failed || texts[i]->failed;
     }
     if (!message->failed)
         return ffd_process_give(message->data, message->size);
-    for (int i = 0; i < TEXTS; i++)
-        *sizes[i] = 0;
+    memset(answer->sizes, 0, sizeof answer->sizes);
     answer->out_of_memory = answer->retires = true;
     answer->end.outcome = OUTCOME_FAILED;
     return ffd_process_give(answer, sizeof *answer);
@@ -648,6 +657,31 @@ void ffd_worker_build(char build[WORKER_BUILD])
 {
     snprintf(build, WORKER_BUILD, "%s %zu %zu %zu", ffd_version_build(), sizeof(wire_task),
              sizeof(wire_answer), sizeof(ffd_job_result));
+}
+
+static void clear_answer(batch_worker *worker)
+{
+    byte_buffer *const texts[ANSWER_TEXTS] = {FOR_EACH_ANSWER_TEXT(TEXT_OF_WORKER)};
+    for (int i = 0; i < ANSWER_TEXTS; i++)
+        texts[i]->size = 0;
+    ffd_paths_free(&worker->inputs);
+    ffd_paths_free(&worker->names);
+    ffd_paths_free(&worker->written->names);
+}
+
+static void free_worker(batch_worker *worker)
+{
+    byte_buffer *const texts[ANSWER_TEXTS] = {FOR_EACH_ANSWER_TEXT(TEXT_OF_WORKER)};
+    ffd_job_cache_destroy(&worker->cache);
+    ffd_hash_cache_free(&worker->hashes);
+    ffd_buffer_free(&worker->text);
+    for (int i = 0; i < ANSWER_TEXTS; i++)
+        ffd_buffer_free(texts[i]);
+    ffd_journal_close(&worker->journal);
+    ffd_paths_free(&worker->inputs);
+    ffd_paths_free(&worker->names);
+    ffd_output_list_destroy(&worker->written);
+    ffd_buffer_free(&worker->message);
 }
 
 /* Does jobs until there are no more. Returns the process's exit code. */
@@ -666,33 +700,14 @@ static int run_worker(void)
         wire_answer answer;
         memset(&answer, 0, sizeof answer); /* also clears padding, which is sent */
         ffd_shown_box_clear(&answer.end.box);
-        worker.log.size = worker.entry.size = worker.rule.size = worker.figures.size = worker.result.size = 0;
-        worker.outputs.size = worker.targets.size = worker.copies.size = 0;
-        ffd_paths_free(&worker.inputs);
-        ffd_paths_free(&worker.names);
-        ffd_paths_free(&worker.written->names);
+        clear_answer(&worker);
         answer_task(&worker, &task, &answer);
         ffd_kept_free(&worker.hashes.kept);
         going = send_answer(&worker, &answer) && !answer.retires;
         ffd_process_defer_stop(false);
     }
     const int code = worker.text.failed ? ffd_status_exit_code(FFD_E_MEMORY) : 0;
-    ffd_job_cache_destroy(&worker.cache);
-    ffd_hash_cache_free(&worker.hashes);
-    ffd_buffer_free(&worker.text);
-    ffd_buffer_free(&worker.log);
-    ffd_buffer_free(&worker.entry);
-    ffd_buffer_free(&worker.rule);
-    ffd_buffer_free(&worker.figures);
-    ffd_buffer_free(&worker.result);
-    ffd_buffer_free(&worker.outputs);
-    ffd_buffer_free(&worker.targets);
-    ffd_buffer_free(&worker.copies);
-    ffd_journal_close(&worker.journal);
-    ffd_paths_free(&worker.inputs);
-    ffd_paths_free(&worker.names);
-    ffd_output_list_destroy(&worker.written);
-    ffd_buffer_free(&worker.message);
+    free_worker(&worker);
     return code;
 }
 

@@ -55,14 +55,20 @@ static ffd_status compare(const ffd_compare_desc *desc, const mesh_document *a, 
     return FFD_OK;
 }
 
+ffd_status ffd_compare_check(const ffd_compare_desc *desc, ffd_error *error)
+{
+    return !(desc->tolerance >= 0) || !(desc->direction_tolerance >= 0)
+               ? ffd_fail(error, FFD_E_ARGUMENT, "a tolerance must not be negative")
+               : FFD_OK;
+}
+
 static ffd_status open_and_compare(const ffd_compare_desc *desc, ffd_comparison *comparison, ffd_error *error)
 {
     const mesh_log log = {desc->log, desc->log_user};
     mesh_document *first = NULL, *second = NULL;
     if (!desc->a.path || !desc->b.path)
         return ffd_fail(error, FFD_E_ARGUMENT, "the description of the comparison is not complete");
-    if (!(desc->tolerance >= 0) || !(desc->direction_tolerance >= 0))
-        return ffd_fail(error, FFD_E_ARGUMENT, "a tolerance must not be negative");
+    TRY(ffd_compare_check(desc, error));
     const unsigned losses = ffd_mapping_losses();
     ffd_status status;
     TRY_END(open_source(&desc->a, &first, error));
@@ -114,6 +120,15 @@ static void write_difference(json_text *json, const char *key, const ffd_differe
     ffd_json_end(json, '}');
 }
 
+void ffd_comparison_begin(json_text *json, const char *a, const char *b)
+{
+    ffd_json_object(json, NULL, false);
+    ffd_json_string(json, "format", "ffd-comparison");
+    ffd_json_count(json, "version", 1);
+    ffd_json_string(json, "a", a);
+    ffd_json_string(json, "b", b);
+}
+
 void ffd_comparison_write(json_text *json, const ffd_comparison *comparison)
 {
     ffd_json_bool(json, "equal", comparison->equal);
@@ -138,19 +153,12 @@ ffd_status ffd_comparison_json(const ffd_comparison *callers, const char *a, con
                                ffd_error *error)
 {
     ffd_comparison own = {.struct_size = sizeof own};
-    const ffd_comparison *const comparison = &own;
-    const ffd_status taken = ffd_struct_take(&own, sizeof own, callers, "ffd_comparison", error);
-    if (taken)
-        return taken;
+    TRY(ffd_struct_take(&own, sizeof own, callers, "ffd_comparison", error));
     byte_buffer buffer = {0};
     json_text json;
     ffd_json_begin(&json, &buffer);
-    ffd_json_object(&json, NULL, false);
-    ffd_json_string(&json, "format", "ffd-comparison");
-    ffd_json_count(&json, "version", 1);
-    ffd_json_string(&json, "a", a);
-    ffd_json_string(&json, "b", b);
-    ffd_comparison_write(&json, comparison);
+    ffd_comparison_begin(&json, a, b);
+    ffd_comparison_write(&json, &own);
     ffd_json_end(&json, '}');
     *text = ffd_buffer_finish(&buffer);
     ffd_buffer_free(&buffer);

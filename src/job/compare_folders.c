@@ -10,10 +10,12 @@
 static ffd_status list_meshes(const char *folder, path_list *meshes, ffd_error *error)
 {
     path_list files = {0};
-    ffd_status status = ffd_folder_walk(folder, &files, error);
-    for (size_t i = 0; i < files.count && !status; i++)
+    ffd_status status;
+    TRY_END(ffd_folder_walk(folder, &files, error));
+    for (size_t i = 0; i < files.count; i++)
         if (ffd_format_from_name(files.paths[i]) != FFD_FORMAT_AUTO)
-            status = ffd_paths_add(meshes, files.paths[i], error);
+            TRY_END(ffd_paths_add(meshes, files.paths[i], error));
+end:
     ffd_paths_free(&files);
     return status;
 }
@@ -77,9 +79,7 @@ static ffd_status check_desc(const ffd_compare_desc *desc, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT, "the comparison needs the paths of two folders");
     if (desc->a.format != FFD_FORMAT_AUTO || desc->b.format != FFD_FORMAT_AUTO)
         return ffd_fail(error, FFD_E_ARGUMENT, "the format of a mesh in a folder is that of its ending");
-    return !(desc->tolerance >= 0) || !(desc->direction_tolerance >= 0)
-               ? ffd_fail(error, FFD_E_ARGUMENT, "a tolerance must not be negative")
-               : FFD_OK;
+    return ffd_compare_check(desc, error);
 }
 
 ffd_status ffd_compare_folders(const ffd_compare_desc *callers, ffd_compared_function file, void *user,
@@ -147,11 +147,7 @@ static void write_all(const folder_text *text, const ffd_compare_desc *desc, boo
     json_text json;
     const char *const start = memchr(text->files.data, '[', text->files.size);
     ffd_json_begin(&json, whole);
-    ffd_json_object(&json, NULL, false);
-    ffd_json_string(&json, "format", "ffd-comparison");
-    ffd_json_count(&json, "version", 1);
-    ffd_json_string(&json, "a", desc->a.path);
-    ffd_json_string(&json, "b", desc->b.path);
+    ffd_comparison_begin(&json, desc->a.path, desc->b.path);
     ffd_json_bool(&json, "equal", equal);
     ffd_json_raw(&json, "files", start, text->files.size - (size_t)(start - text->files.data));
     write_names(&json, "only_a", &text->only_a);
@@ -168,15 +164,16 @@ ffd_status ffd_compare_folders_json(const ffd_compare_desc *desc, ffd_folder_com
     ffd_json_begin(&parts.json, &parts.files);
     ffd_json_object(&parts.json, NULL, false);
     ffd_json_array(&parts.json, "files", false);
-    ffd_status status = ffd_compare_folders(desc, write_file, &parts, result, error);
+    ffd_status status;
+    TRY_END(ffd_compare_folders(desc, write_file, &parts, result, error));
     ffd_json_end(&parts.json, ']');
-    if (!status && parts.files.failed)
-        status = ffd_fail_memory(error);
-    if (!status) {
-        write_all(&parts, desc, result->equal, &whole);
-        *text = ffd_buffer_finish(&whole);
-        status = *text ? FFD_OK : ffd_fail_memory(error);
-    }
+    if (parts.files.failed)
+        TRY_END(ffd_fail_memory(error));
+    write_all(&parts, desc, result->equal, &whole);
+    *text = ffd_buffer_finish(&whole);
+    if (!*text)
+        TRY_END(ffd_fail_memory(error));
+end:
     ffd_buffer_free(&whole);
     ffd_buffer_free(&parts.files);
     ffd_paths_free(&parts.only_a);

@@ -356,16 +356,16 @@ static ffd_status write_outputs(deform_job *job, mesh_save_options *options, boo
 {
     path_list outputs = {0};
     job_sharing sharing;
-    ffd_status status =
-        ffd_output_is_stream(options->path) ? FFD_OK : ffd_paths_add(&outputs, options->path, error);
+    ffd_status status;
     ffd_sharing_begin(&sharing, job->desc, job->document, options->path, options->format, &options->sharing);
     options->outputs = &outputs;
-    if (!status)
-        status = writes ? save(job, options, error) : dry_run_job(job, options, error);
+    if (!ffd_output_is_stream(options->path))
+        TRY_END(ffd_paths_add(&outputs, options->path, error));
+    TRY_END(writes ? save(job, options, error) : dry_run_job(job, options, error));
+    hand_over(job->desc, &outputs);
+end:
     ffd_sharing_end(&sharing);
     options->outputs = NULL;
-    if (!status)
-        hand_over(job->desc, &outputs);
     ffd_paths_free(&outputs);
     return status;
 }
@@ -461,8 +461,9 @@ ffd_status ffd_deform_list_outputs(const ffd_deform_desc *desc, ffd_error *error
     own.force = true; /* they may be there */
     if (!ffd_deform_desc_writes(&own))
         return FFD_OK;
-    ffd_status status = ffd_deform_job_begin(&job, &own, false, &result);
-    if (!status)
-        status = list_outputs(&job, &result, &result.error);
+    ffd_status status;
+    TRY_END(ffd_deform_job_begin(&job, &own, false, &result));
+    TRY_END(list_outputs(&job, &result, &result.error));
+end:
     return ffd_deform_job_end(&job, status, &result, error);
 }

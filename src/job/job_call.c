@@ -16,6 +16,17 @@ static ffd_status make_morph_results(job_call *call, ffd_error *error)
     return call->desc.morph_results ? FFD_OK : ffd_fail_memory(error);
 }
 
+work_watch ffd_job_watch(const ffd_deform_desc *desc)
+{
+    return (work_watch){.progress = desc->progress, .user = desc->progress_user, .cancel = desc->cancel};
+}
+
+void ffd_job_watch_end(const work_watch *watch, ffd_status status)
+{
+    if (!status && watch->progress)
+        watch->progress(watch->user, 1);
+}
+
 ffd_status ffd_job_call_begin(job_call *call, const ffd_deform_desc *desc, ffd_job_result *result,
                               ffd_error *error)
 {
@@ -27,11 +38,8 @@ ffd_status ffd_job_call_begin(job_call *call, const ffd_deform_desc *desc, ffd_j
     const ffd_status taken = ffd_deform_desc_take(desc, &call->desc, own);
     if (!taken && call->desc.output_list)
         ffd_paths_free(&call->desc.output_list->names);
-    if (!taken) {
-        call->watch.progress = call->desc.progress;
-        call->watch.user = call->desc.progress_user;
-        call->watch.cancel = call->desc.cancel;
-    }
+    if (!taken)
+        call->watch = ffd_job_watch(&call->desc);
     call->before = ffd_deadline_begin(&call->own, taken ? 0 : call->desc.timeout, &call->watch);
     TRY(taken);
     call->callers_lattices = call->desc.lattices;
@@ -58,8 +66,7 @@ ffd_status ffd_job_call_end(job_call *call, ffd_status status, ffd_error *error)
     result->outputs = call->desc.output_list;
     if (status && result->outputs)
         ffd_paths_free(&call->desc.output_list->names);
-    if (!status && call->watch.progress)
-        call->watch.progress(call->watch.user, 1);
+    ffd_job_watch_end(&call->watch, status);
     ffd_deadline_end(call->before);
     if (status && error)
         *error = result->error;

@@ -28,4 +28,9 @@ ffd_status ffd_job_call_begin(job_call *call, const ffd_deform_desc *desc, ffd_j
    status. */
 ffd_status ffd_job_call_end(job_call *call, ffd_status status, ffd_error *error);
 
+/* Returns the caller who watches a job. */
+work_watch ffd_job_watch(const ffd_deform_desc *desc);
+/* Tells the caller that a job has ended, unless it has failed. */
+void ffd_job_watch_end(const work_watch *watch, ffd_status status);
+
 #endif

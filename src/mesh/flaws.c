@@ -53,16 +53,6 @@ ffd_status ffd_flaw_line(mesh_flaws *flaws, const char *file, size_t line, ffd_e
     return status;
 }
 
-ffd_status ffd_flaw_at(mesh_flaws *flaws, const char *file, const char *pointer, ffd_error *error,
-                       const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    const ffd_status status = ffd_flaw_note(flaws, file, 0, pointer, error, format, arguments);
-    va_end(arguments);
-    return status;
-}
-
 void ffd_flaws_warn(const mesh_flaws *flaws, const char *file, const mesh_log *log)
 {
     for (size_t i = 0; i < flaws->count; i++) {

@@ -18,12 +18,7 @@ typedef struct mesh_flaws {
    literal, the same one for all flaws of a kind. One thread at a time. */
 ffd_status ffd_flaw_line(mesh_flaws *flaws, const char *file, size_t line, ffd_error *error,
                          const char *format, ...) FFD_PRINTF(5, 6);
-/* The same at a JSON pointer. */
-ffd_status ffd_flaw_at(mesh_flaws *flaws, const char *file, const char *pointer, ffd_error *error,
-                       const char *format, ...) FFD_PRINTF(5, 6);
-
-/* The common part of these two, for functions that determine the position themselves (line 0 and pointer "":
-   the whole file). */
+/* The same, with its arguments in a list, also at a JSON pointer (line 0 and pointer "": the whole file). */
 ffd_status ffd_flaw_note(mesh_flaws *flaws, const char *file, size_t line, const char *pointer,
                          ffd_error *error, const char *format, va_list arguments);
 /* Counts a flaw if its kind is known already, so that its position need not be determined. Returns whether it

@@ -12,9 +12,9 @@
 /* Products of coordinates below this do not overflow. */
 #define LARGEST 1e150
 
-/* The budget of visited corners and nodes for finding ears, more than any reasonable polygon needs. */
-#define LOOKS_FIRST ((uint64_t)1 << 20)
-#define LOOKS_PER_CORNER 4096
+/* The budget of tests of corners and nodes for finding ears, more than any reasonable polygon needs. */
+#define FIRST_TESTS ((uint64_t)1 << 20)
+#define TESTS_PER_CORNER 4096
 #define MOST_TESTS ((uint64_t)1 << 29)
 
 /* The requirements for an ear, from strict to none. They are relaxed by one step when a whole round has found
@@ -281,7 +281,7 @@ static void unlink_corner(polygon_cutter *cutter, uint32_t i)
 
 static void cut_ears(polygon_cutter *cutter, uint32_t count, uint32_t *triangles)
 {
-    const uint64_t wanted = LOOKS_FIRST + (uint64_t)count * LOOKS_PER_CORNER;
+    const uint64_t wanted = FIRST_TESTS + (uint64_t)count * TESTS_PER_CORNER;
     const uint64_t most_tests = wanted < MOST_TESTS ? wanted : MOST_TESTS;
     uint64_t tests = 0;
     uint32_t i = 0, left = count, tried = 0;

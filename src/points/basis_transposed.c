@@ -14,7 +14,7 @@ typedef struct transposed_work {
     const double *weights, *dfdx;
     size_t first_block;
     size_t width;    /* 3 for each control point */
-    double *sums;    /* `numbers` for each block of a group */
+    double *sums;    /* `width` for each block of a group */
     basis_row *rows; /* one for each thread */
 } transposed_work;
 

@@ -204,9 +204,12 @@ static PyObject *names_of(const ffd_output_list *outputs)
     PyObject *const names = PyList_New(0);
     for (size_t i = 0; names && i < list_count(outputs); i++) {
         PyObject *const name = file_name(list_name(outputs, i));
-        if (name)
-            PyList_Append(names, name);
+        const int failed = !name || PyList_Append(names, name) != 0;
         Py_XDECREF(name);
+        if (failed) {
+            Py_DECREF(names);
+            return NULL;
+        }
     }
     return names;
 }

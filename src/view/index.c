@@ -1,5 +1,6 @@
 #include "view/index.h"
 #include "base/memory/memory.h"
+#include "base/text/number.h"
 #include "base/text/words.h"
 #include "view/page_assets.h"
 #include "view/page_text.h"
@@ -53,6 +54,12 @@ static void append_job(byte_buffer *html, const index_row *row)
     ffd_buffer_text(html, "</td>");
 }
 
+/* Returns a number in the digits that a row shows. */
+static number_text shown(double value)
+{
+    return ffd_number_digits(value, 6);
+}
+
 static void append_displacement(byte_buffer *html, const ffd_job_result *figures)
 {
     ffd_buffer_text(html, "<td data-label=\"Largest displacement\" data-key=\"");
@@ -61,7 +68,7 @@ static void append_displacement(byte_buffer *html, const ffd_job_result *figures
         return;
     }
     ffd_buffer_number(html, figures->displacement.max);
-    ffd_buffer_format(html, "\">%g</td>", figures->displacement.max);
+    ffd_buffer_format(html, "\">%s</td>", shown(figures->displacement.max).text);
 }
 
 static void append_tear(byte_buffer *html, const ffd_job_result *figures)
@@ -75,7 +82,8 @@ static void append_tear(byte_buffer *html, const ffd_job_result *figures)
     ffd_buffer_format(html, "%" PRIu64 " ", tear->edges);
     ffd_buffer_number(html, tear->largest);
     if (tear->edges > 0)
-        ffd_buffer_format(html, "\" class=\"bad\">%" PRIu64 ", step to %g</td>", tear->edges, tear->largest);
+        ffd_buffer_format(html, "\" class=\"bad\">%" PRIu64 ", step to %s</td>", tear->edges,
+                          shown(tear->largest).text);
     else
         ffd_buffer_text(html, "\">none</td>");
 }
@@ -92,12 +100,12 @@ static void append_folds(byte_buffer *html, const ffd_job_result *figures)
     ffd_buffer_format(html, "%d %" PRIu64 " ", ranks[folds->verdict], folds->folded_cells);
     ffd_buffer_number(html, -folds->min_det);
     if (folds->verdict == FFD_FOLDS_SOME)
-        ffd_buffer_format(html, "\" class=\"bad\">%" PRIu64 " %s, det J to %g</td>", folds->folded_cells,
-                          ffd_plural(folds->folded_cells, "cell", "cells"), folds->min_det);
+        ffd_buffer_format(html, "\" class=\"bad\">%" PRIu64 " %s, det J to %s</td>", folds->folded_cells,
+                          ffd_plural(folds->folded_cells, "cell", "cells"), shown(folds->min_det).text);
     else if (folds->verdict == FFD_FOLDS_UNKNOWN)
         ffd_buffer_text(html, "\" class=\"warn\">undecided</td>");
     else
-        ffd_buffer_format(html, "\">none, det J at least %g</td>", folds->min_det);
+        ffd_buffer_format(html, "\">none, det J at least %s</td>", shown(folds->min_det).text);
 }
 
 static void append_flipped(byte_buffer *html, const ffd_job_result *figures)

@@ -1,4 +1,5 @@
 #include "view/view_palette.h"
+#include "base/text/number.h"
 #include "base/vector/vec.h"
 #include <math.h>
 #include <stdio.h>
@@ -63,8 +64,8 @@ static void make_bar(view_palette *p, const char *title)
 {
     for (int i = 0; i < PALETTE_LABELS; i++) {
         const double share = (double)i / (PALETTE_LABELS - 1);
-        snprintf(p->texts[i], sizeof p->texts[i], "%.3g",
-                 p->color == FFD_VIEW_DET ? det_at(share, p->most) : share * p->most);
+        const double value = p->color == FFD_VIEW_DET ? det_at(share, p->most) : share * p->most;
+        snprintf(p->texts[i], sizeof p->texts[i], "%s", ffd_number_digits(value, 3).text);
         p->labels[i] = p->texts[i];
     }
     p->scale = (picture_scale){.title = title,

@@ -1,5 +1,6 @@
 #include "view/view_picture.h"
 #include "base/memory/memory.h"
+#include "base/text/number.h"
 #include "base/text/words.h"
 #include "mesh/bounds.h"
 #include "mesh/positions.h"
@@ -241,11 +242,11 @@ static void make_meshes(const picture_work *w, step *s, bool is_plain)
 static void name_step(const picture_work *w, size_t index, char caption[CAPTION])
 {
     if (w->options->rows)
-        snprintf(caption, CAPTION, "%s%.2f s",
+        snprintf(caption, CAPTION, "%s%s s",
                  w->options->rows == 1        ? ""
                  : index < w->options->frames ? "before "
                                               : "after ",
-                 time_of(w, index));
+                 ffd_number_decimals(time_of(w, index), 2).text);
     else if (w->step_count == 2)
         snprintf(caption, CAPTION, "%s", index ? "after" : "before");
     else

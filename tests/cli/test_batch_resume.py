@@ -2,9 +2,10 @@
 """ffd batch --resume: an output is left alone only where it is what its job would make, judged by content."""
 
 import os
+import subprocess
 
 from batches import MOVE, batch, case, check, equal, job, lattice, lines_of, main, start, statuses
-from harness import CUBE, PNG, gltf_json
+from harness import CUBE, FFD, PNG, SECONDS, gltf_json
 
 ALL = ["o0.obj", "o1.obj", "o2.obj"]
 
@@ -247,6 +248,26 @@ def a_dry_run_tells(run):
 
 
 @case
+def a_dry_run_leaves_a_journal_of_another_version(run):
+    """Also where workers look in it for the notes of copies."""
+    start(run)
+    asset, data = gltf_json([[0, 0, 0], [1, 0, 0], [0, 1, 0]], uri="in.bin")
+    asset["images"] = [{"uri": "t.png"}]
+    for name, content in (("in.gltf", asset), ("in.bin", data), ("t.png", PNG + b"one")):
+        run.write("in/" + name, content)
+    run.write("m.jsonl", lines_of([{"in": "in/in.gltf", "lattice": "l.json", "out": "out/out.gltf"}]))
+    batch(run, "m.jsonl", "--journal", "j", done=1)
+    written = run.read("j")
+    check(written.startswith(b"ffd-journal "), written[:20])
+    run.write("j", b"ffd-journal 1\n\0\0" + written[16:])
+    run.write("in/t.png", PNG + b"another one")
+    before = run.read("j")
+    for words in (["--force", "--resources", "refresh"], ["--resume"]):
+        run.ffd("batch", "m.jsonl", "--journal", "j", "--dry-run", *words, code=(0, 1), err=lambda said: None)
+        check(run.read("j") == before, words, "the journal has changed")
+
+
+@case
 def a_folder_for_journals_that_cannot_be_had(run):
     """No journal only costs time."""
     start(run, [job(0)])
@@ -255,6 +276,13 @@ def a_folder_for_journals_that_cannot_be_had(run):
     done = run.ffd("batch", "m.jsonl", "--resume", err=lambda said: None)
     check(any("file" in line for line in done.err), "nobody is told:", done.err)
     check(run.exists("o0.obj"), "nothing was made")
+    # The reason is that of the folder, not that it is not there.
+    options = run.unprivileged()
+    if options:
+        os.mkdir(run.path("others"), 0o555)
+        os.environ["XDG_CACHE_HOME"] = run.path("others")
+        done = run.ffd("batch", "m.jsonl", "--resume", code=(0, 1), err=lambda said: None, **options)
+        check(any("others/ffd: the folder cannot be made: Permission denied" in line for line in done.err), done.err)
 
 
 @case
@@ -277,6 +305,18 @@ def a_journal_moves_with_its_manifest(run):
     batch(run, "far/away/two/other/m.jsonl", *[word.format("far/away/two") for word in words], kept=2)
     run.write("far/away/two/m.jsonl", lines.replace("../", ""))
     batch(run, "far/away/two/m.jsonl", *[word.format("far/away/two") for word in words], done=2)
+
+
+@case
+def a_folder_that_was_removed(run):
+    """Jobs that come from no file have their journal by the current folder, which may be gone."""
+    start(run)
+    for words in ("done", "up to date"):
+        run.folder_of("gone")
+        done = subprocess.run(["sh", "-c", 'cd gone && rmdir ../gone && exec "$@"', "sh", FFD, "batch", "--in", run.path("a*.obj"),
+                               "-l", run.path("l.json"), "--out-dir", run.path("out"), "--resume"],
+                              cwd=run.folder, capture_output=True, text=True, timeout=SECONDS, check=False)
+        equal((done.returncode, f"1 {words}" in done.stderr), (0, True), done.stderr)
 
 
 main()

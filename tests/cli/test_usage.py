@@ -156,6 +156,19 @@ def values_that_an_option_does_not_take_are_refused(run):
 
 
 @case
+def the_help_has_the_words_of_each_setting(run):
+    """They stand in the table of settings, and in the options of each command that has them."""
+    work, found = files(run), 0
+    for command in ("deform", "batch", "check", "view", "jacobian", "embed"):
+        for option, words in re.findall(r"^ +(?:-\w, )?(--[a-z-]+) ((?:[a-z0-9]+\|)+[a-z0-9]+)", run.ffd("help", command).text, re.M):
+            refusal = run.ffd(*work, option, "none of them", code=USAGE).err[0]
+            if " is not one of " in refusal:
+                equal(sorted(words.split("|")), sorted(refusal.split(" is not one of ")[1].split(", ")), f"{command} {option}")
+                found += 1
+    equal(found, 6 + 6 + 6 + 6 + 3 + 1)
+
+
+@case
 def values_of_other_commands(run):
     files(run)
     for value in ("-1", "nan", "inf", "x", "", "1e999", "0x1", " 1", "1 ", "1,5", "-0.001", "1e"):
@@ -317,7 +330,8 @@ def the_commit_of_a_build(run):
     script = os.path.join(os.environ["FFD_DATA"], "../src/base/commit.sh")
 
     def commit(folder):
-        return subprocess.run(["sh", script, run.path(folder)], capture_output=True, text=True, check=True, timeout=SECONDS).stdout
+        return subprocess.run(["sh", script, run.path(folder)], env={**os.environ, "commit": "of others"}, capture_output=True, text=True,
+                              check=True, timeout=SECONDS).stdout
 
     def git(*words):
         subprocess.run(["git", "-C", run.path("clone"), "-c", "user.name=a", "-c", "user.email=a@b", *words], check=True, capture_output=True, timeout=SECONDS)

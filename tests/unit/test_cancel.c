@@ -1,6 +1,6 @@
 /* test_cancel.c - a job that is cancelled ends soon, in whatever step it is: no step goes on for a large part
-   of the job without a look at the caller. The clock is one that goes on by itself, so that each look asks
-   him. */
+   of the job without a look at the caller. What is done is told of the step that takes long. The clock is one
+   that goes on by itself, so that each look asks him. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -45,6 +45,8 @@ typedef struct watcher {
     double begin, last, longest;
     double cancelled; /* when */
     double done;
+    int in_pass,
+        after_pass; /* looks while vertices are deformed, by what is done, and between them and 0.9 */
 } watcher;
 
 static bool look(void *user, double done)
@@ -56,6 +58,8 @@ static bool look(void *user, double done)
         w->done = done;
     }
     w->last = now;
+    w->in_pass += done > 0.1 && done < 0.69;
+    w->after_pass += done >= 0.69 && done < 0.89;
     if (++w->looks == w->cancels_at) {
         w->cancelled = now;
         w->cancel = 1;
@@ -158,8 +162,19 @@ static void no_step_is_deaf(void **state)
     }
 }
 
+/* The lattice goes round the mesh: a first pass over the vertices finds their box. */
+static void finding_a_box_is_not_deforming(void **state)
+{
+    (void)state;
+    watcher w = {.cancels_at = 0};
+    run("m.obj", "b.obj", 0, &w);
+    print_message("%d looks in the pass, %d after it\n", w.in_pass, w.after_pass);
+    assert_true(is_memory_checked() || w.in_pass > 4 * w.after_pass); /* else there are too few */
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(no_step_is_deaf)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(no_step_is_deaf),
+                                       cmocka_unit_test(finding_a_box_is_not_deforming)};
     return cmocka_run_group_tests_name("cancel", tests, make_meshes, remove_folder);
 }

@@ -8,6 +8,7 @@
 #include "../support/test_folder.h"
 #include "base/memory/memory.h"
 #include "batch/journal.h"
+#include <sys/stat.h>
 #include <time.h>
 
 static job_record record_of(unsigned number)
@@ -200,6 +201,33 @@ static void a_journal_of_another_version_is_replaced(void **state)
     (void)state;
 }
 
+/* As a dry run and the workers of a batch read it. */
+static void reading_a_journal_changes_nothing(void **state)
+{
+    static const char old[64] = "ffd-journal 1\n";
+    job_journal *journal = opened(in_folder("read"));
+    assert_true(put_record(journal, 3, 3));
+    ffd_journal_close(&journal);
+    assert_int_equal(ffd_journal_read(in_folder("read"), &journal, NULL), FFD_OK);
+    assert_true(holds(journal, 3, 3));
+    ffd_journal_close(&journal);
+    put("of another version", old, sizeof old);
+    put("cut short", old, 5);
+    static const char *const others[] = {"of another version", "cut short"};
+    for (size_t i = 0; i < 2; i++) {
+        struct stat info;
+        assert_int_equal(ffd_journal_read(in_folder(others[i]), &journal, NULL), FFD_OK);
+        assert_null(journal);
+        assert_int_equal(stat(in_folder(others[i]), &info), 0);
+        assert_int_equal(info.st_size, i == 0 ? sizeof old : 5);
+    }
+    put_text("a letter", "Dear Sir or Madam,");
+    assert_int_equal(ffd_journal_read(in_folder("a letter"), &journal, NULL), FFD_E_INVALID);
+    assert_int_equal(ffd_journal_read(in_folder("missing"), &journal, NULL), FFD_E_IO);
+    assert_null(journal);
+    (void)state;
+}
+
 static void a_file_that_is_no_journal_is_refused(void **state)
 {
     job_journal *journal;
@@ -233,6 +261,7 @@ int main(void)
         cmocka_unit_test(growing_touches_no_other_file),
         cmocka_unit_test(a_journal_stays_in_bounds),
         cmocka_unit_test(a_journal_of_another_version_is_replaced),
+        cmocka_unit_test(reading_a_journal_changes_nothing),
         cmocka_unit_test(a_file_that_is_no_journal_is_refused),
         cmocka_unit_test(each_manifest_and_share_has_one_default_path),
     };

@@ -27,7 +27,7 @@
 enum { PATH = 128 };
 
 static const char *corpus;
-static char lattice[PATH], input[PATH], output[PATH], array[PATH];
+static char lattice[PATH], input[PATH], output[PATH], array[PATH], comparison_file[PATH];
 
 typedef ffd_status job(ffd_error *error);
 
@@ -172,6 +172,12 @@ static ffd_status run_report_merge(ffd_error *error)
     return ffd_report_merge_run(reports, 2, true, output, false, error);
 }
 
+static ffd_status run_report_junit(ffd_error *error)
+{
+    static const char *const reports[] = {input, comparison_file};
+    return ffd_report_junit_run(reports, 2, output, false, error);
+}
+
 static void cpp_fail_after(long successes)
 {
     new_fail_after(successes);
@@ -313,6 +319,17 @@ static void memory_of_reports(void **state)
              "{\"format\": \"ffd-report\", \"version\": 1, \"jobs\": [{\"input\": \"a\", \"output\": null, "
              "\"status\": \"ok\", \"exit\": 0, \"error\": null}]}");
     assert_true(fail_everywhere(input, run_report_merge, ffd_alloc_fail_after) > 3);
+    put_text("r.json",
+             "{\"format\": \"ffd-report\", \"version\": 1, \"jobs\": [{\"input\": \"a\", \"output\": \"b\", "
+             "\"status\": \"skipped\", \"exit\": 0, \"error\": \"none\"}]}");
+    path_of("c.json", comparison_file);
+    put_text("c.json",
+             "{\"format\": \"ffd-comparison\", \"version\": 1, \"a\": \"A\", \"b\": \"B\", \"files\": ["
+             "{\"name\": \"n\", \"equal\": false, \"error\": \"e\"}, "
+             "{\"name\": \"n\", \"equal\": false, \"error\": null, \"first\": {\"message\": \"m\"}}], "
+             "\"only_a\": [\"s\"], \"only_b\": []}");
+    assert_true(fail_everywhere(input, run_report_junit, ffd_alloc_fail_after) > 12);
+    unlink(comparison_file);
     unlink(input);
     (void)state;
 }

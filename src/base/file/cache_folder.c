@@ -1,8 +1,7 @@
 #include "base/file/cache_folder.h"
 #include "base/file/input.h"
 #include "base/file/path.h"
-#include <stdlib.h>
-#include <unistd.h>
+#include "base/posix.h"
 
 char *ffd_cache_folder(void)
 {

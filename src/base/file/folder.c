@@ -25,8 +25,10 @@ static size_t next_folder(const char *path, size_t at)
 /* Makes the folder that partial names so far. *made: as of ffd_folder_make. */
 static int make_one(const char *partial, size_t end, size_t *made)
 {
-    if (mkdir(partial, 0777) != 0)
-        return errno == EEXIST || ffd_file_exists(partial) ? 0 : errno;
+    if (mkdir(partial, 0777) != 0) {
+        const int reason = errno; /* looking for the folder sets another one */
+        return reason == EEXIST || ffd_file_exists(partial) ? 0 : reason;
+    }
     if (!*made || end < *made)
         *made = end;
     return 0;

@@ -439,6 +439,8 @@ ffd_status ffd_output_folder(file_output *output, const char *path, ffd_error *e
     if (!folder->path)
         return ffd_fail_memory(error);
     output->folder_count++;
+    if (ffd_folder_is_there(path))
+        return FFD_OK;
     ffd_cleanup_hold();
     const ffd_status status = ffd_folder_make(path, &folder->made, error);
     folder->noted = folder->made ? ffd_cleanup_note_folder(path, folder->made) : NULL;

@@ -122,7 +122,7 @@ static hash128 hash_of(const char *folder, const char *name)
 }
 
 /* base: NULL, or the folder that the place is seen from. */
-static hash128 find_place(file_places *places, const char *base, const char *path)
+static hash128 find_in(file_places *places, const char *base, const char *path)
 {
     char *const target = is_link(path) ? resolve(path) : NULL;
     const char *const whole = target ? target : path;
@@ -138,20 +138,22 @@ static hash128 find_place(file_places *places, const char *base, const char *pat
     return hash;
 }
 
-hash128 ffd_place_of(file_places *places, const char *path)
+static hash128 find_place(file_places *places, const char *base, const char *path)
 {
     file_places own = {0};
-    const hash128 hash = find_place(places ? places : &own, NULL, path);
+    const hash128 hash = find_in(places ? places : &own, base, path);
     ffd_places_free(&own);
     return hash;
 }
 
-hash128 ffd_place_relative(const char *base, const char *path)
+hash128 ffd_place_of(file_places *places, const char *path)
 {
-    file_places own = {0};
-    const hash128 hash = find_place(&own, base, path);
-    ffd_places_free(&own);
-    return hash;
+    return find_place(places, NULL, path);
+}
+
+hash128 ffd_place_relative(file_places *places, const char *base, const char *path)
+{
+    return find_place(places, base, path);
 }
 
 void ffd_places_free(file_places *places)

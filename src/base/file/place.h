@@ -26,8 +26,8 @@ typedef struct file_places {
 /* Returns a hash of the place. places: may be NULL. */
 hash128 ffd_place_of(file_places *places, const char *path);
 /* Returns a hash of the place as seen from the folder `base`, an absolute path without links: the same one
-   where base has moved together with the place. */
-hash128 ffd_place_relative(const char *base, const char *path);
+   where base has moved together with the place. places: may be NULL. */
+hash128 ffd_place_relative(file_places *places, const char *base, const char *path);
 /* Frees the folders; leaves all zeros. */
 void ffd_places_free(file_places *places);
 

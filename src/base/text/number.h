@@ -26,13 +26,17 @@ size_t ffd_number_format(double value, char text[FFD_NUMBER_CAPACITY]);
 /* The same for a float: the shortest text that reads back as the same float. */
 size_t ffd_number_format_float(float value, char text[FFD_NUMBER_CAPACITY]);
 
-/* A string with the shortest text of a number, for messages. */
+/* A string with the text of a number, terminated by 0. */
 typedef struct number_text {
     char text[FFD_NUMBER_CAPACITY + 1];
 } number_text;
 
-/* Returns the text of value, terminated by 0. */
+/* Returns the shortest text of value, for messages. */
 number_text ffd_number_text(double value);
+/* Returns the text of value rounded to at most 17 digits, as "%.*g" writes it in the C locale. */
+number_text ffd_number_digits(double value, int digits);
+/* The same with up to 6 decimals, as "%.*f": of numbers up to 1e30; the text of a larger one is cut off. */
+number_text ffd_number_decimals(double value, int decimals);
 
 #ifdef __cplusplus
 }

@@ -1,6 +1,7 @@
 /* number_format.c - the shortest text of numbers. */
 #include "base/text/decimal.h"
 #include "base/text/number.h"
+#include <ctype.h>
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
@@ -132,5 +133,32 @@ number_text ffd_number_text(double value)
 {
     number_text result;
     result.text[ffd_number_format(value, result.text)] = 0;
+    return result;
+}
+
+/* Replaces a locale's decimal point, which may have several bytes. */
+static void put_point(char *text)
+{
+    char *const at = text + strspn(text, "-0123456789");
+    if (*at == 0 || isalpha((unsigned char)*at)) /* an exponent, or inf or nan */
+        return;
+    const char *const decimals = at + strcspn(at, "0123456789");
+    *at = '.';
+    memmove(at + 1, decimals, strlen(decimals) + 1);
+}
+
+number_text ffd_number_digits(double value, int digits)
+{
+    number_text result;
+    snprintf(result.text, sizeof result.text, "%.*g", digits, value);
+    put_point(result.text);
+    return result;
+}
+
+number_text ffd_number_decimals(double value, int decimals)
+{
+    number_text result;
+    snprintf(result.text, sizeof result.text, "%.*f", decimals, value);
+    put_point(result.text);
     return result;
 }

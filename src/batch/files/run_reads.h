@@ -20,8 +20,8 @@ bool ffd_reads_know_mesh(const run_files *files, const job_kind *kind);
 bool ffd_reads_need_named(run_files *files, const job_kind *kind);
 /* Stores an error in a job whose mesh, which was scanned last, names a file that another job writes. */
 void ffd_reads_check_named(const run_files *files, batch_job *job);
-/* Stores what a worker has found for a job (scan.h). of_mesh: it has scanned the mesh; beside: the number
-   of files beside the output. Errors: FFD_E_MEMORY. */
+/* Stores what a worker has found for a job (scan.h). of_mesh: it has scanned the mesh; sidecars: the
+   number of files beside the output. Errors: FFD_E_MEMORY. */
 ffd_status ffd_reads_learn(run_files *files, const batch_job *job, const job_kind *kind, bool of_mesh,
                            size_t sidecars, const byte_buffer *found, ffd_error *error);
 /* Stores that a worker has found nothing: the mesh names no files, its output has none beside it, and no

@@ -108,7 +108,7 @@ char *ffd_output_name(const job_commons *commons, const char *input, uint64_t or
     return ffd_buffer_finish(&text);
 }
 
-/* Adds the output, in the folder of outputs. number: as in ffd_output_name. */
+/* Adds the output, in the folder of outputs. ordinal: as in ffd_output_name. */
 static void add_output(const job_commons *commons, const char *input, uint64_t ordinal, job_description *job)
 {
     char *const name = ffd_output_name(commons, input, ordinal);

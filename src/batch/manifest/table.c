@@ -108,7 +108,7 @@ bool ffd_table_has(const csv_table *table, const char *column)
     return false;
 }
 
-/* Marks the ignored columns. names: of the columns, with their numbers, but for those without a name. */
+/* Marks the ignored columns. names: of the columns, with their indices, but for those without a name. */
 static ffd_status skip_ignored(csv_table *table, const intern_table *names, const size_t *indices,
                                ffd_error *error)
 {
@@ -175,7 +175,7 @@ static ffd_status note_name(csv_table *table, const char *name, size_t index, ff
                               : FFD_OK;
 }
 
-/* names: gets the names of the columns, and numbers their numbers. */
+/* names: gets the names of the columns, and indices their indices. */
 static ffd_status check_name(csv_table *table, const char *name, size_t index, intern_table *names,
                              size_t *indices, ffd_error *error)
 {

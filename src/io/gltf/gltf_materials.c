@@ -105,7 +105,7 @@ static ffd_status load_inner(const gltf_document *d, material_images *images, si
 }
 
 /* Loads an image from a bufferView, a data URI or a file beside the model, unless it is loaded already. Sets
-   *number to its index among the images of the materials, or to MATERIAL_LOST if it cannot be loaded. Errors:
+   *index to its index among the images of the materials, or to MATERIAL_LOST if it cannot be loaded. Errors:
    FFD_E_LIMIT, FFD_E_MEMORY. */
 static ffd_status load_image(const gltf_document *d, material_images *images, size_t image, uint32_t *index,
                              ffd_error *error)

@@ -193,62 +193,63 @@ bool ffd_obj_find_pair(const obj_document *d, const obj_face_corner *corner, siz
     return *pair < end && d->pair_normal[*pair] == corner->normal;
 }
 
-/* Corners of a face that is looked at without care. */
+/* The most corners of a face that is read without care. */
 #define PLAIN_CORNERS 8
 
-/* Which of 64 bytes are blanks or line ends, and which are not digits: they are found for all of them at
-   once, as a search word by word would wait for the end of the one before. */
-typedef struct word_run {
-    const char *text;
-    uint64_t low, others;
-} word_run;
-
-/* Takes the word at c. number: what its digits make, before anything else in it; 0 where there are none, or
-   too many. Returns the end of the word. */
-static ALWAYS_INLINE const char *take_plain_word(word_run *run, const char *c, const char *last,
-                                                 size_t *number)
+static const char *find_word_end(const char *c, const char *last)
 {
-    for (int turn = 0; turn < 2; turn++) {
-        const size_t at = (size_t)(c - run->text);
-        const uint64_t low = at < 64 ? run->low >> at : 0;
-        if (low) {
-            const int digits = __builtin_ctzll(run->others >> at);
-            const uint64_t values = load_u64((const unsigned char *)c) ^ '0' * BYTES_ONES;
-            *number = digits > 0 && digits <= 8 ? (size_t)bytes_number(values << (64 - 8 * digits)) : 0;
-            return c + __builtin_ctzll(low);
-        }
-        if (last - c < OBJ_RUN_ROOM)
-            break;
-        *run = (word_run){c, bytes_low_of_64(c), bytes_not_digits_of_64(c)};
+    for (; last - c >= 8; c += 8) {
+        const uint64_t low = bytes_low(load_u64((const unsigned char *)c));
+        if (low)
+            return c + __builtin_ctzll(low) / 8;
     }
-    *number = 0;
-    for (; c < last && (unsigned)(*c - '0') < 10; c++)
-        *number = 10 * *number + (size_t)(*c - '0');
     while (c < last && (unsigned char)*c > ' ')
         c++;
     return c;
 }
 
-/* Lists the vertices of the current face, line or point where it is plainly written: all corners begin with a
-   number that counts from the file's first vertex, on one line. Returns how many; 0: it has to be looked at
-   with care. Takes nothing. */
-static size_t list_plainly(const obj_document *d, const obj_scan *scan, uint32_t vertices[PLAIN_CORNERS])
+/* Reads the corner at c, whose vertex has at most seven digits and counts from the file's first one. Returns
+   the end of its word; NULL if it has to be read with care. */
+static ALWAYS_INLINE const char *read_plain_corner(const char *c, const char *last, size_t vertices,
+                                                   uint32_t *vertex)
 {
+    const uint64_t eight = load_u64((const unsigned char *)c), others = bytes_not_digits(eight);
+    const int digits = others ? __builtin_ctzll(others) / 8 : 8;
+    if (digits == 0 || digits == 8)
+        return NULL;
+    const uint64_t number = bytes_number((eight ^ '0' * BYTES_ONES) << (64 - 8 * digits));
+    if (number - 1 >= vertices)
+        return NULL;
+    *vertex = (uint32_t)(number - 1);
+    c += digits;
+    return (unsigned char)*c <= ' ' ? c : find_word_end(c, last);
+}
+
+/* Takes the next statement if it is a face that is plainly written: as nearly all are, in one pass over its
+   line. Its corners were checked when the file was opened. Returns the number of its vertices; 0 if there is
+   another statement, which is not taken. */
+static size_t take_plain_face(const obj_document *d, obj_walk *walk, uint32_t vertices[PLAIN_CORNERS])
+{
+    obj_scan *const scan = &walk->scan;
     size_t count = 0;
-    const char *c = scan->at;
-    word_run run = {c, 0, 0};
-    while (scan->plain) {
-        size_t index;
-        while (c < scan->last && (*c == ' ' || *c == '\t'))
+    ffd_obj_scan_finish(scan);
+    const char *c = scan->at, *const last = scan->last;
+    if (!scan->plain || last - c < 2 || c[0] != 'f' || c[1] != ' ' || walk->faces.seen == walk->faces.total)
+        return 0;
+    for (c++; last - c > 8; count++) {
+        while (last - c > 8 && (*c == ' ' || *c == '\t'))
             c++;
-        if (c == scan->last || *c == '\n' || *c == '\r')
-            return count;
-        c = take_plain_word(&run, c, scan->last, &index);
-        if (index - 1 >= d->vertices || count == PLAIN_CORNERS)
+        if (*c == '\n')
             break;
-        vertices[count++] = (uint32_t)(index - 1);
+        if (count == PLAIN_CORNERS || !(c = read_plain_corner(c, last, d->vertices, &vertices[count])))
+            return 0;
     }
-    return 0;
+    if (last - c <= 8 || count == 0)
+        return 0;
+    scan->at = c + 1;
+    scan->line++;
+    walk->faces.seen++;
+    return count;
 }
 
 static ffd_status fill_faces(const obj_document *d, mesh_faces *faces, ffd_error *error)
@@ -258,16 +259,16 @@ static ffd_status fill_faces(const obj_document *d, mesh_faces *faces, ffd_error
     uint32_t plain[PLAIN_CORNERS];
     face_filler filler = {.faces = faces, .corners = d->corners};
     ffd_obj_document_walk_users(d, &walk);
-    while (!filler.ends && ffd_obj_walk_next(&walk)) {
-        if (walk.scan.keyword != OBJ_FACE)
+    while (!filler.ends) {
+        const size_t count = take_plain_face(d, &walk, plain);
+        if (count == 0 && !ffd_obj_walk_next(&walk))
+            break;
+        if (count == 0 && walk.scan.keyword != OBJ_FACE)
             continue;
         ffd_filler_face(&filler);
-        const size_t count = list_plainly(d, &walk.scan, plain);
         for (size_t i = 0; i < count; i++)
             ffd_filler_corner(&filler, plain[i]);
-        if (count > 0)
-            continue;
-        while (ffd_obj_walk_corner(&walk, &corner))
+        while (count == 0 && ffd_obj_walk_corner(&walk, &corner))
             ffd_filler_corner(&filler, corner.vertex);
     }
     return ffd_filler_end(&filler, d->file.name, error);
@@ -306,13 +307,15 @@ static void search_tile(void *context, size_t tile, size_t first, size_t last, i
     if (!search->document->blocks.list[first].names_elements)
         return;
     ffd_obj_document_walk_block(search->document, first, &walk);
-    while (!list.failed && ffd_obj_walk_next(&walk)) {
-        if (walk.scan.keyword != OBJ_FACE)
+    while (!list.failed) {
+        const size_t count = take_plain_face(search->document, &walk, plain);
+        if (count == 0 && !ffd_obj_walk_next(&walk))
+            break;
+        if (count > 0 ? !ffd_marks_differ(&search->marks, plain, count) : walk.scan.keyword != OBJ_FACE)
             continue;
-        const size_t count = list_plainly(search->document, &walk.scan, plain);
-        if (count > 0 && !ffd_marks_differ(&search->marks, plain, count))
-            continue;
-        while (ffd_obj_walk_corner(&walk, &corner))
+        for (size_t i = 0; i < count; i++)
+            ffd_face_list_corner(&list, plain[i]);
+        while (count == 0 && ffd_obj_walk_corner(&walk, &corner))
             ffd_face_list_corner(&list, (uint32_t)corner.vertex);
         ffd_face_list_end(&list, &search->marks);
     }
@@ -381,10 +384,12 @@ static void mark_tile(void *context, size_t tile, size_t first, size_t last, int
     if (!d->blocks.list[first].names_elements)
         return;
     ffd_obj_document_walk_block(d, first, &walk);
-    while (ffd_obj_walk_next(&walk)) {
-        if (!ffd_obj_walk_uses(&walk))
+    while (true) {
+        const size_t count = take_plain_face(d, &walk, plain);
+        if (count == 0 && !ffd_obj_walk_next(&walk))
+            break;
+        if (count == 0 && !ffd_obj_walk_uses(&walk))
             continue;
-        const size_t count = list_plainly(d, &walk.scan, plain);
         for (size_t i = 0; i < count; i++)
             mark(d, plain[i]);
         while (count == 0 && ffd_obj_walk_corner(&walk, &corner))

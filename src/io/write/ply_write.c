@@ -88,7 +88,7 @@ static void write_header(model_sink *sink, const ply_plan *plan)
     ffd_sink_text(sink, "end_header\n");
 }
 
-/* Writes the values with this number, or zeros for MODEL_NONE. */
+/* Writes the values with this index, or zeros for MODEL_NONE. */
 static void write_values(model_sink *sink, const double *values, size_t width, uint32_t index)
 {
     for (size_t i = 0; i < width; i++)

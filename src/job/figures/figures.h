@@ -56,7 +56,7 @@ typedef enum figure_presence {
 /* A member of a struct. */
 typedef struct figure_member {
     figure_type type;
-    size_t at; /* its offset */
+    uint32_t at; /* its offset */
 } figure_member;
 
 typedef struct figure {
@@ -67,14 +67,14 @@ typedef struct figure {
     figure_join tiles, targets;
     figure_presence presence;
     figure_member needs[2];
-    size_t size, by;     /* of a group: its size, and the offset of the number for JOIN_GROUP */
+    uint32_t size, by;   /* of a group: its size, and the offset of the number for JOIN_GROUP */
     bool is_held_back;   /* it is not in the report */
     bool is_of_job;      /* it is of a whole job, not of each morph target */
     bool is_time;        /* it is not in a report without times */
     figure_lines *lines; /* or NULL */
 } figure;
 
-/* In the order of the report. */
+/* In the order of the report. Small rows: the loader relocates each page of them at every start. */
 extern const figure ffd_figures[];
 extern const size_t ffd_figure_count;
 

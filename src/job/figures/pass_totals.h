@@ -24,7 +24,7 @@ typedef struct near_misses {
     uint64_t count;
     uint64_t examined; /* of the vertices outside */
     double largest;    /* miss, world units */
-    bool is_least;     /* there may be more: not all were looked at */
+    bool is_least;     /* there may be more: not all were examined */
 } near_misses;
 
 typedef struct pass_totals {

@@ -97,7 +97,8 @@ const char *ffd_setting_list_name(const ffd_member *member, void *base, const ch
     return head->list.names[head->list.name_count++] = copy;
 }
 
-void ffd_member_clear(const ffd_member *member, ffd_deform_desc *base)
+/* Sets a member to its default, and frees a list of this file. */
+static void clear(const ffd_member *member, ffd_deform_desc *base)
 {
     ffd_deform_desc none;
     if (ffd_member_is_list(member)) {
@@ -121,7 +122,7 @@ void ffd_deform_desc_clear(ffd_deform_desc *desc)
 {
     const ffd_member *member;
     for (size_t index = 0; (member = ffd_deform_member(index)) != NULL; index++)
-        ffd_member_clear(member, desc);
+        clear(member, desc);
 }
 
 static const ffd_member *find(ffd_member_kind kind)

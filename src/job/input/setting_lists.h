@@ -8,8 +8,6 @@
 void *ffd_setting_list_add(const ffd_member *member, void *base);
 /* Takes the last element away again. */
 void ffd_setting_list_drop(const ffd_member *member, void *base);
-/* Sets a member to its default, and frees a list of this file. */
-void ffd_member_clear(const ffd_member *member, ffd_deform_desc *desc);
 /* Returns a copy of a name that lives as long as the list, which has an element. *is_new: no call before had
    this name. NULL: memory ran out. */
 const char *ffd_setting_list_name(const ffd_member *member, void *base, const char *name, size_t length,

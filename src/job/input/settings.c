@@ -181,8 +181,7 @@ bool ffd_setting_is_set(const ffd_deform_desc *desc, const char *setting)
     const size_t length = strcspn(setting, "=");
     const char *const word = setting[length] ? setting + length + 1 : NULL;
     size_t m = 0;
-    while (m < MEMBERS &&
-           (strlen(members[m].name) != length || memcmp(members[m].name, setting, length) != 0))
+    while (m < MEMBERS && (strncmp(members[m].name, setting, length) != 0 || members[m].name[length]))
         m++;
     if (m == MEMBERS || !ffd_member_is_set(desc, &members[m]))
         return false;

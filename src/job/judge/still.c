@@ -78,7 +78,7 @@ void ffd_still_warn(const pass_totals *totals, const lattice_chain *chain, const
                     bool is_target, bool is_written, const mesh_log *log)
 {
     const bool still = totals->moved == 0;
-    /* That a morph target has offsets of zero is told when it is saved; why is told here. */
+    /* Saving warns of a morph target whose offsets are zero; the reason is given here. */
     const bool is_logged = is_target && is_written;
     char where[200] = "";
     lattice_group idle = {0}, active = {0};

@@ -164,7 +164,7 @@ static void warn_of_shapes(const pass_totals *totals, const lattice_chain *chain
         ffd_log_line(log, FFD_LOG_WARNING, "morph targets move %" PRIu64 " %s outside the lattice (%s)",
                      totals->shapes_outside, vertices(totals->shapes_outside),
                      how_outside(chain, totals->shapes_outside));
-    if (totals->base_outside > totals->weighted_outside) /* else it has been told of the shape shown */
+    if (totals->base_outside > totals->weighted_outside) /* else the warning is of the shape shown */
         ffd_log_line(log, FFD_LOG_WARNING,
                      "without the default weights of morph targets %" PRIu64
                      " %s %s outside the lattice (%s)",

@@ -20,8 +20,8 @@ static size_t list_sides(const mesh_faces *faces, uint64_t *keys)
     return count;
 }
 
-/* LSD radix sort by bytes; skips a byte that all keys share, and ends at the deadline. Returns the sorted
- * array: keys or scratch. */
+/* LSD radix sort by bytes; skips a byte that all keys share, and ends at the deadline. Returns the array that
+   is sorted: keys or scratch. */
 static uint64_t *radix_sort(uint64_t *keys, uint64_t *scratch, size_t count)
 {
     size_t histogram[DIGITS][RADIX];

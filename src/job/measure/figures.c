@@ -17,9 +17,9 @@
 /* Memory of the arrays for each vertex, in bytes. */
 #define ARRAY_BYTES (12 * sizeof(double) + 1)
 
-/* Of a mesh with more vertices a face hardly turns over without det F <= 0 at some vertex, which is counted
-   in any case. To count its faces as well would take as long as to deform it. */
-#define UNASKED_VERTICES 1000
+/* Of a mesh with more vertices only those with det F < 0 are counted unasked. To read its faces as well takes
+   a tenth of a small job's time, and as long as to deform a large mesh. */
+#define UNASKED_VERTICES 128
 /* Nor are many faces of few vertices counted: some 50,000 triangles need more memory than this. */
 #define UNASKED_FACE_BYTES ((uint64_t)1000000)
 

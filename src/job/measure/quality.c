@@ -34,8 +34,8 @@ bool ffd_quality_is_flipped(const uint32_t *corners, size_t count, const face_mo
 #define LARGEST_GRADIENT 1e6
 #define LEAST_SIZE 1e-250
 
-/* Returns the sum of the squares of the edges from the first corner; fills the sum of their cross products.
- */
+/* Returns the sum of the squares of the edges from the first corner. normal: receives the sum of their cross
+   products. */
 static ALWAYS_INLINE double take_edges(const double *xyz, const uint32_t *corners, size_t count,
                                        double normal[3])
 {

@@ -54,7 +54,7 @@ typedef struct mesh_pass {
     uint8_t *kept;
     size_t kept_stride;
     pass_bounds bounds_of;
-    struct chain_pace *pace; /* told by the calling thread; or NULL */
+    struct chain_pace *pace; /* the calling thread reports to it; or NULL */
 } mesh_pass;
 
 #endif

@@ -537,8 +537,9 @@ static void run_tile(void *context, size_t index, size_t first, size_t last, int
     scratch->status = deform_tile(&tile, &scratch->error);
     if (scratch->status)
         atomic_store(&work->stopped, true);
-    ffd_deadline_done(JOB_IS_OPEN + (JOB_HAS_PASSED - JOB_IS_OPEN) * (double)(tile.first_index + tile.count) /
-                                        work->vertices);
+    if (tile.pass->write) /* a pass that only measures is short */
+        ffd_deadline_done(JOB_IS_OPEN + (JOB_HAS_PASSED - JOB_IS_OPEN) *
+                                            (double)(tile.first_index + tile.count) / work->vertices);
 }
 
 /* Parts with fewer full tiles than this use smaller tiles, to keep many threads busy. */

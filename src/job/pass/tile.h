@@ -75,7 +75,7 @@ typedef struct pass_tile {
     const mesh_part *part;
     size_t part_index;
     size_t first, count;  /* its vertices in the part */
-    uint64_t first_index; /* the number of the first one in the document */
+    uint64_t first_index; /* of the first one in the document */
     tile_scratch *scratch;
     pass_totals *totals;     /* of this tile */
     struct chain_pace *pace; /* pass->pace in the calling thread, else NULL */

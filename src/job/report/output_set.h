@@ -1,5 +1,5 @@
-/* output_set.h - the record of a run's outputs and the names of a job's (public: ffd/job.h), and which models
-   share buffers with them. */
+/* output_set.h - the record of a run's outputs, the names of a job's outputs (public: ffd/job.h), and which
+   models share buffers with them. */
 #ifndef FFD_JOB_REPORT_OUTPUT_SET_H
 #define FFD_JOB_REPORT_OUTPUT_SET_H
 

@@ -3,6 +3,7 @@
 #include "base/file/mapping.h"
 #include "base/file/output.h"
 #include "base/memory/memory.h"
+#include "base/text/number.h"
 #include "job/report/report.h"
 #include "job/report/report_file.h"
 #include "job/report/report_reader.h"
@@ -10,6 +11,7 @@
 #include "json/json_parse.h"
 #include <ffd/job.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -74,11 +76,19 @@ typedef struct junit_suite {
     double seconds;
 } junit_suite;
 
+/* No time is longer, in seconds. */
+#define LONGEST 1e9
+
 typedef struct junit_case {
     const char *name, *group, *type, *message; /* type, message: of a failure or an error */
     case_outcome outcome;
     double seconds; /* negative: not known */
 } junit_case;
+
+static void put_time(byte_buffer *xml, double seconds)
+{
+    ffd_buffer_format(xml, " time=\"%s\"", ffd_number_decimals(fmin(seconds, LONGEST), 6).text);
+}
 
 static void add_case(junit_suite *suite, const junit_case *c)
 {
@@ -90,7 +100,7 @@ static void add_case(junit_suite *suite, const junit_case *c)
     put_attribute(xml, "classname", c->group);
     if (c->seconds >= 0) {
         suite->seconds += c->seconds;
-        ffd_buffer_format(xml, " time=\"%.6f\"", c->seconds);
+        put_time(xml, c->seconds);
     }
     if (c->outcome == CASE_PASSED) {
         ffd_buffer_text(xml, "/>\n");
@@ -109,11 +119,10 @@ static void put_counts(byte_buffer *xml, const junit_suite *suite)
     uint64_t all = 0;
     for (int i = 0; i < OUTCOMES; i++)
         all += suite->counts[i];
-    ffd_buffer_format(xml,
-                      " tests=\"%" PRIu64 "\" failures=\"%" PRIu64 "\" errors=\"%" PRIu64
-                      "\" skipped=\"%" PRIu64 "\" time=\"%.6f\"",
-                      all, suite->counts[CASE_FAILED], suite->counts[CASE_BROKEN],
-                      suite->counts[CASE_SKIPPED], suite->seconds);
+    ffd_buffer_format(
+        xml, " tests=\"%" PRIu64 "\" failures=\"%" PRIu64 "\" errors=\"%" PRIu64 "\" skipped=\"%" PRIu64 "\"",
+        all, suite->counts[CASE_FAILED], suite->counts[CASE_BROKEN], suite->counts[CASE_SKIPPED]);
+    put_time(xml, suite->seconds);
 }
 
 /* Adds a suite to all of them. */
@@ -132,13 +141,20 @@ static void add_suite(junit_suite *all, const char *name, const junit_suite *sui
         all->counts[i] += suite->counts[i];
 }
 
-/* Returns the text of a member, freed by the caller; NULL: there is none, or it is no text. */
-static char *text_of(const json_tree *tree, uint32_t object, const char *key)
+/* Returns a text, freed by the caller; NULL: it is none, or memory runs out, and with it the suite fails. */
+static char *text_at(junit_suite *suite, const json_tree *tree, uint32_t value)
 {
-    const uint32_t value = ffd_json_tree_member(tree, object, key);
-    return value != JSON_NONE && tree->values[value].kind == JSON_STRING
-               ? ffd_json_tree_string(tree, value, NULL)
-               : NULL;
+    if (value == JSON_NONE || tree->values[value].kind != JSON_STRING)
+        return NULL;
+    char *const text = ffd_json_tree_string(tree, value, NULL);
+    suite->cases.failed = suite->cases.failed || !text;
+    return text;
+}
+
+/* The same for a member. */
+static char *text_of(junit_suite *suite, const json_tree *tree, uint32_t object, const char *key)
+{
+    return text_at(suite, tree, ffd_json_tree_member(tree, object, key));
 }
 
 /* Returns a number, or -1. */
@@ -165,8 +181,9 @@ static double seconds_of(const json_tree *tree)
 /* Adds a job. Jobs of one name are told apart by their lines, or by their rows. */
 static void add_job(junit_suite *suite, const json_tree *tree)
 {
-    char *const input = text_of(tree, 0, "input"), *const output = text_of(tree, 0, "output"),
-                *const error = text_of(tree, 0, "error"), *const status = text_of(tree, 0, "status");
+    char *const input = text_of(suite, tree, 0, "input"), *const output = text_of(suite, tree, 0, "output"),
+                *const error = text_of(suite, tree, 0, "error"),
+                *const status = text_of(suite, tree, 0, "status");
     const double code = number_of(tree, 0, "exit"), line = number_of(tree, 0, "line"),
                  row = number_of(tree, 0, "row");
     byte_buffer name = {0};
@@ -217,8 +234,8 @@ static void add_pair(junit_suite *suite, const json_tree *tree, uint32_t file, c
 {
     const uint32_t equal = ffd_json_tree_member(tree, file, "equal"),
                    first = ffd_json_tree_member(tree, file, "first");
-    char *const name = text_of(tree, file, "name"), *const error = text_of(tree, file, "error"),
-                *const what = first == JSON_NONE ? NULL : text_of(tree, first, "message");
+    char *const name = text_of(suite, tree, file, "name"), *const error = text_of(suite, tree, file, "error"),
+                *const what = text_of(suite, tree, first, "message");
     const bool is_equal = equal != JSON_NONE && tree->values[equal].kind == JSON_TRUE;
     add_case(suite, &(junit_case){.name = name ? name : group,
                                   .group = group,
@@ -234,15 +251,16 @@ static void add_pair(junit_suite *suite, const json_tree *tree, uint32_t file, c
 }
 
 /* Adds the meshes that are in one folder only. */
-static void add_single(junit_suite *suite, const json_tree *tree, const char *key, const char *group)
+static void add_single(junit_suite *suite, const json_tree *tree, const char *key, const char *message,
+                       const char *group)
 {
     const uint32_t names = ffd_json_tree_member(tree, 0, key);
     for (uint32_t v = ffd_json_tree_first(tree, names); v != JSON_NONE; v = ffd_json_tree_after(tree, v)) {
-        char *const name = tree->values[v].kind == JSON_STRING ? ffd_json_tree_string(tree, v, NULL) : NULL;
+        char *const name = text_at(suite, tree, v);
         add_case(suite, &(junit_case){.name = name ? name : "?",
                                       .group = group,
                                       .type = "difference",
-                                      .message = key[strlen(key) - 1] == 'a' ? "only in a" : "only in b",
+                                      .message = message,
                                       .outcome = CASE_FAILED,
                                       .seconds = -1});
         ffd_free(name);
@@ -256,14 +274,14 @@ static ffd_status add_comparison(junit_suite *suite, const char *name, const fil
     json_tree tree;
     TRY(ffd_json_parse(&input, &tree, error));
     const uint32_t files = ffd_json_tree_member(&tree, 0, "files");
-    char *const group = text_of(&tree, 0, "b");
+    char *const group = text_of(suite, &tree, 0, "b");
     const char *const shown = group ? group : name;
     if (files == JSON_NONE)
         add_pair(suite, &tree, 0, shown);
     for (uint32_t v = ffd_json_tree_first(&tree, files); v != JSON_NONE; v = ffd_json_tree_after(&tree, v))
         add_pair(suite, &tree, v, shown);
-    add_single(suite, &tree, "only_a", shown);
-    add_single(suite, &tree, "only_b", shown);
+    add_single(suite, &tree, "only_a", "only in a", shown);
+    add_single(suite, &tree, "only_b", "only in b", shown);
     ffd_free(group);
     ffd_json_tree_free(&tree);
     return FFD_OK;
@@ -297,6 +315,13 @@ static ffd_status add_file(junit_suite *all, const char *path, ffd_error *error)
     return status;
 }
 
+static ffd_status add_files(junit_suite *all, const char *const *reports, size_t count, ffd_error *error)
+{
+    for (size_t i = 0; i < count; i++)
+        TRY(add_file(all, reports[i], error));
+    return FFD_OK;
+}
+
 static ffd_status write_all(const junit_suite *all, const char *path, bool force, ffd_error *error)
 {
     byte_buffer head = {0};
@@ -326,12 +351,10 @@ ffd_status ffd_report_junit_run(const char *const *reports, size_t count, const 
         return ffd_fail(error, FFD_E_ARGUMENT, "no report is given");
     TRY(ffd_output_check(output, force, error));
     const unsigned losses = ffd_mapping_losses();
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < count && !status; i++)
-        status = add_file(&all, reports[i], error);
-    status = ffd_mapping_judge(losses, status, error);
-    if (!status)
-        status = write_all(&all, output, force, error);
+    ffd_status status;
+    TRY_END(ffd_mapping_judge(losses, add_files(&all, reports, count, error), error));
+    TRY_END(write_all(&all, output, force, error));
+end:
     ffd_buffer_free(&all.cases);
     return status;
 }

@@ -16,6 +16,7 @@
 #include "job/input/selection.h"
 #include "job/input/settings.h"
 #include "job/input/source.h"
+#include "job/job_call.h"
 #include "job/pass/chain_fit.h"
 #include "job/report/output_set.h"
 #include "job/report/report.h"
@@ -428,13 +429,14 @@ static ffd_status view_in_time(ffd_view_desc *desc, ffd_deform_desc *job, ffd_jo
     ffd_source deformed;
     job_memory memory = {0};
     deadline own;
-    work_watch watch = {.progress = job->progress, .user = job->progress_user, .cancel = job->cancel};
+    work_watch watch = ffd_job_watch(job);
     const deadline *const before = ffd_deadline_begin(&own, job->timeout, &watch);
     ffd_status status;
     TRY_END(take_memory(&memory, desc, &deformed, job, &result->error));
     TRY_END(view(desc, result, &result->error));
 end:
     status = ffd_in_memory_end(&memory, status, &result->error);
+    ffd_job_watch_end(&watch, status);
     ffd_deadline_end(before);
     return status;
 }

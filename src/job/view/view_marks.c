@@ -39,7 +39,7 @@ static ffd_status add_statuses(const job_details *details, const mesh_model *mod
     return FFD_OK;
 }
 
-/* Whether a polygon of the model is flipped. Its corners are looked up by vertex numbers. */
+/* Whether a polygon of the model is flipped. indices: scratch memory for its corners. */
 static bool is_flipped(const job_details *details, const view_scene *scene, const mesh_model *model,
                        size_t face, uint32_t *indices)
 {

@@ -98,7 +98,7 @@ static void clean_note(const char *path)
 }
 
 /* Removes the notes of copies that are gone, among those whose names begin as that of the new note: one in
-   256, so that many new notes look at each old one now and then. */
+   256, so that with many new notes each old one is examined now and then. */
 static void clean_notes(const char *new_note)
 {
     path_list names = {0};

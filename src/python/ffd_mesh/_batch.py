@@ -68,7 +68,7 @@ def batch(jobs: Jobs, *, in_: Path | None = None,
     desc.resume, desc.dry_run, desc.stop, desc.shared_box = resume, dry_run, stop, own.get("shared_box", False)
     if own.get("csv_ignore") is not None:
         desc.csv_ignore = library.encoded(own["csv_ignore"], "csv_ignore")
-    asked: list[Any] = [_function(progress)]
+    asked = library.lent(progress)
     ended: list[Any] = []
     desc.progress, desc.progress_user = library.native("progress"), id(asked)
     desc.ended, desc.ended_user = library.native("job_ended"), id(ended)
@@ -83,12 +83,6 @@ def batch(jobs: Jobs, *, in_: Path | None = None,
     if status:
         raise failure(status, error)
     return [_result(*job) for job in sorted(ended, key=lambda job: job[0])]
-
-
-def _function(progress: Any) -> Any:
-    if progress is not None and not callable(progress):
-        raise TypeError(f"progress must be a function, not {type(progress).__name__}")
-    return progress
 
 
 class _Source:

@@ -157,13 +157,18 @@ def native(name: str) -> int:
     return getattr(_native, name)
 
 
+def lent(progress: Progress | None) -> list[Any]:
+    """What the extension's callback gets: the caller's progress function, and then the exception that it may raise."""
+    if progress is not None and not callable(progress):
+        raise TypeError(f"progress must be a function, not {type(progress).__name__}")
+    return [progress]
+
+
 class Run:
     """An ffd_run_options, with the caller's progress function and the exception that it may raise."""
 
     def __init__(self, threads: int, isa: str, progress: Progress | None) -> None:
-        if progress is not None and not callable(progress):
-            raise TypeError(f"progress must be a function, not {type(progress).__name__}")
-        self._lent: list[Any] = [progress]
+        self._lent = lent(progress)
         self.options = filled("ffd_run_options")
         self.options.threads = integer(threads, "threads")
         self.options.isa = value_of("ffd_isa", isa, "isa")
@@ -185,14 +190,12 @@ class Run:
 @contextlib.contextmanager
 def progress_into(desc: Any, progress: Progress | None) -> Iterator[None]:
     """Gives a job the caller's progress function; the exception that it raises is passed on."""
-    if progress is not None and not callable(progress):
-        raise TypeError(f"progress must be a function, not {type(progress).__name__}")
-    said: list[Any] = [progress]
+    kept = lent(progress)
     if progress is not None:
-        desc.progress, desc.progress_user = _native.progress, id(said)
+        desc.progress, desc.progress_user = _native.progress, id(kept)
     yield
-    if len(said) > 1:
-        raise said[1] from None
+    if len(kept) > 1:
+        raise kept[1] from None
 
 
 _LEVELS = {0: logging.WARNING, 1: logging.INFO, 2: logging.DEBUG}
