@@ -180,7 +180,7 @@ int cli_job_ended(cli_job *job, const ffd_job_result *result, const char *input,
 {
     ffd_error error;
     int code = result->status ? cli_fail(&result->error) : EXIT_DONE;
-    job->own_box = job->own_box || result->own_box;
+    job->own_boxes += result->own_box;
     if (report && ffd_report_add(report, input, output, result, &error))
         code = cli_fail(&error);
     return code;
@@ -195,11 +195,11 @@ static int run_each(cli_job *job, const cli_words *words, size_t inputs, cli_job
         if (own)
             code = inputs == 1 ? own : EXIT_NO;
     }
-    if (inputs > 1 && job->own_box && !job->logging.quiet)
+    if (job->own_boxes > 1 && !job->logging.quiet)
         cli_complain(
             "the lattice's box was laid round each of the %zu meshes by itself: parts that meet need "
             "one box round all of them (--shared-box)",
-            inputs);
+            job->own_boxes);
     return code;
 }
 

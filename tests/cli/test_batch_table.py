@@ -3,6 +3,7 @@
 dry run sees of them."""
 
 import json
+import re
 
 from batches import batch, case, check, equal, job, lattice, lines_of, main, report, start
 from harness import CUBE, CUBE_CORNERS, INVALID, IO, NO, OK, USAGE, near, obj_vertices
@@ -305,6 +306,30 @@ def options_stand_in_for_columns(run):
     for name, height in (("x-1", 0.5), ("x-3", 0.125), ("y", 0.25)):
         raised(run, f"out2/{name}.obj", height)
     equal([(e["line"], e["set"]) for e in report(run)], [(2, {"H": 0.5}), (4, {"H": 0.25}), (5, {"H": 0.125})])
+
+
+@case
+def a_row_does_not_lead_out_of_the_folder_of_outputs(run):
+    """By an absolute path or "..", whatever the rest of it is. Without --out-dir, and in a manifest, any path will do."""
+    begin(run)
+    run.folder_of("out")
+    out = ["../c.obj", run.path("abs.obj"), run.path("out/in.obj"), "d/../../c.obj", "..", "d//./../../c.obj"]
+    for options in ([], ["--dry-run"], ["--resume"], ["--shard", "0/1"], ["--output-format", "off"]):
+        run.write("t.csv", "out,H\n" + "".join(f"{name},0.5\n" for name in out))
+        batch(run, "--csv", "t.csv", "--in", "a.obj", "-l", "p.json", "--out-dir", "out", "--report", "r.json", *options,
+              failed=[rf'^t\.csv:{line}: "out" leads out of --out-dir: "{re.escape(name)}"$' for line, name in enumerate(out, 2)])
+        equal([(e["line"], e["exit"]) for e in report(run)], [(line, INVALID) for line in range(2, 2 + len(out))])
+        equal(run.names("out"), [])
+        check(not run.exists("c.obj") and not run.exists("abs.obj"), run.names())
+    run.write("t.csv", "out,H\n..c.obj,0.5\nd/..e/f..obj,0.25\nd/../g.obj,0.125\n./h.obj,0.75\n")
+    batch(run, "--csv", "t.csv", "--in", "a.obj", "-l", "p.json", "--out-dir", "out", done=4)
+    for name, height in (("..c.obj", 0.5), ("d/..e/f..obj", 0.25), ("g.obj", 0.125), ("h.obj", 0.75)):
+        raised(run, "out/" + name, height)
+    run.folder_of("sub")
+    run.write("sub/t.csv", f"out,H\n../c.obj,0.5\n{run.path('abs.obj')},0.25\n")
+    batch(run, "--csv", "sub/t.csv", "--in", "a.obj", "-l", "p.json", done=2)
+    raised(run, "c.obj", 0.5)
+    raised(run, "abs.obj", 0.25)
 
 
 @case
