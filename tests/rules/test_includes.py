@@ -43,7 +43,7 @@ LAYERS = {
         "io/gltf/model", "io/gltf/read", "json", "mesh/resource",
     },
     "io/gltf": {
-        "base", "base/file", "base/memory", "base/system", "base/vector", "io/gltf/edit", "io/gltf/file",
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/edit", "io/gltf/file",
         "io/gltf/model", "io/gltf/read", "io/gltf/write", "json", "mesh", "mesh/resource",
     },
     "io/openmesh": {"base/memory", "base/system", "base/vector", "mesh"},
