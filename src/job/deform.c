@@ -412,7 +412,7 @@ static ffd_status cache_locations(ffd_deform_desc *desc, ffd_job_cache **cache, 
     *cache = NULL;
     if (!desc->morphs || ffd_job_cache_holds_meshes(desc->cache))
         return FFD_OK;
-    TRY(ffd_job_cache_create_for_job(cache, error));
+    TRY(ffd_job_cache_create(cache, error));
     desc->cache = *cache;
     return FFD_OK;
 }

@@ -59,7 +59,7 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
     if (!ffd_isa_available(desc->isa))
         return ffd_fail(error, FFD_E_ARGUMENT,
-                        "this build or this processor does not support the instruction set %s",
+                        "{isa}: this build or this processor does not support the instruction set %s",
                         ffd_isa_name(desc->isa));
     return check_embedding(desc, error);
 }
