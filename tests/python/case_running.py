@@ -130,6 +130,25 @@ class Running(unittest.TestCase):
             part = time.thread_time() - began
             self.assertLess(part, 0.75 * self.seconds_of_all(lattice, points))
 
+    def test_an_interrupt_ends_a_job(self):
+        random = support.rng("interrupt")
+        lattice = support.curved(random, weights=True)
+        count = 1_500_000
+        head = f"ply\nformat binary_little_endian 1.0\nelement vertex {count}\n" + "".join(
+            f"property float {axis}\n" for axis in "xyz") + "end_header\n"
+        mesh = head.encode() + random.uniform(0, 1, (count, 3)).astype("<f4").tobytes()
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
+        for job in (lambda: ffd.deform_bytes(mesh, lattice, name="a.ply", threads=1),
+                    lambda: ffd.check_bytes(mesh, lattice, name="a.ply", threads=1)):
+            helper = threading.Timer(0.1, lambda: os.kill(os.getpid(), signal.SIGINT))
+            helper.start()
+            began = time.thread_time()
+            with self.assertRaises(KeyboardInterrupt):
+                job()
+            part = time.thread_time() - began
+            helper.join()
+            self.assertLess(part, 0.75 * self.seconds_of_all(lattice, random.uniform(0, 1, (count, 3))))
+
     def seconds_of_all(self, lattice, points):
         """What the whole call takes, from a part of it."""
         if not hasattr(self, "whole"):

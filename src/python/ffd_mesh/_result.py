@@ -96,14 +96,22 @@ def beside(taken: list[Any], output: str) -> dict[str, bytes]:
 
 
 def run(function: Any, desc: Any) -> tuple[Any, Error | None]:
-    """Runs a job. Returns its ffd_job_result, which gets the names of the outputs, and the exception if it failed."""
+    """Runs a job. Returns its ffd_job_result, which gets the names of the outputs, and the exception if it failed.
+
+    Ctrl-C ends it, also where the caller has no progress function.
+    """
     result, error = library.empty("ffd_job_result"), declared.ffd_error()
     job = desc.job.contents if hasattr(desc, "job") else desc
+    asked = library.lent(None)
+    if hasattr(job, "progress") and not job.progress_user:
+        job.progress, job.progress_user = library.native("progress"), id(asked)
     with library.output_list() as outputs:
         if hasattr(job, "output_list"):
             job.output_list = outputs
         status = function(ctypes.byref(desc), ctypes.byref(result), ctypes.byref(error))
         count = lib.ffd_output_list_count(outputs)
+        if len(asked) > 1:
+            raise asked[1]
         result.output_names = [os.fsdecode(lib.ffd_output_list_name(outputs, i)) for i in range(count)]
     return result, (failure(status, error) if status else None)
 
