@@ -200,7 +200,7 @@ bool ffd_paths_meet(const char *a, const char *b)
     if (ffd_file_exists(a) || ffd_file_exists(b) || !ffd_names_equal(ffd_path_name(a), ffd_path_name(b)))
         return false;
     char *const here = ffd_path_folder(a), *const there = ffd_path_folder(b);
-    const bool meet = here && there && (strcmp(here, there) == 0 || ffd_file_same(here, there));
+    const bool meet = here && there && (ffd_names_equal(here, there) || ffd_file_same(here, there));
     ffd_free(here);
     ffd_free(there);
     return meet;
