@@ -367,7 +367,7 @@ test_release() {
     rm -rf "$work/artefacts" "$work/artefacts-again"
     step release setup sh "$root/.ci/setup" release || return
     case_of release twice release_twice || return
-    for name in sums sbom wheel wheel-arm64 wheel-musl static static-arm64 windows npm source deb; do
+    for name in sums sbom wheel wheel-arm64 wheel-musl wheel-windows static static-arm64 windows npm source deb; do
         case_of release "$name" python3 "$root/tests/release/test_artefacts.py" "$work/artefacts" "$name"
     done
     clock=$(date +%s)

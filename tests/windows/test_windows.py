@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The program for Windows under wine: what it does by other calls than on Linux, and the jobs of the list.
 
-    test_windows.py FFD LIBRARY names|outputs|batch|faults|jobs|package|console
+    test_windows.py FFD LIBRARY names|outputs|batch|faults|jobs|package|console|pages
 
 FFD is the program of this system, and LIBRARY is library.c for it, whose files are compared. FFD_WINDOWS names the build folder of the other one; without it, and
 without wine, these tests are skipped. wine is not Windows: it keeps Linux's permissions, and lets mapped files be replaced.
@@ -409,6 +409,42 @@ def test_console(folder):
     # The job that runs is done to its end, as elsewhere.
     assert left == ["first.obj", "jobs.jsonl", "second.obj"], f"{left}: exit {code}: {output!r}"
     assert "interrupted" in output, f"exit {code}: {output!r}"
+
+
+def test_pages(folder):
+    """The commands of data/windows.md, in wine's cmd; those of PowerShell as it takes them apart."""
+    data, tools = os.path.join(folder, "data"), os.path.join(os.environ["WINEPREFIX"], "drive_c/Tools/ffd-0.3.0")
+    shutil.copytree(os.path.join(ROOT, "data"), data)
+    os.makedirs(tools, exist_ok=True)
+    shutil.copy(FFD, tools)
+    with open(os.path.join(ROOT, "data/windows.md"), encoding="utf-8") as file:
+        blocks = re.findall(r"^```(\S+)\n(.*?)^```$", file.read(), re.M | re.S)
+    assert [language for language, _ in blocks].count("bat") >= 5 and {language for language, _ in blocks} == {"bat", "powershell"}
+    path = next(line for line in blocks[0][1].splitlines() if line.startswith("set "))
+    for language, block in blocks:
+        if language == "powershell":
+            run_as_powershell(block, data)
+            continue
+        # A command that fails ends the block; cmd by itself goes on.
+        lines = [part for line in block.splitlines() for part in (line, "if errorlevel 1 exit 1")[:1 if line.endswith("^") else 2]]
+        with open(os.path.join(data, "block.cmd"), "w", encoding="utf-8", newline="") as file:
+            file.write("\r\n".join(["@echo off", path, *lines, "exit 0", ""]))
+        process = subprocess.run([WINE, "cmd", "/c", "block.cmd"], cwd=data, stdin=subprocess.DEVNULL, capture_output=True, check=False,
+                                 timeout=SECONDS)
+        assert process.returncode == 0, f"{block}exit {process.returncode}: {process.stdout.decode()}{process.stderr.decode()}"
+    made = ["fatter.html", "fatter.obj", "my cow.obj", "my cows/spot.obj", "bent/one.obj", "bent/two.obj", "twisted/one.obj", "twisted/two.obj",
+            "my lean cow.obj", "cage.json"]
+    assert all(os.path.exists(os.path.join(data, name)) for name in made), [name for name in made if not os.path.exists(os.path.join(data, name))]
+
+
+def run_as_powershell(block, folder):
+    """Words in quotes lose these; outside of quotes nothing may stand that PowerShell takes for its own."""
+    for line in block.splitlines():
+        if re.fullmatch(r'\$env:Path \+= ";C:\\Tools\\[^"$`;]+"', line):
+            continue
+        words = re.findall(r"""(?:"[^"$`]*"|'[^']*'|[^\s"'`$@;,{}()|<>&])+""", line)
+        assert words[0] == "ffd" and " ".join(words) == line, f"PowerShell does not read as words: {line}"
+        run(*(re.sub(r"""["']""", "", word) for word in words[1:]), folder=folder)
 
 
 def check_last_words():
