@@ -325,6 +325,17 @@ test_arm64() {
     fi
 }
 
+# A machine with the other byte order does the whole job list in qemu. All libraries are compiled by their wraps.
+test_big_endian() {
+    can_cross big-endian s390x-linux-gnu-g++ qemu-s390x || return
+    sed 's/aarch64/s390x/g; s/little/big/' "$root/data/packaging/arm64.ini" >"$work/s390x.ini"
+    [ -f "$work/s390x/build.ninja" ] || step big-endian setup meson setup "$work/s390x" "$root" --cross-file "$work/s390x.ini" \
+        --wrap-mode=forcefallback -Dwerror=true -Dbuildtype=release -Dstatic=true -Dtests=disabled || return
+    if step big-endian build ninja -C "$work/s390x" src/cli/ffd; then
+        case_of big-endian jobs python3 "$root/tests/release/run_jobs.py" --other-order --without batch qemu-s390x "$work/s390x/src/cli/ffd"
+    fi
+}
+
 # The unit tests in qemu, where they take an hour. All libraries but cmocka are compiled by their wraps.
 test_arm64_units() {
     can_cross arm64-unit aarch64-linux-gnu-g++ qemu-aarch64 || return
@@ -409,6 +420,8 @@ if [ "$mode" != --release ] && build gcc '' gcc g++ -Dbuildtype=debugoptimized -
         suites soak gcc --suite soak --timeout-multiplier 0
         test_arm64_units
         drop arm64-unit
+        test_big_endian
+        drop s390x
         case_of bare roots sh "$root/tests/install/bare.sh"
         # The Python package in an interpreter with the address sanitizer: the hours of soak have the time for that build.
         if [ -n "$python" ] && build_stage asan; then

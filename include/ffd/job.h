@@ -421,8 +421,8 @@ typedef struct ffd_embed_desc {
     ffd_source input;   /* the mesh */
     /* Only the rest volume is used: placeholders in moves need no values. Without a path "lattice". */
     ffd_lattice_source lattice;
-    const char *output;        /* path; "-": standard output */
-    const char *status_output; /* NULL: none */
+    const char *output;        /* path that ends in .npy; "-": standard output */
+    const char *status_output; /* likewise; NULL: none */
     double snap;               /* as in ffd_deform_desc */
     bool snap_relative;
     int threads;          /* >= 1, or 0 for all cores; does not affect the output */

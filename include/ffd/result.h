@@ -121,10 +121,11 @@ typedef struct ffd_skin_weight_figures {
     uint64_t room[2];
 } ffd_skin_weight_figures;
 
-/* Results so far from the origin that float32 changes their shape, in the file's space. */
+/* Results so far from the origin that the file's numbers, float32 or float64, change their shape, in the
+   file's space. */
 typedef struct ffd_precision_figures {
     double error; /* the largest rounding error */
-    double side;  /* the largest side of the part that it changes most; 0: float32 keeps all shapes */
+    double side;  /* the largest side of the part that it changes most; 0: all keep their shapes */
     uint64_t room[2];
 } ffd_precision_figures;
 

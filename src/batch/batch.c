@@ -150,6 +150,7 @@ ffd_status ffd_batch_run(const ffd_batch_desc *callers, ffd_batch_result *result
                                                  .stable = given.report_stable,
                                                  .quality = jobs.quality,
                                                  .result = given.ended != NULL,
+                                                 .of_table = given.csv != NULL,
                                                  .quiet = given.quiet,
                                                  .verbose = given.verbose && !given.quiet}},
                              .force = jobs.force || jobs.if_changed};

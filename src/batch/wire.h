@@ -28,6 +28,7 @@ typedef struct task_wishes {
     bool report;             /* make the report entry, */
     bool quality;            /* with figures of quality, */
     bool stable;             /* without times */
+    bool of_table;           /* values of placeholders are in columns of a table */
     bool quiet;              /* log no warnings */
     bool verbose;            /* log details too */
     bool measure;            /* only measure the mesh's box, and list its files if depfile is set */

@@ -4,6 +4,7 @@
 #include "base/file/output.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "base/system/interrupt.h"
 #include "batch/fingerprint.h"
 #include "batch/job_picture.h"
@@ -423,6 +424,16 @@ static ffd_status do_job(batch_worker *worker, const wire_task *task, const char
     return status;
 }
 
+/* A column that is no placeholder may be a note. */
+static void hint_at_columns(const wire_task *task, ffd_error *error)
+{
+    const size_t length = strlen(error->message);
+    if (task->wishes.of_table &&
+        strncmp(error->message, CHAIN_NO_PLACEHOLDER, sizeof CHAIN_NO_PLACEHOLDER - 1) == 0)
+        snprintf(error->message + length, sizeof error->message - length, "%s",
+                 SPELLED("; {csv_ignore} leaves columns of a table out"));
+}
+
 /* What is wrong with the settings is wrong with the line of the manifest. Returns the status. */
 static ffd_status blame_manifest(const char *origin, const wire_task *task, ffd_error *error)
 {
@@ -564,8 +575,10 @@ static ffd_status run_task(batch_worker *worker, const wire_task *task, wire_ans
         desc->threads = task->threads;
     const ffd_status status =
         do_task(worker, task, worker->texts.picture, task->has_row ? &row : NULL, desc, answer, result);
-    if (status)
+    if (status) {
         worker->rule.size = 0;
+        hint_at_columns(task, &result->error);
+    }
     if (status && status != FFD_E_ARGUMENT)
         ffd_fail_name_file(&result->error, desc->input.path);
     return status ? blame_manifest(worker->texts.origin, task, &result->error) : FFD_OK;

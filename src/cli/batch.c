@@ -37,7 +37,7 @@ static const char *const type_names[] = {"f4", "f8", NULL};
 
 #define AT(field) offsetof(settings, field)
 static const cli_option own_options[] = {
-    {"jobs", 'j', "N", "jobs at the same time; default one per processor, as far as memory allows",
+    {"jobs", 'j', "N", "jobs at the same time, 1 to 1024; default one per processor, as far as memory allows",
      cli_set_count, AT(at_once), NULL},
     {"shard", 0, "I/N", "only every N-th job, beginning with job I; I from 0", set_shard, 0, NULL},
     {"resume", 0, NULL, "leave outputs that are up to date by content; replace others", cli_set_flag,
@@ -148,7 +148,8 @@ const cli_command cli_batch = {
     "       MANIFEST: a job a line, as {\"in\": \"a.glb\", \"lattice\": \"x.json\",\n"
     "       \"out\": \"o/a.glb\", \"options\": {\"normals\": \"keep\"}}; - is standard input\n"
     "       exit 1: a job failed\n",
-    {own_options, cli_job_options, cli_deform_options},
+    {own_options, cli_job_options, cli_deform_options,
+     "outputs are named in the manifest, or put into --out-dir DIR"},
     run,
     "MANIFEST",
     examples};

@@ -249,7 +249,9 @@ const cli_command cli_deform = {
     "       ffd deform IN... --out-dir DIR -l LATTICE [options]\n"
     "       ffd deform IN... --in-place -l LATTICE [options]\n"
     "       ffd deform IN OUT --morph NAME=LATTICE [--morph ...] [--clip CLIP] [options]\n",
-    {.first = cli_job_options, .more = cli_deform_options},
+    {.first = cli_job_options,
+     .more = cli_deform_options,
+     .output = "OUT is the second argument (ffd deform IN OUT -l LATTICE)"},
     run,
     "MESH",
     examples};

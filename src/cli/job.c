@@ -44,8 +44,9 @@ const cli_option cli_job_options[] = {
     {"report", 0, "FILE|-", "JSON report; JSON Lines if the name ends in .jsonl", cli_set_text, AT(report),
      NULL},
     {"report-stable", 0, NULL, "leave the seconds out of the report", cli_set_flag, AT(stable), NULL},
-    {"threads", 'j', "N", "number of threads; never changes the output; default all usable processors",
-     cli_set_member, AT(desc), NULL},
+    {"threads", 'j', "N",
+     "number of threads, 1 to 1024; never changes the output; default all usable processors", cli_set_member,
+     AT(desc), NULL},
     {"isa", 0, "auto|scalar|sse2|avx2|avx512|neon",
      "instruction set of the kernels; never changes the output; default auto", cli_set_member, AT(desc),
      NULL},
@@ -179,7 +180,7 @@ int cli_job_ended(cli_job *job, const ffd_job_result *result, const char *input,
 {
     ffd_error error;
     int code = result->status ? cli_fail(&result->error) : EXIT_DONE;
-    job->own_box = job->own_box || result->own_box;
+    job->own_boxes += result->own_box;
     if (report && ffd_report_add(report, input, output, result, &error))
         code = cli_fail(&error);
     return code;
@@ -194,11 +195,11 @@ static int run_each(cli_job *job, const cli_words *words, size_t inputs, cli_job
         if (own)
             code = inputs == 1 ? own : EXIT_NO;
     }
-    if (inputs > 1 && job->own_box && !job->logging.quiet)
+    if (job->own_boxes > 1 && !job->logging.quiet)
         cli_complain(
             "the lattice's box was laid round each of the %zu meshes by itself: parts that meet need "
             "one box round all of them (--shared-box)",
-            inputs);
+            job->own_boxes);
     return code;
 }
 

@@ -11,7 +11,7 @@ typedef struct cli_job {
     ffd_job_result *morph_results; /* of the last job, one for each of its lattices; or NULL */
     const char *report;
     bool stable, shares_box;
-    bool own_box;               /* a job has used a box round its own mesh */
+    size_t own_boxes;           /* jobs with a box round their own mesh */
     ffd_shared_box *shared_box; /* of all jobs, or NULL */
     ffd_output_set *output_set; /* files written so far */
     ffd_output_list *outputs;   /* of the last job, for the report; or NULL */

@@ -170,9 +170,12 @@ static const char *const spacing_names[] = {"greville", "uniform", NULL};
 #define AT(field) offsetof(settings, field)
 static const cli_option options[] = {
     {"output", 'o', "LATTICE", "the file to write", cli_set_text, AT(output), NULL},
-    {"size", 0, "N,M,O", "control points along u, v, w; default 4,4,4", set_size, 0, NULL},
-    {"degree", 0, "N,M,O", "1 to 9; default 3, or less where there are fewer points", set_degree, 0, NULL},
-    {"knots", 0, "K,K,K", "clamped, open, uniform or closed; default clamped", set_knots, 0, knots_names},
+    {"size", 0, "N,M,O", "control points along u, v, w, or one number for all; default 4,4,4", set_size, 0,
+     NULL},
+    {"degree", 0, "N,M,O", "1 to 9, three or one for all; default 3, or less where there are fewer points",
+     set_degree, 0, NULL},
+    {"knots", 0, "K,K,K", "clamped, open, uniform or closed, three or one for all; default clamped",
+     set_knots, 0, knots_names},
     {"margin", 0, "F|X,Y,Z",
      "space on both sides, as a fraction of the extent; three: along a box's axes; default 0.05", set_margin,
      0, NULL},

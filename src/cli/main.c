@@ -64,24 +64,36 @@ static void print_help_of_group(const char *group)
         cli_print_help(command);
 }
 
-/* Returns the command whose name is most similar. If a single word was typed, a command of two words is
-   compared by its first word. */
-static const char *nearest_command(const char *typed, bool two)
+/* Returns the command that a word probably means; NULL: none. A command of two words is compared by its first
+   one. */
+static const char *command_meant(const char *typed)
 {
     char firsts[MOST_COMMANDS][32];
     const char *known[MOST_COMMANDS];
     size_t count = 0, found = 0;
     for (; cli_commands[count] && count + 1 < MOST_COMMANDS; count++) {
         const char *const name = cli_commands[count]->name;
-        snprintf(firsts[count], sizeof firsts[count], "%.*s", (int)(two ? strlen(name) : strcspn(name, " ")),
-                 name);
+        snprintf(firsts[count], sizeof firsts[count], "%.*s", (int)strcspn(name, " "), name);
         known[count] = firsts[count];
     }
     known[count] = "help";
-    const char *const nearest = ffd_nearest_word(typed, known, count + 1);
-    while (known[found] != nearest)
+    const char *const meant = ffd_word_meant(typed, known, count + 1);
+    while (meant && known[found] != meant)
         found++;
-    return found < count ? cli_commands[found]->name : nearest;
+    return meant && found < count ? cli_commands[found]->name : meant;
+}
+
+/* Likewise of the commands of a group, by the second word. */
+static const char *member_meant(const char *group, const char *typed)
+{
+    const char *known[MOST_COMMANDS];
+    size_t count = 0;
+    int next = 0;
+    for (const cli_command *command;
+         count < MOST_COMMANDS && (command = next_of_group(group, &next)) != NULL;)
+        known[count++] = command->name + strlen(group) + 1;
+    const char *const meant = ffd_word_meant(typed, known, count);
+    return meant ? meant - strlen(group) - 1 : NULL;
 }
 
 static int unknown_command(int count, char **arguments)
@@ -89,7 +101,9 @@ static int unknown_command(int count, char **arguments)
     char typed[64];
     const bool two = is_group(arguments[0]) && count > 1;
     snprintf(typed, sizeof typed, "%s%s%s", arguments[0], two ? " " : "", two ? arguments[1] : "");
-    cli_complain("unknown command \"%s\" (nearest: %s)", typed, nearest_command(typed, two));
+    const char *const meant = two ? member_meant(arguments[0], arguments[1]) : command_meant(arguments[0]);
+    cli_complain("unknown command \"%s\" (%s%s)", typed,
+                 meant ? "nearest: " : "ffd help lists the known ones", meant ? meant : "");
     return EXIT_USAGE;
 }
 
@@ -133,8 +147,9 @@ static int run_version(int count, char **arguments)
 static int unknown_option(const char *argument)
 {
     static const char *const known[] = {"--help", "--version"};
-    cli_complain("unknown option %.60s (nearest: %s; other options follow a command)", argument,
-                 ffd_nearest_word(argument, known, sizeof known / sizeof *known));
+    const char *const meant = ffd_word_meant(argument, known, sizeof known / sizeof *known);
+    cli_complain("unknown option %.60s (%s%s%soptions follow a command)", argument, meant ? "nearest: " : "",
+                 meant ? meant : "", meant ? "; other " : "");
     return EXIT_USAGE;
 }
 

@@ -5,8 +5,9 @@
 
 /* What is spelled otherwise than an option of its name. */
 static const char *const others[][2] = {
-    {"by", "--wrt"},    {"deformed", "OUT-MESH"}, {"workers", "-j"},        {"lattice", "-l"},
-    {"lattices", "-l"}, {"output", "OUT"},        {"manifest", "MANIFEST"}, {"quality", "--report"},
+    {"by", "--wrt"},          {"deformed", "OUT-MESH"}, {"workers", "-j"},
+    {"lattice", "-l"},        {"lattices", "-l"},       {"output", "OUT"},
+    {"manifest", "MANIFEST"}, {"quality", "--report"},  {"principal", "--axes principal"},
 };
 
 /* The name of a member without that of its struct. */

@@ -144,16 +144,23 @@ static bool unknown_option(const cli_table *options, const char *name, size_t le
     return false;
 }
 
-/* Complains; suggests the option whose name begins with the letter. */
+/* Complains; suggests the only option whose name begins with the letter. */
 static bool unknown_letter(const cli_table *options, char letter)
 {
     cli_option_walk walk = cli_begin_walk(options);
+    const char *found = NULL;
+    size_t count = 0;
+    if (letter == 'o' && options->output) {
+        cli_complain("unknown option -o: %s", options->output);
+        return false;
+    }
     for (const cli_option *option; (option = cli_next_option(&walk));)
         if (option->name[0] == letter) {
-            cli_complain("unknown option -%c (nearest: --%s)", letter, option->name);
-            return false;
+            found = option->name;
+            count++;
         }
-    cli_complain("unknown option -%c (--help lists the known ones)", letter);
+    cli_complain("unknown option -%c (%s%s)", letter,
+                 count == 1 ? "nearest: --" : "--help lists the known ones", count == 1 ? found : "");
     return false;
 }
 

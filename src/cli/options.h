@@ -47,6 +47,7 @@ struct cli_option {
    or letter, the first one counts. */
 typedef struct cli_table {
     const cli_option *first, *more, *base; /* more and base may be NULL */
+    const char *output; /* where the output is named, of a command without -o; may be NULL */
 } cli_table;
 
 /* Position in a walk over a table. */

@@ -106,8 +106,10 @@ static const char *const camera_names[] = {"front", "back", "left", "right", "to
 static const cli_option options[] = {
     {"output", 'o', "FILE.html|FILE.png", "a page, which a browser opens without a network; or a picture",
      cli_set_text, AT(output), NULL},
-    {"size", 0, "WxH", "pixels of the picture, or of each in a row; default 1600x900", set_size, 0, NULL},
-    {"frames", 0, "N", "N pictures in a row, from rest to deformed; default: before and after side by side",
+    {"size", 0, "WxH", "pixels of the picture, or of each in a row, 16 to 32767 a side; default 1600x900",
+     set_size, 0, NULL},
+    {"frames", 0, "N",
+     "N pictures in a row, 2 to 64, from rest to deformed; default: before and after side by side",
      set_frames, 0, NULL},
     {"animation", 0, "NAME",
      "poses of this animation, 5 or --frames of them, and deformed below; a page opens with it", cli_set_text,

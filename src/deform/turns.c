@@ -1,5 +1,6 @@
 #include "deform/turns.h"
 #include "base/vector/vec.h"
+#include "deform/collapse.h"
 #include <math.h>
 #include <string.h>
 
@@ -7,26 +8,6 @@
 typedef struct matrix_range {
     double centre[9], radius[9];
 } matrix_range;
-
-/* Returns the permanent of m. */
-static double permanent(const double m[9])
-{
-    return m[0] * (m[4] * m[8] + m[5] * m[7]) + m[1] * (m[3] * m[8] + m[5] * m[6]) +
-           m[2] * (m[3] * m[7] + m[4] * m[6]);
-}
-
-/* Returns sum_ij |m_ij| times the permanent of r without row i and column j. */
-static double permanent_with(const double m[9], const double r[9])
-{
-    double sum = 0;
-    for (int i = 0; i < 3; i++) {
-        const double *const next = r + 3 * ((i + 1) % 3), *const last = r + 3 * ((i + 2) % 3);
-        sum += fabs(m[3 * i]) * (next[1] * last[2] + next[2] * last[1]) +
-               fabs(m[3 * i + 1]) * (next[0] * last[2] + next[2] * last[0]) +
-               fabs(m[3 * i + 2]) * (next[0] * last[1] + next[1] * last[0]);
-    }
-    return sum;
-}
 
 /* What the determinant must exceed, relative to that of the centre and to the lengths of its rows, so that
    rounding does not matter. */
@@ -37,11 +18,8 @@ static double permanent_with(const double m[9], const double r[9])
    is expanded about the centre: det (M + E) = det M + sum cof(M)_ij E_ij + sum M_ij cof(E)_ij + det E. */
 static int sign_of(const matrix_range *range)
 {
-    double cofactor[9], change = permanent(range->radius) + permanent_with(range->centre, range->radius);
+    const double change = ffd_determinant_change(range->centre, range->radius);
     const double *const m = range->centre, det = mat_determinant(m), size = fabs(det);
-    mat_cofactor(m, cofactor);
-    for (int i = 0; i < 9; i++)
-        change += fabs(cofactor[i]) * range->radius[i];
     if (!(size - change > CERTAIN * size) ||
         !(size * size > ROUNDING * ROUNDING * vec_dot(m, m) * vec_dot(m + 3, m + 3) * vec_dot(m + 6, m + 6)))
         return 0;
@@ -124,18 +102,28 @@ static void begin_net(const turn_cell *cell, control_net *net)
             net->scale[a][i] = slope_factor(cell, a);
 }
 
-static void set_range(const slope_range ranges[3], matrix_range *matrix)
+/* Sets the rounding of the derivatives by direction a. */
+static void set_rounding(const ffd_lattice *lattice, int a, double scale, double rounding[9])
+{
+    for (int r = 0; r < 3; r++)
+        rounding[3 * r + a] = ffd_slope_rounding(lattice, r, scale);
+}
+
+/* rounding: of each derivative. Without it a volume that collapses could have derivatives
+   that are nothing but rounding, all with the same sign. */
+static void set_range(const slope_range ranges[3], const double rounding[9], matrix_range *matrix)
 {
     for (int a = 0; a < 3; a++)
         for (int r = 0; r < 3; r++) {
             matrix->centre[3 * r + a] = (ranges[a].low[r] + ranges[a].high[r]) / 2;
-            matrix->radius[3 * r + a] = (ranges[a].high[r] - ranges[a].low[r]) / 2;
+            matrix->radius[3 * r + a] = (ranges[a].high[r] - ranges[a].low[r]) / 2 + rounding[3 * r + a];
         }
 }
 
 /* Finds a coordinate that has the same sign in all derivatives by a direction, the one with the greatest
-   least size. Returns false if there is none, or if it may be the rounding of what is `size` long. */
-static bool find_axis(const slope_range *range, double size, int *axis)
+   least size. Returns that size; 0 if there is none, or if it may be their rounding, or that of what is
+   `size` long. */
+static double find_axis(const slope_range *range, int a, double size, const double rounding[9], int *axis)
 {
     double greatest = 0;
     for (int c = 0; c < 3; c++) {
@@ -147,31 +135,48 @@ static bool find_axis(const slope_range *range, double size, int *axis)
             *axis = c;
         }
     }
-    return greatest > ROUNDING * size;
+    return greatest > ROUNDING * size && greatest > 2 * rounding[3 * *axis + a] ? greatest : 0;
+}
+
+/* Fills the rounding of derivatives by direction a that are divided by one of their coordinates, which is at
+   least twice its own rounding. ratios: the range of what that leaves. least: that coordinate's least size.
+ */
+static void divide_rounding(const slope_range *ratios, int a, const double rounding[9], int axis,
+                            double least, double divided[9])
+{
+    for (int r = 0; r < 3; r++) {
+        const double largest = larger_of(fabs(ratios->low[r]), fabs(ratios->high[r]));
+        divided[3 * r + a] = 2 * (rounding[3 * r + a] + largest * rounding[3 * axis + a]) / least;
+    }
 }
 
 /* Returns the sign of the determinant of the derivatives of a net if it is known to be the same everywhere,
    else 0. The derivatives by a direction are sums of those of the net, with factors >= 0, and the determinant
    is linear in them: if their range is too large, that of their directions may do. matrix: what the
-   derivatives are changes of, or 0; receives their range. */
-static int sign_of_net(slope_kernel *find_slopes, const control_net *net, matrix_range *matrix)
+   derivatives are changes of, or 0; receives their range. rounding: of each derivative. */
+static int sign_of_net(slope_kernel *find_slopes, const control_net *net, const double rounding[9],
+                       matrix_range *matrix)
 {
     const matrix_range from = *matrix;
     slope_range ranges[3];
+    double least[3], of_cones[9];
     int axes[3] = {0};
     find_slopes(net, 0, NULL, ranges);
-    set_range(ranges, matrix);
+    set_range(ranges, rounding, matrix);
     const int sign = sign_of(matrix);
     if (sign != 0)
         return sign;
     for (int a = 0; a < 3; a++) {
         const double before[3] = {from.centre[a], from.centre[3 + a], from.centre[6 + a]};
-        if (!find_axis(&ranges[a], vec_greatest(before), &axes[a]))
+        least[a] = find_axis(&ranges[a], a, vec_greatest(before), rounding, &axes[a]);
+        if (!(least[a] > 0))
             return 0;
     }
     matrix_range cones;
     find_slopes(net, 0, axes, ranges);
-    set_range(ranges, &cones);
+    for (int a = 0; a < 3; a++)
+        divide_rounding(&ranges[a], a, rounding, axes[a], least[a], of_cones);
+    set_range(ranges, of_cones, &cones);
     return sign_of(&cones);
 }
 
@@ -228,20 +233,27 @@ static bool turns_nowhere(const ffd_lattice *lattice, slope_kernel *find_slopes,
                           const double *difference, double *rest)
 {
     matrix_range slopes;
+    double rounding[9];
+    for (int a = 0; a < 3; a++) {
+        double scale = 0;
+        for (size_t i = 0; i + 1 < net->order[a]; i++)
+            scale = larger_of(scale, net->scale[a][i]);
+        set_rounding(lattice, a, scale, rounding);
+    }
     if (constant_rest(lattice, &slopes)) {
         const double before = mat_determinant(slopes.centre);
         for (int n = 0; n < 9; n++)
             net->shift[n % 3][n / 3] = slopes.centre[n];
         net->points = difference;
-        return before * sign_of_net(find_slopes, net, &slopes) > 0;
+        return before * sign_of_net(find_slopes, net, rounding, &slopes) > 0;
     }
     net->points = rest;
-    const int before = sign_of_net(find_slopes, net, &slopes);
+    const int before = sign_of_net(find_slopes, net, rounding, &slopes);
     if (before == 0)
         return false;
     for (size_t n = 0; n < 3 * net_points(net->order); n++)
         rest[n] += difference[n];
-    return before * sign_of_net(find_slopes, net, &slopes) > 0;
+    return before * sign_of_net(find_slopes, net, rounding, &slopes) > 0;
 }
 
 bool ffd_turns_nowhere(const turn_cell *cell, const double *difference, turn_scratch *scratch)
@@ -350,6 +362,9 @@ static void judge_boxes(const turn_search *search, const turn_boxes *boxes)
     matrix_range constant;
     const bool is_constant = constant_rest(search->cell->lattice, &constant);
     const double sign = is_constant ? mat_determinant(constant.centre) : 0;
+    double rounding[9];
+    for (int a = 0; a < 3; a++)
+        set_rounding(search->cell->lattice, a, slope_factor(search->cell, a), rounding);
     find_centres(search->cell, search->fields, boxes, by_uvw, rest_by_uvw);
     for (size_t i = 0; i < boxes->count; i++) {
         matrix_range slopes = constant;
@@ -361,6 +376,8 @@ static void judge_boxes(const turn_search *search, const turn_boxes *boxes)
         for (size_t n = 0; n < 9; n++)
             slopes.centre[n] += by_uvw[9 * i + n];
         add_bends(&search->difference, boxes->half + 3 * i, &slopes);
+        for (int n = 0; n < 9; n++)
+            slopes.radius[n] += rounding[n];
         boxes->run[i]->may_turn = !(before * sign_of(&slopes) > 0);
     }
 }

@@ -1,4 +1,5 @@
 #include "io/format_names.h"
+#include "base/file/folder.h"
 #include "base/file/path.h"
 #include <string.h>
 
@@ -23,6 +24,9 @@ ffd_status ffd_format_refuse_name(const char *path, ffd_error *error)
             "\"%s\" is a form of Gaussian splats that is not supported: they are read and written as "
             "uncompressed ply",
             ending);
+    if (ffd_folder_is_there(path))
+        return ffd_fail_file(error, FFD_E_ARGUMENT, path, "is a folder: name its meshes, such as %.*s/*.obj",
+                             (int)(strlen(path) - ffd_is_separator(path[strlen(path) - 1])), path);
     return ffd_fail_file(error, FFD_E_ARGUMENT, path,
                          "the ending \"%s\" is not that of a mesh format (" FFD_FORMAT_NAMES ")", ending);
 }

@@ -1,11 +1,11 @@
 #include "io/formats.h"
 #include "base/file/path.h"
+#include "base/text/content.h"
 #include "io/gltf/gltf_format.h"
 #include "io/obj/obj_format.h"
 #include "io/off/off_format.h"
 #include "io/ply/ply_format.h"
 #include "io/stl/stl_format.h"
-#include "io/text/content.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -33,9 +33,8 @@ const mesh_format *ffd_format_table(ffd_format format)
 static void mention_content(const mesh_format *format, const file_input *input, ffd_error *error)
 {
     const content_kind *const kind = ffd_content_kind(input->data, input->size);
-    const size_t length = strlen(error->message);
     if (kind && ffd_format_table(kind->format) != format)
-        snprintf(error->message + length, sizeof error->message - length, "; it seems to be %s", kind->name);
+        ffd_content_mention(kind, error);
 }
 
 ffd_status ffd_format_open(const mesh_format *format, file_input *input, const ffd_source *source,

@@ -205,6 +205,7 @@ static const copy_notes *notes_of(const ffd_deform_desc *desc)
 static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_error *error)
 {
     const bool hashed = is_hashed(job);
+    bool is_offered = false;
     hash128 hash;
     byte_buffer rule = {0};
     file_output *output;
@@ -224,13 +225,17 @@ static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_er
     /* a missing resource may be the fault of a resolve callback */
     TRY_END(ffd_in_memory_judge(&job->desc->input, FFD_OK, error));
     TRY_END(ffd_deadline_check(error));
+    /* Before the mesh is in place: a disk too full for the rule leaves the old one. */
+    is_offered = job->desc->depfile;
+    if (is_offered)
+        TRY_END(ffd_depfile_offer(job->desc->depfile, &rule, error));
     TRY_END(ffd_output_commit(output, error));
     ffd_copies_keep(&noted);
-    if (job->desc->depfile)
-        ffd_depfile_add(job->desc->depfile, &rule);
     if (hashed && ffd_output_hash_value(output, &hash))
         ffd_job_cache_put_output(job->desc->cache, &hash);
 end:
+    if (status && is_offered)
+        ffd_depfile_withdraw(job->desc->depfile, &rule);
     ffd_buffer_free(&rule);
     ffd_copies_free(&noted);
     ffd_output_destroy(&output);
@@ -407,7 +412,7 @@ static ffd_status cache_locations(ffd_deform_desc *desc, ffd_job_cache **cache, 
     *cache = NULL;
     if (!desc->morphs || ffd_job_cache_holds_meshes(desc->cache))
         return FFD_OK;
-    TRY(ffd_job_cache_create_for_job(cache, error));
+    TRY(ffd_job_cache_create(cache, error));
     desc->cache = *cache;
     return FFD_OK;
 }

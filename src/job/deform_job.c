@@ -59,7 +59,7 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
     if (!ffd_isa_available(desc->isa))
         return ffd_fail(error, FFD_E_ARGUMENT,
-                        "this build or this processor does not support the instruction set %s",
+                        "{isa}: this build or this processor does not support the instruction set %s",
                         ffd_isa_name(desc->isa));
     return check_embedding(desc, error);
 }
@@ -147,7 +147,8 @@ ffd_status ffd_deform_job_open(deform_job *job, unsigned needs, ffd_job_result *
     ffd_deadline_done(JOB_IS_OPEN);
     TRY_END(ffd_deadline_check(error));
 end:
-    for (size_t l = 0; l < job->chain.count; l++)
+    /* A mesh that cannot be read gets no box. */
+    for (size_t l = 0; l < job->chain.count && job->document; l++)
         result->own_box = result->own_box || !job->chain.links[l].locator;
     result->seconds.read = ffd_clock_seconds() - start;
     return status;
@@ -313,6 +314,7 @@ static void keep_arrays(figure_arrays *arrays, job_details *details, memory_budg
     details->faces = arrays->faces;
     details->deformed = arrays->deformed;
     details->gradients = arrays->gradients;
+    details->collapsed = arrays->collapsed;
     *arrays = (figure_arrays){0};
 }
 
@@ -373,6 +375,7 @@ static ffd_status warn(const deform_job *job, const ffd_job_result *result, ffd_
         ffd_log_line(&job->file_log, FFD_LOG_WARNING, "%s",
                      job->desc->only_count ? SPELLED("{only} selects no vertices")
                                            : "there are no vertices to deform");
+    ffd_collapse_warn(&job->totals, &job->log);
     if (!job->check) {
         ffd_folds_warn(result, &job->totals, job->desc->lattices, &job->log);
         ffd_tears_warn(result, job->desc->only_count > 0, &job->log);

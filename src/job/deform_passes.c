@@ -42,6 +42,7 @@ static void fill_figures(const deform_job *job, const figure_arrays *figures, me
 {
     pass->deformed = figures->deformed;
     pass->gradients = figures->gradients;
+    pass->collapsed = figures->collapsed;
     pass->statuses = job->details ? job->details->statuses : NULL;
     pass->determinants = wants_determinants(job);
     /* A mesh that is written must not turn inside out without a word. */

@@ -70,7 +70,10 @@ static ffd_status check_output(const ffd_embed_desc *desc, const char *path, ffd
 {
     if (ffd_job_reads_mesh(&desc->input, path) || ffd_job_reads_lattice(&desc->lattice, 1, path))
         return ffd_fail_file(error, FFD_E_EXISTS, path, "is an input of this command");
-    return ffd_output_check(path, desc->force, error);
+    TRY(ffd_output_check(path, desc->force, error));
+    return ffd_output_is_stream(path) || ffd_path_has_ending(path, ".npy")
+               ? FFD_OK
+               : ffd_fail_file(error, FFD_E_ARGUMENT, path, "must end in .npy: it is an array");
 }
 
 /* Returns the absolute path of a file that need not exist. NULL: its folder does not exist, or memory runs

@@ -1,5 +1,6 @@
 #include "json/json_parse.h"
 #include "base/memory/memory.h"
+#include "base/text/content.h"
 #include "base/text/number.h"
 #include "json/json_chars.h"
 #include <errno.h>
@@ -50,15 +51,54 @@ static ffd_status refuse(const scanner *s, const char *at, const char *format, .
                          what, column);
 }
 
+static bool is_comment(const scanner *s, const char *at)
+{
+    return at < s->last && (*at == '#' || (*at == '/' && at + 1 < s->last && (at[1] == '/' || at[1] == '*')));
+}
+
 /* Reports that something was expected, and what was found instead. */
 static ffd_status expect(const scanner *s, const char *at, const char *what)
 {
     char found[32] = "the end of the text";
+    if (is_comment(s, at))
+        return refuse(s, at, "JSON has no comments%s",
+                      s->input->rules & JSON_HAS_COMMENT ? "; a lattice has the member \"comment\" for them"
+                                                         : "");
+    if (at < s->last && *at == '\'')
+        return refuse(s, at, "JSON has texts in double quotes only");
     if (at < s->last && *at >= 0x20 && *at < 0x7f)
         snprintf(found, sizeof found, "'%c'", *at);
     else if (at < s->last)
         snprintf(found, sizeof found, "byte 0x%02x", (unsigned)(unsigned char)*at);
     return refuse(s, at, "%s, found %s", what, found);
+}
+
+/* Whether a text begins with a word, whatever its capitals. word: in small letters. */
+static bool begins(const char *at, const char *last, const char *word)
+{
+    while (at < last && *word && (*at >= 'A' && *at <= 'Z' ? *at - 'A' + 'a' : *at) == *word) {
+        at++;
+        word++;
+    }
+    return !*word;
+}
+
+/* Reports that a value is expected, and what other notations have here. */
+static ffd_status expect_value(const scanner *s, const char *at)
+{
+    static const struct {
+        const char *word, *why;
+    } others[] = {{"nan", "JSON has no NaN"},
+                  {"inf", "JSON has no Infinity"},
+                  {"+", "JSON has no + before a number"},
+                  {"true", "JSON has true in small letters"},
+                  {"false", "JSON has false in small letters"},
+                  {"null", "JSON has null in small letters"},
+                  {"none", "JSON has null in place of None"}};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (begins(at, s->last, others[i].word))
+            return refuse(s, at, "%s", others[i].why);
+    return expect(s, at, "a value is expected");
 }
 
 static void skip_space(scanner *s)
@@ -131,7 +171,9 @@ static ffd_status scan_number(scanner *s)
     if (*c == '-')
         c++;
     if (!is_digit(s, c))
-        return expect(s, c, "a digit is expected");
+        return c < s->last && (*c == 'i' || *c == 'I' || *c == 'n' || *c == 'N')
+                   ? expect_value(s, c)
+                   : expect(s, c, "a digit is expected");
     if (*c == '0' && is_digit(s, c + 1))
         return expect(s, c, "a number must not start with 0");
     while (is_digit(s, c))
@@ -170,7 +212,7 @@ static bool scan_word(scanner *s, const char *word)
 static ffd_status scan_scalar(scanner *s, json_value *value)
 {
     if (s->at == s->last)
-        return expect(s, s->at, "a value is expected");
+        return expect_value(s, s->at);
     ffd_status status = FFD_OK;
     if (*s->at == '"') {
         value->kind = JSON_STRING;
@@ -185,7 +227,7 @@ static ffd_status scan_scalar(scanner *s, json_value *value)
     } else if (scan_word(s, "null")) {
         value->kind = JSON_NULL;
     } else {
-        return expect(s, s->at, "a value is expected");
+        return expect_value(s, s->at);
     }
     value->end = (uint32_t)(s->at - s->tree->text);
     return status;
@@ -300,6 +342,7 @@ static ffd_status scan_member(scanner *s, uint32_t *container, int *depth)
 {
     const json_value *in = &s->tree->values[*container];
     const bool object = in->kind == JSON_OBJECT;
+    const char *comma = NULL;
     if (s->at < s->last && *s->at == (object ? '}' : ']')) {
         --*depth;
         return close_container(s, container);
@@ -307,9 +350,11 @@ static ffd_status scan_member(scanner *s, uint32_t *container, int *depth)
     if (in->count > 0) {
         if (s->at == s->last || *s->at != ',')
             return expect(s, s->at, object ? "',' or '}' is expected" : "',' or ']' is expected");
-        s->at++;
+        comma = s->at++;
         skip_space(s);
     }
+    if (s->at < s->last && (*s->at == ',' || (comma && (*s->at == '}' || *s->at == ']'))))
+        return refuse(s, comma ? comma : s->at, "one comma too many");
     return scan_value(s, container, depth);
 }
 
@@ -335,6 +380,9 @@ ffd_status ffd_json_parse(const json_input *input, json_tree *tree, ffd_error *e
     if (input->size > LARGEST_TEXT)
         return ffd_fail_file(error, FFD_E_LIMIT, input->name, "its JSON has %zu bytes, more than %zu",
                              input->size, LARGEST_TEXT);
+    if (ffd_content_is_utf16(input->text, input->size))
+        return ffd_fail_line(error, FFD_E_INVALID, input->name, input->line ? input->line : 1,
+                             "is text in UTF-16: it must be UTF-8");
     scanner s = {
         .input = input, .tree = tree, .at = input->text, .last = input->text + input->size, .error = error};
     const ffd_status status = scan_text(&s);

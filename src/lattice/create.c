@@ -10,6 +10,7 @@
 #include "lattice/shapes.h"
 #include "lattice/spec.h"
 #include <float.h>
+#include <string.h>
 
 void ffd_lattice_desc_init(ffd_lattice_desc *desc, size_t size)
 {
@@ -24,19 +25,19 @@ static ffd_status check_counts(const ffd_lattice_desc *desc, ffd_error *error)
     for (int a = 0; a < 3; a++) {
         const int degree = desc->degree[a];
         if (desc->size[a] < 2)
-            return ffd_fail(error, FFD_E_ARGUMENT, "size %zu along %c is less than 2", desc->size[a],
+            return ffd_fail(error, FFD_E_ARGUMENT, "{size} %zu along %c is less than 2", desc->size[a],
                             "uvw"[a]);
         if (desc->size[a] > FFD_MAX_CONTROL_POINTS / count)
             return ffd_fail(error, FFD_E_LIMIT,
-                            "a lattice of %zu by %zu by %zu has more than %zu control points", desc->size[0],
-                            desc->size[1], desc->size[2], FFD_MAX_CONTROL_POINTS);
+                            "{size}: a lattice of %zu by %zu by %zu has more than %zu control points",
+                            desc->size[0], desc->size[1], desc->size[2], FFD_MAX_CONTROL_POINTS);
         count *= desc->size[a];
         if (degree < 0 || degree > MAX_DEGREE)
-            return ffd_fail(error, FFD_E_ARGUMENT, "degree %d along %c is not between 1 and %d", degree,
+            return ffd_fail(error, FFD_E_ARGUMENT, "{degree} %d along %c is not between 1 and %d", degree,
                             "uvw"[a], MAX_DEGREE);
         if (desc->size[a] <= (size_t)degree)
             return ffd_fail(error, FFD_E_ARGUMENT,
-                            "degree %d along %c needs at least %d control points, not %zu", degree, "uvw"[a],
+                            "{degree} %d along %c needs {size} %d or more there, not %zu", degree, "uvw"[a],
                             degree + 1, desc->size[a]);
     }
     return FFD_OK;
@@ -47,13 +48,13 @@ static ffd_status check_knots(const ffd_lattice_desc *desc, ffd_error *error)
     const bool cylinder = desc->shape == FFD_SHAPE_CYLINDER;
     for (int a = 0; a < 3; a++) {
         if ((int)desc->knots[a] < FFD_KNOTS_DEFAULT || desc->knots[a] > FFD_KNOTS_CLOSED)
-            return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a kind of knots", (int)desc->knots[a]);
+            return ffd_fail(error, FFD_E_ARGUMENT, "{knots}: %d is not a kind of knots", (int)desc->knots[a]);
         if (desc->knots[a] == FFD_KNOTS_CLOSED && !(cylinder && a == 1))
-            return ffd_fail(error, FFD_E_ARGUMENT, "direction %c of a %s cannot be closed", "uvw"[a],
-                            cylinder ? "cylinder" : "box");
+            return ffd_fail(error, FFD_E_ARGUMENT, "{knots=closed}: direction %c of a %s cannot be closed",
+                            "uvw"[a], cylinder ? "cylinder" : "box");
         if (desc->spacing == FFD_SPACING_UNIFORM && desc->knots[a] > FFD_KNOTS_CLAMPED)
             return ffd_fail(error, FFD_E_ARGUMENT,
-                            "uniform spacing needs clamped knots, which direction %c does not have",
+                            "{spacing=uniform} needs {knots=clamped}, which direction %c does not have",
                             "uvw"[a]);
     }
     return FFD_OK;
@@ -68,18 +69,18 @@ static ffd_status check_desc(const ffd_lattice_desc *desc, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a kind of spacing", (int)desc->spacing);
     for (int a = 0; a < 3; a++)
         if (!(desc->margin[a] >= 0) || !isfinite(desc->margin[a]))
-            return ffd_fail(error, FFD_E_ARGUMENT, "margin %g is not 0 or more", desc->margin[a]);
+            return ffd_fail(error, FFD_E_ARGUMENT, "{margin} %g is not 0 or more", desc->margin[a]);
     if (cylinder && desc->spacing != FFD_SPACING_GREVILLE)
-        return ffd_fail(error, FFD_E_ARGUMENT, "uniform spacing is for boxes, not for cylinders");
+        return ffd_fail(error, FFD_E_ARGUMENT, "{spacing=uniform} is for boxes, not for cylinders");
     if (cylinder && (desc->margin[0] != desc->margin[1] || desc->margin[1] != desc->margin[2]))
         return ffd_fail(error, FFD_E_ARGUMENT,
-                        "margins %g %g %g are for boxes; a cylinder has one, of its radius and height",
+                        "{margin} %g %g %g is for boxes; a cylinder has one, of its radius and height",
                         desc->margin[0], desc->margin[1], desc->margin[2]);
     if (cylinder && desc->principal)
-        return ffd_fail(error, FFD_E_ARGUMENT, "principal axes are for boxes; a cylinder has its own axis");
+        return ffd_fail(error, FFD_E_ARGUMENT, "{principal} is for boxes; a cylinder has its own {axis}");
     if (cylinder &&
         (!vec_is_finite(desc->axis) || (desc->axis[0] == 0 && desc->axis[1] == 0 && desc->axis[2] == 0)))
-        return ffd_fail(error, FFD_E_ARGUMENT, "axis %g %g %g of the cylinder is not a direction",
+        return ffd_fail(error, FFD_E_ARGUMENT, "{axis} %g %g %g of the cylinder is not a direction",
                         desc->axis[0], desc->axis[1], desc->axis[2]);
     TRY(check_counts(desc, error));
     return check_knots(desc, error);
@@ -237,6 +238,18 @@ static ffd_status fill_cylinder(const ffd_lattice_desc *desc, const double *xyz,
                     spec->radius[1], spec->height);
 }
 
+/* Too few control points for a cylinder are the description's fault: there is no file with this pointer. */
+static ffd_status build(lattice_spec *spec, ffd_lattice **lattice, ffd_error *error)
+{
+    ffd_error own;
+    ffd_error *const found = error ? error : &own;
+    const ffd_status status = ffd_spec_build(spec, NULL, NULL, lattice, found);
+    if (status != FFD_E_INVALID || strcmp(found->pointer, "/rest/cylinder") != 0)
+        return status;
+    own = *found;
+    return ffd_fail(error, FFD_E_ARGUMENT, "{size}: %s", own.message);
+}
+
 ffd_status ffd_lattice_create(const ffd_lattice_desc *callers, const double *xyz, size_t count,
                               ffd_lattice **lattice, ffd_error *error)
 {
@@ -251,7 +264,7 @@ ffd_status ffd_lattice_create(const ffd_lattice_desc *callers, const double *xyz
     TRY_END(spec && (spec->name = ffd_text_copy("")) ? FFD_OK : ffd_fail_memory(error));
     fill_common(desc, spec);
     TRY_END((desc->shape == FFD_SHAPE_CYLINDER ? fill_cylinder : fill_box)(desc, xyz, count, spec, error));
-    TRY_END(ffd_spec_build(spec, NULL, NULL, lattice, error));
+    TRY_END(build(spec, lattice, error));
 end:
     if (status)
         ffd_spec_free(spec);

@@ -104,6 +104,17 @@ static ffd_status make_diagonal(ffd_lattice *lattice, ffd_error *error)
                     ffd_number_text(min[longest]).text, ffd_number_text(max[longest]).text, "xyz"[longest]);
 }
 
+/* Raises the largest magnitude of each coordinate of the points. */
+static void raise_greatest(const double *points, size_t count, double greatest[3])
+{
+    double most[3] = {greatest[0], greatest[1], greatest[2]};
+    for (size_t i = 0; i < count; i++)
+        for (size_t c = 0; c < 3; c++)
+            most[c] = larger_of(most[c], fabs(points[3 * i + c]));
+    for (int c = 0; c < 3; c++)
+        greatest[c] = most[c];
+}
+
 static ffd_status fail_difference(const ffd_lattice *lattice, size_t c, ffd_error *error)
 {
     return ffd_fail(error, FFD_E_INVALID, "%s: the distance from %s to %s is too large for a double",
@@ -255,6 +266,9 @@ ffd_status ffd_lattice_finish_moved(ffd_lattice *lattice, ffd_error *error)
 {
     TRY(check_points(lattice, error));
     TRY(make_diagonal(lattice, error));
+    memset(lattice->greatest, 0, sizeof lattice->greatest);
+    raise_greatest(lattice->rest, lattice->count, lattice->greatest);
+    raise_greatest(lattice->deformed, lattice->count, lattice->greatest);
     if (!lattice->moved)
         lattice->moved = ffd_alloc(lattice->count, sizeof *lattice->moved);
     if (!lattice->moved)

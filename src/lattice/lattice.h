@@ -60,14 +60,15 @@ struct ffd_lattice {
     unsigned char *moved; /* count flags of point_move */
     bool moves_alike;     /* some control point has a flag of POINT_LIKE_NEXT */
     double diagonal;      /* of the bounding box of the rest control points */
+    double greatest[3];   /* magnitude of each coordinate of the control points, at rest and deformed */
 };
 
 /* Computes difference = Q - P from rest and deformed, which must exist. Errors: FFD_E_MEMORY. */
 ffd_status ffd_lattice_make_difference(ffd_lattice *lattice, ffd_error *error);
 
-/* Recomputes moved, moves_alike, weights_moved and diagonal from rest, deformed and difference. Errors:
-   FFD_E_INVALID, with volume, i,j,k and value in the message, for control points and weights that are not
-   finite, weights that are not positive, and magnitudes whose differences, or products with weights,
+/* Recomputes moved, moves_alike, weights_moved, diagonal and greatest from rest, deformed and difference.
+   Errors: FFD_E_INVALID, with volume, i,j,k and value in the message, for control points and weights that are
+   not finite, weights that are not positive, and magnitudes whose differences, or products with weights,
    overflow; FFD_E_MEMORY. */
 ffd_status ffd_lattice_finish_moved(ffd_lattice *lattice, ffd_error *error);
 

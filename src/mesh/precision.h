@@ -1,5 +1,5 @@
-/* precision.h - when the rounding of coordinates to float32 changes a shape: for conversions, and for results
-   in the file's own format. */
+/* precision.h - when the rounding of coordinates changes a shape: to float32 in conversions, to float32 or
+   float64 of results in the file's own format. */
 #ifndef FFD_MESH_PRECISION_H
 #define FFD_MESH_PRECISION_H
 
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* The acceptable rounding error of float32 relative to the largest side of the model: half a step of 16-bit
+/* The acceptable rounding error relative to the largest side of the model: half a step of 16-bit
    quantization, which is commonly good enough. */
 #define SHAPE_TOLERANCE 0x1p-17
 /* The same relative to the largest side of one of several objects, where smaller objects of a large model lie
@@ -32,6 +32,12 @@ static inline double ffd_bounds_side(const ffd_bounds *box)
     for (int a = 0; a < 3; a++)
         side = larger_of(side, box->max[a] - box->min[a]);
     return side;
+}
+
+/* Returns the distance from a finite x >= 0 to the next double away from 0. */
+static inline double ffd_double_step(double x)
+{
+    return nextafter(x, HUGE_VAL) - x;
 }
 
 /* Returns the largest error of a point's coordinates as float32. Those that are beyond its range are refused

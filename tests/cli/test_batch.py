@@ -81,6 +81,17 @@ def json_that_is_no_json_lines_is_one_error(run):
         run.write(name, text)
         run.ffd("batch", name, code=INVALID, err=re.compile(rf"^{name}:[12]: {found}: a manifest has one job a line \(JSON Lines\)$"))
         check(not run.exists(jobs[2]["out"]), name)
+    # A file of another kind, which would have a message for each of its lines.
+    for name, text, kind in (("m.obj", CUBE, "an OBJ file"), ("m.txt", "# a comment\n\n# and one more\n" + CUBE, "an OBJ file"),
+                             ("m.jsonl", CUBE, "an OBJ file"), ("m.ply", "ply\nformat ascii 1.0\n", "a PLY file"),
+                             ("m.bin", b"\x89PNG\r\n\x1a\n\n\n\n", "a PNG image"), ("m.off", "3 1 0\n", None)):
+        run.write(name, text)
+        run.ffd("batch", name, code=INVALID, err=f"{name}:1: is no object of JSON: a manifest has one job a line (JSON Lines)"
+                + (f"; it seems to be {kind}" if kind else ""))
+    run.folder_of("meshes/deep")
+    for pattern in ("meshes", "meshes/"):
+        run.ffd("batch", "--in", pattern, "-l", "l.json", "--out-dir", "out", code=IO,
+                err=f"{pattern}: is a folder: name its meshes by a pattern, such as 'meshes/*.obj'")
     # One line that is broken is one job, and so is one behind others.
     run.write("m.csv", lines_of([jobs[0]]) + "[\n{\n" + lines_of([jobs[1]]))
     batch(run, "m.csv", done=2, failed=["not valid JSON"] * 2)
@@ -155,6 +166,10 @@ def messages_speak_of_what_the_user_wrote(run):
     check("JSON_ALLOW_NUL" not in done.err[0], "the name of a library's flag:", done.err[0])
     for line in done.err[1:3]:
         check("not an option of a job" in line, "an option of the batch is said to be unknown:", line)
+    start(run, [job(1, set={"Q": 1}), job(2, outt="x"), job(3, quite="x")])
+    for more in ([], ["--dry-run"]):
+        batch(run, "m.jsonl", *more, failed=[r'no lattice has the placeholder \{"\$": "Q"\} \(--set\)$', r'unknown key "outt" \(nearest: "out"\)$',
+                                             r'unknown key "quite" \(known: in, out, lattice, morph, clip, options, set\)$'])
 
 
 @case

@@ -248,10 +248,12 @@ def meshes_of_another_size_fail(run):
 def what_is_too_large_for_float32_fails(run):
     start(run, [{"in": "a.obj", "lattice": "l.json"}])
     run.write("l.json", lattice(moves=[{"by": [1e39, 0, 0]}]))
-    batch(run, "m.jsonl", "--positions", "all.npy",
-          failed=[r"^a.obj: the deformed position of vertex 0 is too large for the float32 numbers of all.npy \(--dtype f8\)"])
+    fine = "m.jsonl:1: a.obj: doubles cannot hold: the precision of coordinates that far from the origin (off by up to 7.55579e+22, in a shape of 2)"
+    done = run.ffd("batch", "m.jsonl", "--positions", "all.npy", code=NO, lines=3)
+    equal(done.err[0], fine)
+    check(re.match(r"m.jsonl:1: a.obj: the deformed position of vertex 0 is too large for the float32 numbers of all.npy \(--dtype f8\)", done.err[1]), done.err)
     equal(array(run)[1], [NAN])
-    batch(run, "m.jsonl", "--positions", "wide.npy", "--dtype", "f8", done=1)
+    run.ffd("batch", "m.jsonl", "--positions", "wide.npy", "--dtype", "f8", err=lambda said: equal(said[:-1], [fine]))
     equal(array(run, "wide.npy")[1][0][0], [1e39, -1.0, -1.0])
 
 

@@ -3,6 +3,7 @@
 dry run sees of them."""
 
 import json
+import re
 
 from batches import batch, case, check, equal, job, lattice, lines_of, main, report, start
 from harness import CUBE, CUBE_CORNERS, INVALID, IO, NO, OK, USAGE, near, obj_vertices
@@ -231,6 +232,18 @@ def dialects_of_tables(run):
         check(not [line for line in sets_of(run, table, "--out-dir", ".", code=(OK, NO))[1] if "names the separator" in line], table)
     run.write("t.csv", "sep=;\n")
     run.ffd("batch", "--csv", "t.csv", code=INVALID, err="t.csv:1: the first row of the table must name its columns")
+    for table, told in (('out,H\nb.obj,1\n"c.obj,2\nd.obj,3\n', "t.csv:3: not a valid CSV row: the quote that was opened in line 3 is not closed"),
+                        ('out,H,N\nb.obj,1,"a\nb"\nc.obj,"1",\n"c.obj",2,"d\n', "t.csv:5: not a valid CSV row: the quote that was opened in line 5 is not closed"),
+                        ('out,H,N\nb.obj,1,"a\nb","c\nd.obj,3\n', "t.csv:2: not a valid CSV row: the quote that was opened in line 3 is not closed"),
+                        ('out,H\nb.obj,1\nc"d.obj,2\n', "t.csv:3: not a valid CSV row: a quote stands beside other characters of its cell")):
+        run.write("t.csv", table)
+        ignored = ["--csv-ignore", "N"] if "N" in table[:8] else []
+        done = run.ffd("batch", "--csv", "t.csv", "--in", "a.obj", "-l", "p.json", *ignored, "--dry-run", code=NO, err=lambda said: None)
+        check(told in done.err, done.err)
+    run.write("t.csv", 'out,"H\nb.obj,1\n')
+    run.ffd("batch", "--csv", "t.csv", "--in", "a.obj", code=INVALID,
+            err="t.csv:1: not a valid CSV row: the quote that was opened in line 1 is not closed")
+    run.ffd("batch", "--csv", "a.obj", "--in", "a.obj", code=INVALID, err="a.obj: has the ending of a mesh, not of a table")
     for codec in ("utf-16-le", "utf-16-be"):
         run.write("t.csv", ("\ufeffout,H\nb.obj,1\n").encode(codec))
         for arguments in (["--csv", "t.csv", "--in", "a.obj", "-l", "p.json"], ["t.csv"]):
@@ -293,6 +306,30 @@ def options_stand_in_for_columns(run):
     for name, height in (("x-1", 0.5), ("x-3", 0.125), ("y", 0.25)):
         raised(run, f"out2/{name}.obj", height)
     equal([(e["line"], e["set"]) for e in report(run)], [(2, {"H": 0.5}), (4, {"H": 0.25}), (5, {"H": 0.125})])
+
+
+@case
+def a_row_does_not_lead_out_of_the_folder_of_outputs(run):
+    """By an absolute path or "..", whatever the rest of it is. Without --out-dir, and in a manifest, any path will do."""
+    begin(run)
+    run.folder_of("out")
+    out = ["../c.obj", run.path("abs.obj"), run.path("out/in.obj"), "d/../../c.obj", "..", "d//./../../c.obj"]
+    for options in ([], ["--dry-run"], ["--resume"], ["--shard", "0/1"], ["--output-format", "off"]):
+        run.write("t.csv", "out,H\n" + "".join(f"{name},0.5\n" for name in out))
+        batch(run, "--csv", "t.csv", "--in", "a.obj", "-l", "p.json", "--out-dir", "out", "--report", "r.json", *options,
+              failed=[rf'^t\.csv:{line}: "out" leads out of --out-dir: "{re.escape(name)}"$' for line, name in enumerate(out, 2)])
+        equal([(e["line"], e["exit"]) for e in report(run)], [(line, INVALID) for line in range(2, 2 + len(out))])
+        equal(run.names("out"), [])
+        check(not run.exists("c.obj") and not run.exists("abs.obj"), run.names())
+    run.write("t.csv", "out,H\n..c.obj,0.5\nd/..e/f..obj,0.25\nd/../g.obj,0.125\n./h.obj,0.75\n")
+    batch(run, "--csv", "t.csv", "--in", "a.obj", "-l", "p.json", "--out-dir", "out", done=4)
+    for name, height in (("..c.obj", 0.5), ("d/..e/f..obj", 0.25), ("g.obj", 0.125), ("h.obj", 0.75)):
+        raised(run, "out/" + name, height)
+    run.folder_of("sub")
+    run.write("sub/t.csv", f"out,H\n../c.obj,0.5\n{run.path('abs.obj')},0.25\n")
+    batch(run, "--csv", "sub/t.csv", "--in", "a.obj", "-l", "p.json", done=2)
+    raised(run, "c.obj", 0.5)
+    raised(run, "abs.obj", 0.25)
 
 
 @case
@@ -389,7 +426,7 @@ def columns_are_left_out(run):
     begin(run)
     run.write("t.csv", "in,note,H,out,who\na.obj,first,0.5,b.obj,me\na.obj,second,0.25,c.obj,you\n")
     table = ["--csv", "t.csv", "-l", "p.json"]
-    told = r'^p\.json: no lattice has the placeholders \{"\$": "note"\}, \{"\$": "who"\} .*--csv-ignore'
+    told = r'^p\.json: no lattice has the placeholders \{"\$": "note"\}, \{"\$": "who"\} \(--set\); --csv-ignore leaves columns of a table out$'
     batch(run, *table, failed=[told] * 2)
     batch(run, *table, "--dry-run", failed=[told] * 2, out="")
     batch(run, *table, "--csv-ignore", "note", failed=[r'placeholder \{"\$": "who"\}'] * 2)

@@ -191,6 +191,25 @@ def without_it_one_line_warns(run):
 
 
 @case
+def meshes_that_are_not_read_have_no_box(run):
+    """Neither a missing one nor a broken one: of two meshes that are read it is said that there are two, of one nothing."""
+    mesh_box(run)
+    run.write("broken.obj", "v 0 0 x\n")
+    bad = ("gone.obj", "broken.obj")
+    for good in (["body.obj"], ["body.obj", "door.obj"]):
+        jobs = [{"in": mesh, "lattice": "l.json", "out": f"o/{mesh}"} for mesh in (*bad, *good)]
+        run.write("m.jsonl", lines_of(jobs))
+        run.write("m.csv", "in,lattice,out\n" + "".join("{in},{lattice},{out}\n".format(**one) for one in jobs))
+        for words in (["deform", *bad, *good, "--out-dir", "o", "-l", "l.json", "--force"], ["check", *bad, *good, "-l", "l.json"],
+                      ["batch", "m.jsonl", "--force"], ["batch", "--csv", "m.csv", "--force"]):
+            done = run.ffd(*words, code=NO, err=anything, data=True)
+            equal(len(lines_with(done, "cannot be opened")), 1, words)
+            equal(len(lines_with(done, "broken.obj")), 1, words)
+            equal([re.search("each of (the )?2 meshes by itself", line) is not None for line in lines_with(done, "--shared-box")],
+                  [True] * (len(good) - 1), words)
+
+
+@case
 def a_shared_box_of_a_manifest_is_of_all_shards(run):
     mesh_box(run)
     run.write("m.jsonl", lines_of([{"in": mesh, "lattice": "l.json", "out": "o/" + mesh} for mesh in ("body.obj", "door.obj")]))
@@ -218,9 +237,12 @@ def standard_input_has_no_shared_box(run):
 
 @case
 def a_vertex_that_nothing_uses_widens_no_box_and_fails_no_gate(run):
-    """Faces, lines and points use vertices; where there is none of them all count."""
+    """Faces, lines, points and free-form geometry use vertices; where there is none of them all count."""
     unused = "v 900 900 900\n"
-    for name, text in (("face", "f 1 2 3\n"), ("line", "l 1 2 3\n"), ("points", "p 1 2 3\n")):
+    for name, text in (("face", "f 1 2 3\n"), ("line", "l 1 2 3\n"), ("points", "p 1 2 3\n"), ("curve", "cstype bezier\ndeg 2\ncurv 0 4 1 2 3\nparm u 0 4\nend\n"),
+                       ("surface", "surf 0 4 0 4 -4//1 2/3/4 \\\n  3/1\nend\n"), ("patch", "bzp 1 2 3\n"), ("cardinal curve", "cdc 1 2 3\n"),
+                       # A control vertex that is not there, and points of the parameter space, use nothing.
+                       ("curve and more", "vp 1\ncurv 0 1 1 2 3 9\ncurv2 4\nsp 4\nscrv 4 4 4\n")):
         run.write("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 1\n" + unused + text)
         near(sides(new(run, "a.obj", "--margin", "0")), [[0, 0, 0], [1, 1, 1]], 1e-15, name)
         run.write("l.json", lattice(moves=[{"by": [0, 0, 1]}]))

@@ -194,10 +194,25 @@ def outputs_of_embed_are_not_replaced_without_force(run):
         check(not run.exists("x.npy") and not run.exists("k/x.npy"), "nothing is written")
     equal(run.read("e.npy"), before)
     run.ffd("embed", "a.obj", "-l", "l.json", "-o", "x.npy", "--status", "k/x.npy")
-    run.ffd("embed", "a.obj", "-l", "l.json", "-o", "-", "--status", "./-")
+    run.ffd("embed", "a.obj", "-l", "l.json", "-o", "-", "--status", "./-.npy")
     run.ffd("embed", "a.obj", "-l", "l.json", "-o", "none/e.npy", code=IO)
     run.ffd("embed", "none.obj", "-l", "l.json", "-o", "x.npy", code=IO)
     run.ffd("embed", "a.obj", "-l", "none.json", "-o", "x.npy", code=IO)
+
+
+@case
+def outputs_of_embed_are_arrays(run):
+    """By their names, as those of jacobian and --positions are; a stream has none. Nothing is written, and nothing read."""
+    start(run)
+    run.folder_of("k")
+    for name in ("e", "e.bin", "e.json", "e.npz", "npy", "e.npy.txt", "k/.e"):
+        before = run.names()
+        for outputs in (["-o", name], ["-o", "e.npy", "--status", name]):
+            for mesh in ("a.obj", "none.obj"):
+                run.ffd("embed", mesh, "-l", "l.json", *outputs, "--force", code=USAGE, err=f"{name}: must end in .npy: it is an array")
+        equal(run.names(), before)
+    run.ffd("embed", "a.obj", "-l", "l.json", "-o", "E.NPY", "--status", "k/e.npy")
+    check(run.exists("E.NPY") and run.exists("k/e.npy"), run.names())
 
 
 @case

@@ -279,14 +279,14 @@ def whatever_call_on_a_file_fails_no_temporary_file_stays(run):
 def what_stands_in_the_place_of_a_temporary_file_is_named(run):
     run.write("i.obj", CUBE)
     run.write("l.json", lattice(moves=[{"at": [3, "all", "all"], "by": [0.5, 0, 0]}]))
-    path = run.path(".o.obj.ffd-tmp")
     for kind, make, unmake in (("link", lambda p: os.symlink("nowhere", p), os.unlink), ("folder", os.mkdir, os.rmdir),
                                ("pipe", os.mkfifo, os.unlink)):
-        make(path)
-        for arguments in (("deform", "i.obj", "o.obj", "-l", "l.json"), ("embed", "i.obj", "-l", "l.json", "-o", "o.obj")):
+        for name, arguments in (("o.obj", ("deform", "i.obj", "o.obj", "-l", "l.json")), ("o.npy", ("embed", "i.obj", "-l", "l.json", "-o", "o.npy"))):
+            path = run.path(f".{name}.ffd-tmp")
+            make(path)
             equal(plain(run, *arguments),
-                  (IO, f"ffd: o.obj: cannot be written: a {kind} named .o.obj.ffd-tmp stands where it is written first: remove that\n"))
-        unmake(path)
+                  (IO, f"ffd: {name}: cannot be written: a {kind} named .{name}.ffd-tmp stands where it is written first: remove that\n"))
+            unmake(path)
 
 
 @case

@@ -131,11 +131,37 @@ def a_full_device_is_exit_3(run):
         with open("/dev/full", "wb") as stdout:
             run.ffd("deform", f"a.{ending}", "-", "--output-format", ending, "-l", "l.json", code=IO, stdout=stdout,
                     err=f"standard output: cannot be written: {SPACE}")
-    run.ffd("embed", "a.obj", "-l", "l.json", "-o", "/dev/full", "--status", "s.npy", code=IO)
+    os.symlink("/dev/full", run.path("full.npy"))
+    run.ffd("embed", "a.obj", "-l", "l.json", "-o", "full.npy", "--status", "s.npy", code=IO, err=f"full.npy: cannot be written: {SPACE}")
+    os.remove(run.path("full.npy"))
     run.ffd("lattice", "new", "a.obj", "-o", "/dev/full", code=IO)
     for n, option in enumerate(("--report", "--depfile")):
         run.ffd("deform", "a.obj", f"b{n}.obj", "-l", "l.json", option, "/dev/full", code=IO, err=f"/dev/full: cannot be written: {SPACE}")
+        check(not run.exists(f"b{n}.obj"), option)
+        run.write("old.obj", "old")
+        run.ffd("deform", "a.obj", "old.obj", "-l", "l.json", "--force", option, "/dev/full", code=IO, err=f"/dev/full: cannot be written: {SPACE}")
+        equal(run.text("old.obj"), "old")
     check(not run.exists("s.npy"), "one of two arrays")
+
+
+@case
+def no_mesh_is_placed_whose_depfile_has_no_space(run):
+    """On a disk of its own that is full: the old mesh stays, or there is none, and the old depfile. With space both are written."""
+    start(run)
+    for folder in disks(run):
+        words = ["deform", "a.obj", "b.obj", "-l", "l.json", "--depfile", "disk/b.d", "--force"]
+        for old in (False, True):
+            if old:
+                run.write("b.obj", "old")
+                run.write("disk/b.d", "old:\n")
+            filler = fill(folder)
+            check_refused(run, words, SPACE)
+            check(run.text("b.obj") == "old" if old else not run.exists("b.obj"), run.names())
+            os.unlink(filler)
+        run.ffd(*words)
+        equal(run.text("disk/b.d"), "b.obj: a.obj l.json\n")
+        run.remove("b.obj")
+        run.remove("disk/b.d")
 
 
 @case

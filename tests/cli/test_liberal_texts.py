@@ -3,6 +3,7 @@
 files that are no mesh are refused, with what they seem to be; meshes without vertices are said."""
 
 import gzip
+import re
 import struct
 
 from harness import CUBE, INVALID, NO, case, check, equal, lattice, main
@@ -93,6 +94,14 @@ JUNK = [(b"version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 5\n",
 MESHES = {".obj": (OBJ.encode(), "an OBJ file"), ".ply": (PLY.encode(), "a PLY file"), ".off": (OFF.encode(), "an OFF file"),
           ".stl": (f"solid\n{FACET}endsolid\n".encode(), "an STL file"), ".gltf": (b'{"asset": {}}', "JSON text"),
           ".glb": (struct.pack("<4s2I", b"glTF", 2, 12) + b"\ng \n" * 20, "a GLB file")}
+BINARY_STL = struct.pack("<80sI", b"made by hand", 2) + bytes(100)
+
+
+@case
+def a_gltf_that_is_called_glb_is_named(run):
+    for text in ('{"asset": {"version": "2.0"}}', "\ufeff\n {}"):
+        run.write("m.glb", text)
+        run.ffd("info", "m.glb", code=INVALID, err="m.glb: is a glTF file in JSON, not a GLB file: its name must end in .gltf")
 
 
 @case
@@ -104,8 +113,12 @@ def junk_is_refused(run):
         for content, kind in JUNK + others:
             run.write("m" + ending, content)
             done = run.ffd("deform", "m" + ending, "o" + ending, "-l", "l.json", "--fail-on", "outside", code=INVALID)
-            check(done.err[0].startswith("m" + ending) and done.err[0].endswith("; it seems to be " + kind), done.err)
+            check(done.err[0].startswith("m" + ending) and (done.err[0].endswith("; it seems to be " + kind) or
+                  (ending, kind, done.err[0]) == (".gltf", "UTF-16 text", "m.gltf:1: is text in UTF-16: it must be UTF-8")), done.err)
             check(not run.exists("o" + ending), "an output of junk")
+        if ending != ".stl":
+            run.write("m" + ending, BINARY_STL)
+            run.ffd("info", "m" + ending, code=INVALID, err=re.compile("; it seems to be a binary STL file$"))
         run.write("m" + ending, own[0][:-4])
         done = run.ffd("info", "m" + ending, code=(0, INVALID), err=anything)
         check(not any("seems" in line for line in done.err), "its own format", done.err)

@@ -2,6 +2,7 @@
 """--only: what a selector names is deformed and counted, all else keeps every byte."""
 import json
 import os
+import re
 import struct
 import subprocess
 
@@ -76,6 +77,20 @@ def groups_objects_and_materials_of_obj(run):
         equal(moved(text), expected, selectors)
         for before, after in zip(SHEET.splitlines(), text.splitlines()):
             check(before == after or before.startswith("v "), before, after)
+
+
+@case
+def control_vertices_of_free_form_geometry_are_selected(run):
+    """With their group, object and material, as those of faces are; numbers that count back do so from their place."""
+    run.write("l.json", lattice(moves=SHIFT))
+    vertices = [line for line in SHEET.splitlines() if line.startswith("v ")]
+    run.write("a.obj", "\n".join(vertices) + "\ng left\no Thing\nusemtl red\ncstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2/1 3//1 -7/2/2\nend\n"
+              "g right\no Other\nusemtl blue\ncurv 0 1 5 \\\n 6\nf 5 6 7\n")
+    for selectors, expected in ((["group:left"], [1, 2, 3, 4]), (["object:Thing"], [1, 2, 3, 4]), (["material:red"], [1, 2, 3, 4]),
+                                (["group:right"], [5, 6, 7]), (["group:left", "material:blue"], [1, 2, 3, 4, 5, 6, 7])):
+        equal(moved(deform(run, "a.obj", *selectors).decode()), expected, selectors)
+    listed = run.ffd("info", "a.obj", "--parts", err=lambda said: None).text
+    check(re.search("group:left +4 vertices, 0 faces", listed) and re.search("group:right +3 vertices, 1 face,", listed), listed)
 
 
 @case

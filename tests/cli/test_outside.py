@@ -53,6 +53,23 @@ def kept_moved_or_faded(run):
 
 
 @case
+def a_mesh_beside_the_lattice_is_told_where_both_are(run):
+    run.write("l.json", lattice(moves=SHIFT))
+    run.write("k.json", lattice(low=(3, -2, -2), high=(4, 2, 2), moves=SHIFT))
+    run.write("m.obj", obj_of([[5, 6, 7], [6, 8, 9.5]]))
+    mesh = "the mesh from 5 6 7 to 6 8 9.5"
+    one = f"; the lattice lies from -2 -2 -2 to 2 2 2, {mesh}"
+    run.ffd("deform", "m.obj", "o.obj", "-l", "l.json", err="m.obj: 2 of 2 vertices are not inside: 2 outside (left where they are)" + one)
+    run.ffd("embed", "m.obj", "-l", "l.json", "-o", "e.npy", err="m.obj: 2 of 2 vertices are not inside: 2 outside (no u,v,w)" + one)
+    run.ffd("check", "m.obj", "-l", "l.json", "--outside", "error", code=EMBEDDING, err=
+            "m.obj: 2 of 2 vertices are outside the lattice, the first is vertex 0 (counted from 0)" + one)
+    run.ffd("deform", "m.obj", "p.obj", "-l", "l.json", "-l", "k.json", "--blocks",
+            err=f"m.obj: 2 of 2 vertices are not inside: 2 outside (left where they are); the lattices lie from -2 -2 -2 to 4 2 2, {mesh}")
+    run.write("m.obj", obj_of([[5, 6, 7], [0, 0, 0]]))
+    run.ffd("deform", "m.obj", "q.obj", "-l", "l.json", err="m.obj: 1 of 2 vertices is not inside: 1 outside (left where it is)")
+
+
+@case
 def the_displacement_of_the_nearest_point(run):
     """A box: the nearest point is the clipped one, which deform takes anywhere as a vertex of its own."""
     run.write("l.json", lattice(moves=BEND))

@@ -235,11 +235,11 @@ def other_commands_take_a_ply_as_any_mesh(run):
     run.write("p.obj", obj_of(POINTS) + "".join("f " + " ".join(str(i + 1) for i in f) + "\n" for f in FACES))
     run.write("l.json", lattice(moves=BUMP))
     for name in ("p.ply", "p.obj"):
-        run.ffd("embed", name, "-l", "l.json", "-o", name + ".npy", "--status", name + ".s", **OUTSIDE)
+        run.ffd("embed", name, "-l", "l.json", "-o", name + ".npy", "--status", name + ".s.npy", **OUTSIDE)
         run.ffd("lattice", "new", name, "-o", name + ".json")
         run.ffd("check", name, "-l", "l.json", "--report", name + ".report", "--report-stable", **OUTSIDE)
     equal(run.read("p.ply.npy")[:128 + 120], run.read("p.obj.npy")[:128 + 120], "u,v,w")
-    equal(run.read("p.ply.s")[:133], run.read("p.obj.s")[:133], "statuses")
+    equal(run.read("p.ply.s.npy")[:133], run.read("p.obj.s.npy")[:133], "statuses")
     equal(run.read("p.ply.json"), run.read("p.obj.json"), "the lattice")
     equal(run.text("p.ply.report").replace(".ply", ".obj"), run.text("p.obj.report"), "the report")
 

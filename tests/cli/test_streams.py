@@ -183,7 +183,8 @@ def empty_and_broken_input(run):
 def messages_name_standard_input(run):
     start(run)
     run.ffd("deform", "-", "b.obj", "--input-format", "obj", "-l", "l.json", stdin=b"v 9 9 9\n",
-            err="standard input: 1 of 1 vertex is not inside: 1 outside (left where it is)")
+            err="standard input: 1 of 1 vertex is not inside: 1 outside (left where it is); the lattice lies from "
+                "-2 -2 -2 to 2 2 2, the mesh from 9 9 9 to 9 9 9")
     run.ffd("deform", "-", "c.obj", "--input-format", "obj", "-l", "l.json", "-v", stdin=CUBE.encode(),
             err="standard input: 8 of 8 vertices moved, by 1 at most")
 

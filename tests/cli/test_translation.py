@@ -132,12 +132,12 @@ def glb_of(points):
 
 @case
 def floats_that_are_carried_far(run):
-    """Where floats are too coarse for the shape, that is said and reported; not where they were so before."""
+    """Where floats, or doubles, are too coarse for the shape, that is said and reported; not where they were so before."""
     says = "floats cannot hold: the precision of coordinates that far from the origin (off by up to 0.25, in a shape of 0.25)"
     far = [500000, 4649776, 0]
 
-    def losses(name, low, step, expected=()):
-        run.write("l.json", lattice(size=(2, 2, 2), degree=[1, 1, 1], low=low, high=[x + 2 for x in low], moves=[{"by": step}]))
+    def losses(name, low, step, expected=(), size=2):
+        run.write("l.json", lattice(size=(2, 2, 2), degree=[1, 1, 1], low=low, high=[x + size for x in low], moves=[{"by": step}]))
         words = [name, "o" + name[1:], "-l", "l.json", "--force", "--report", "r.json"]
         run.ffd("deform", *words, err=expected if expected is anything else [f"{name}: {line}" for line in expected])
         return json.loads(run.text("r.json"))["jobs"][0].get("precision")
@@ -149,6 +149,14 @@ def floats_that_are_carried_far(run):
     run.write("d.ply", ply_of("double", CORNERS))
     equal(losses("d.ply", [-1] * 3, far), None, "doubles")
     run.write("f.ply", ply_of("float", [[4096 + x + 0.1, y, z] for x, y, z in CORNERS]))
+    run.write("d.obj", "".join("v {} {} {}\n".format(*p) for p in CORNERS) + "f 1 2 3\n")
+    run.write("d.off", "OFF\n3 1 0\n" + "".join("{} {} {}\n".format(*p) for p in CORNERS) + "3 0 1 2\n")
+    doubles = "doubles cannot hold: the precision of coordinates that far from the origin (off by up to 8, in a shape of 0.25)"
+    for name in ("d.ply", "d.obj", "d.off"):
+        equal(losses(name, [-1] * 3, [0, 1e17, 0], [doubles]), {"error": 8, "side": 0.25}, name)
+        equal(losses(name, [-1] * 3, [0, -1e9, 1e9]), None, f"{name}: doubles are fine enough")
+    run.write("far.ply", ply_of("double", [[x, 1e17 + 64 * y, z] for x, y, z in CORNERS]))
+    equal(losses("far.ply", [-1, 1e17 - 1000, -1], [0, 16, 0], size=2000), None, "no coarser than it was")
     equal(losses("f.ply", [4095, -1, -1], [1e-3, 0, 0]), None, "no coarser than it was")
     run.write("n.ply", ply_of("float", CORNERS + 3000 * [(math.nan,) * 3]))
     equal(losses("n.ply", [-1] * 3, far, anything), {"error": 0.25, "side": 0.25}, "beside many vertices that are not finite")

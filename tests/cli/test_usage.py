@@ -93,7 +93,11 @@ def an_unknown_command_gets_the_nearest_one_proposed(run):
     refused(run, "report", "mrge", "a.json", says="report merge")
     refused(run, "help", "deform", "x", says="x")
     refused(run, "DEFORM", says="DEFORM")
-    refused(run, "", says="nearest")
+    for word in ("", "fit", "animate", "edit", "mesh"):
+        refused(run, word, says=f'unknown command "{word}" (ffd help lists the known ones)')
+    for word in ("refine", "set", "convert"):
+        refused(run, "lattice", word, says=f'unknown command "lattice {word}" (ffd help lists the known ones)')
+    refused(run, "--xyz", says="unknown option --xyz (options follow a command)")
     for typed, nearest in (("repot", "report merge"), ("latice", "lattice new"), ("bach", "batch")):
         refused(run, typed, says=f"nearest: {nearest}")
 
@@ -113,7 +117,10 @@ def an_unknown_option_gets_the_nearest_one_proposed(run):
         refused(run, *work, option, says=f"nearest: {nearest}")
         refused(run, *work, f"{option}=1", says=f"nearest: {nearest}")
     refused(run, *work, "-x", says="-x")
-    refused(run, *work, "-o", "x", says="-o")
+    refused(run, *work, "-o", "x", says="unknown option -o: OUT is the second argument")
+    refused(run, "batch", "m.jsonl", "-o", "x", says="unknown option -o: outputs are named in the manifest")
+    refused(run, "info", "a.obj", "-m", says="unknown option -m (nearest: --memory)")
+    refused(run, "info", "a.obj", "-s", says="unknown option -s (--help lists the known ones)")
     refused(run, *work, "-qx", says="-x")
     refused(run, "--bogus", says="--bogus")
     refused(run, "--verson", says="--version")
@@ -189,6 +196,27 @@ def values_of_other_commands(run):
 
 
 @case
+def values_that_do_not_fit_each_other_are_named_by_their_options(run):
+    files(run)
+    for options, message in (
+            (["--shape", "cylinder", "--size", "2,2,2"],
+             "--size: 2 control points of degree 1 along v are too few for this angle of the cylinder"),
+            (["--degree", "4"], "--degree 4 along u needs --size 5 or more there, not 4"),
+            (["--size", "4,3,4", "--degree", "3"], "--degree 3 along v needs --size 4 or more there, not 3"),
+            (["--knots", "clamped,closed,open"], "--knots closed: direction v of a box cannot be closed"),
+            (["--shape", "cylinder", "--knots", "clamped,open,closed"], "--knots closed: direction w of a cylinder cannot be closed"),
+            (["--spacing", "uniform", "--knots", "clamped,open,clamped"],
+             "--spacing uniform needs --knots clamped, which direction v does not have"),
+            (["--shape", "cylinder", "--spacing", "uniform"], "--spacing uniform is for boxes, not for cylinders")):
+        refused(run, "lattice", "new", "a.obj", "-o", "n.json", *options, says=message)
+    run.ffd("lattice", "new", "a.obj", "-o", "n.json", "--size", "1000000", code=LIMIT, err=re.compile("^--size: a lattice of 1000000 by "))
+    refused(run, "jacobian", "a.obj", "-l", "l.json", "-o", "j.npz", "--of", "1", says="--of: there is no lattice 1: the job has 1,")
+    other = "neon" if os.uname().machine in ("x86_64", "i686") else "avx2"
+    refused(run, "check", "a.obj", "-l", "l.json", "--isa", other, says=f"--isa: this build or this processor does not support the "
+            f"instruction set {other}")
+
+
+@case
 def words_of_deform(run):
     work = files(run)
     refused(run, "deform", says="lattice")
@@ -215,6 +243,8 @@ def what_needs_what(run):
         refused(run, *command, "--embedding", "e.npy", "--report", "e.npy", says="embedding")
         refused(run, *command, "--fail-on", "outsied", says="nearest: outside")
         refused(run, *command, "--fail-on", "folds,mutliple", says="nearest: multiple")
+        refused(run, *command, "--fail-on", "folds,edges", says="the gate edges needs a length: edges=LENGTH")
+        refused(run, *command, "--fail-on", "folds=3", says='the gate folds takes no value: "folds=3"')
     for rest in (["--in-place"], ["--out-dir", "."]):
         refused(run, "deform", "a.obj", "b.glb", *rest, "-l", "l.json", "--embedding", "e.npy", says="IN")
     refused(run, "check", "a.obj", "b.glb", "-l", "l.json", "--embedding", "e.npy", says="IN")
@@ -273,6 +303,9 @@ def unknown_endings_are_refused(run):
     refused(run, "compare", "a.obj", "a.txt", says="a.txt")
     refused(run, "compare", "a", "a.obj", says="a: ")
     refused(run, "info", "a.txt", says="a.txt")
+    run.folder_of("meshes/a.obj")
+    for name in ("meshes", "meshes/"):
+        refused(run, "info", name, says=f"{name}: is a folder: name its meshes, such as meshes/*.obj")
     refused(run, "lattice", "new", "a.txt", "-o", "n.json", says="a.txt")
     refused(run, "lattice", "new", "a.obj", "-o", "n.obj", says="JSON")
     check(run.ffd(*work), "the right words")

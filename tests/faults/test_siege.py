@@ -14,7 +14,7 @@ import socket
 import subprocess
 import time
 
-from harness import CUBE, CUBE_CORNERS, FFD, INVALID, IO, NO, NOBODY, PNG, SECONDS, case, check, equal, gltf_json, lattice, main
+from harness import CUBE, CUBE_CORNERS, FFD, INVALID, IO, NO, NOBODY, PNG, SECONDS, USAGE, case, check, equal, gltf_json, lattice, main
 
 TWIST = lattice(low=(-1, -1, -1), high=(2, 2, 2), moves=[{"twist": {"axis": "z", "degrees": 40}}])
 
@@ -129,7 +129,7 @@ def siege_05_a_file_that_appears_under_the_name_of_the_output_stays(run):
 
 
 def what_is_read(run):
-    """A glTF with a buffer and an image, an OBJ with a material library and a map, a lattice round both; a PLY with a texture."""
+    """A glTF with a buffer and an image, one whose buffer has the name of an array, an OBJ with a material library and a map, a lattice round both; a PLY with a texture."""
     asset, data = gltf_json(CUBE_CORNERS, uri="m.bin")
     asset["images"] = [{"uri": "m.png"}]
     asset["extensions"] = {"EXT_structural_metadata": {"schemaUri": "m.schema"}, "KHR_audio_emitter": {"audio": [{"uri": "m.mp3"}]}}
@@ -137,6 +137,8 @@ def what_is_read(run):
     run.write("m.mp3", "ID3")
     run.write("m.gltf", asset)
     run.write("m.bin", data)
+    run.write("n.gltf", gltf_json(CUBE_CORNERS, uri="n.npy")[0])
+    run.write("n.npy", data)
     run.write("m.png", PNG)
     run.write("k.obj", "mtllib k.mtl\n" + CUBE)
     run.write("k.mtl", "newmtl a\nmap_Kd k.png\n")
@@ -145,7 +147,7 @@ def what_is_read(run):
               "end_header\n0 0 0\n")
     run.write("p.png", PNG)
     run.write("l.json", TWIST)
-    run.write("box.json", {**TWIST, "rest": {"box": {"meshes": ["m.gltf", "k.obj"]}, "margin": 0.1}})
+    run.write("box.json", {**TWIST, "rest": {"box": {"meshes": ["m.gltf", "k.obj", "n.gltf"]}, "margin": 0.1}})
     run.write("other.obj", CUBE)
     return {name: run.read(name) for name in run.names()}
 
@@ -158,20 +160,21 @@ def siege3_04_no_output_replaces_what_is_read(run):
     box = "is a file of the meshes that the box of box.json goes round"
     named = "is a file that is named by the input m.gltf"
     outputs = [("m.bin", "m.gltf", buffer), ("m.schema", "m.gltf", named), ("m.mp3", "m.gltf", named), ("m.png", "m.gltf", resource + "m.gltf"), ("k.mtl", "k.obj", resource + "k.obj"),
-               ("k.png", "k.obj", resource + "k.obj"), ("p.png", "p.ply", resource + "p.ply")]
+               ("k.png", "k.obj", resource + "k.obj"), ("p.png", "p.ply", resource + "p.ply"), ("n.npy", "n.gltf", "is a buffer of the input n.gltf")]
     for output, mesh, told in outputs:
         told = f"{output}: {told} and is not overwritten"
         for to in ("obj", "ply", "off", "stl", "glb", "gltf"):
             run.ffd("deform", mesh, output, "-l", "l.json", "--output-format", to, "--force", code=IO, err=told)
-        run.ffd("embed", mesh, "-l", "l.json", "-o", output, "--force", code=IO, err=told)
-        run.ffd("embed", mesh, "-l", "l.json", "-o", "e.npy", "--status", output, "--force", code=IO, err=told)
+        for arrays in (["-o", output], ["-o", "e.npy", "--status", output]):
+            run.ffd("embed", mesh, "-l", "l.json", *arrays, "--force",
+                    **({"code": IO, "err": told} if output == "n.npy" else {"code": USAGE, "err": f"{output}: must end in .npy: it is an array"}))
         run.ffd("lattice", "new", "other.obj", mesh, "-o", output, "--force", code=IO, err=told)
         run.write("m.jsonl", json.dumps({"in": mesh, "lattice": "l.json", "out": output, "options": {"output-format": "obj", "force": True}}))
         run.ffd("batch", "m.jsonl", "-q", code=NO, err=lambda said, told=told: check(told in said[0], said))
         run.remove("m.jsonl")
-    for output in ("m.bin", "m.gltf", "k.obj"):
-        for arguments in (["deform", "other.obj", output, "--output-format", "obj"], ["embed", "other.obj", "-o", output]):
-            run.ffd(*arguments, "-l", "box.json", "--force", code=IO, err=f"{output}: {box} and is not overwritten")
+    for output in ("m.bin", "m.gltf", "k.obj", "n.npy"):
+        run.ffd("deform", "other.obj", output, "--output-format", "obj", "-l", "box.json", "--force", code=IO, err=f"{output}: {box} and is not overwritten")
+    run.ffd("embed", "other.obj", "-o", "n.npy", "-l", "box.json", "--force", code=IO, err=f"n.npy: {box} and is not overwritten")
     equal({name: run.read(name) for name in run.names() if name != "cache"}, kept)
     # What is read is not replaced where a link leads to it either; a mesh in place may stand in the box.
     os.symlink("m.bin", run.path("link"))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The figures of data/tutorial.md are what the program computes.
+"""The figures of data/tutorial.md and data/README.md are what the program computes, and so is what they say of the sample lattices.
 
     test_figures.py FFD SOURCE
 """
@@ -189,8 +189,127 @@ def errors_of_differences(place):
         near(of_stl, stated[1], f"the derivative of an STL by a step of {step}")
 
 
+def sample_lattice(place, name):
+    with open(os.path.join(place.source, "data/lattices", name), encoding="utf-8") as file:
+        return json.load(file)
+
+
+def moved_vase(place, lattice):
+    """The vase at rest and deformed, its lowest and its highest vertices at rest."""
+    place.write("of-vase.json", json.dumps(lattice))
+    place.run("deform", place.model("vase.obj"), "moved-vase.obj", "-l", "of-vase.json", "--force")
+    rest = place.points(place.model("vase.obj"))
+    heights = [p[1] for p in rest]
+    ends = [[i for i, height in enumerate(heights) if height == end] for end in (min(heights), max(heights))]
+    return rest, place.points("moved-vase.obj"), ends
+
+
+def sample_lattices_on_a_vase(place):
+    """What data/README.md says of the foot and of the top."""
+    with open(os.path.join(place.source, "data/README.md"), encoding="utf-8") as file:
+        place.pages = file.read()
+    rest, moved, (foot, _) = moved_vase(place, sample_lattice(place, "taller.json"))
+    if any(rest[i] != moved[i] for i in foot):
+        sys.exit("taller.json moves the foot")
+    height = [max(p[1] for p in points) - min(p[1] for p in points) for points in (rest, moved)]
+    near(height[1] / height[0], place.stated(r"makes it ([\d.]+) times as tall; the foot stays")[0], "the height of taller.json")
+    for tall in (0.8, 1.3):
+        sweep = re.search(r"```json sweep\.json\n(.*?)```", pages(place.source), re.S)[1]
+        for name, value in (("GIRTH", 1), ("HEIGHT", tall), ("DEGREES", 0)):
+            sweep = sweep.replace('{"$": "%s"}' % name, str(value))
+        rest, moved, (foot, _) = moved_vase(place, json.loads(sweep))
+        if any(rest[i] != moved[i] for i in foot):
+            sys.exit(f"sweep.json moves the foot of a variant of height {tall}")
+
+    rest, moved, ends = moved_vase(place, sample_lattice(place, "wind.json"))
+    foot, top = (max(math.dist(rest[i], moved[i]) for i in end) for end in ends)
+    near(foot / top, place.stated(r"the top moves by a (\d+)th of what the foot does")[0], "the top of wind.json")
+
+    rest, moved, ends = moved_vase(place, sample_lattice(place, "twist.json"))
+    turns = [math.degrees(math.atan2(moved[end[0]][0], moved[end[0]][2]) - math.atan2(rest[end[0]][0], rest[end[0]][2]))
+             for end in ends]
+    near((turns[1] - turns[0]) % 360, place.stated(r"top against its foot by (\d+) of the 120 degrees")[0], "the turn of twist.json")
+
+    rest, moved, ends = moved_vase(place, sample_lattice(place, "taper.json"))
+    foot, top = (100 * math.hypot(moved[i][0], moved[i][2]) / math.hypot(rest[i][0], rest[i][2]) for i in (end[0] for end in ends))
+    stated = place.stated(r"narrows its top to (\d+) percent and its foot to (\d+)")
+    near(top, stated[0], "the top of taper.json")
+    near(foot, stated[1], "the foot of taper.json")
+
+
+def turned(value, key=None, fractions=False):
+    """A lattice for y up as data/README.md says to turn it: z is up, and -y the front."""
+    if isinstance(value, dict):
+        fractions = fractions or value.get("units") == "box"
+        result = {key: turned(member, key, fractions) for key, member in value.items()}
+        if "min" in result:
+            result["min"][1], result["max"][1] = result["max"][1], result["min"][1]
+        return result
+    if key == "moves":
+        return [turned(move, None, fractions) for move in value]
+    if key in ("axis", "toward") and isinstance(value, str):
+        return {"x": "x", "y": "z", "z": [0, -1, 0]}[value]
+    if key == "mirror":
+        return {"x": "x", "y": "z", "z": "y"}[value]
+    if not isinstance(value, list):
+        return value
+    if key == "at":
+        def other_end(layers):
+            return layers if layers == "all" else [-1 - layers[1], -1 - layers[0]] if isinstance(layers, list) else -1 - layers
+        return [value[0], other_end(value[2]), value[1]]
+    if key in ("size", "degree", "knots", "margin", "factor"):
+        return [value[0], value[2], value[1]]
+    if key in ("about", "point", "center", "min", "max", "to") and fractions:
+        return [value[0], 1 - value[2], value[1]]
+    if key in ("by", "to", "toward", "point", "center", "about", "axis", "min", "max"):
+        return [value[0], -value[2], value[1]]
+    sys.exit(f"no rule for {key}")
+
+
+# Each kind of member that the rule names; the sample lattices have no layers along z.
+ALL_MEMBERS = {"format": "ffd-lattice", "version": 1, "size": [4, 6, 5], "degree": [3, 2, 3], "knots": ["clamped", "open", "clamped"],
+               "rest": {"box": "mesh", "margin": [0.05, 0.1, 0.2]},
+               "moves": [{"at": [[1, 2], [0, 3], [0, 1]], "by": [0.01, 0.02, 0.05]},
+                         {"at": ["all", "all", 4], "scale": {"factor": [1.1, 1.2, 1.3], "about": [0.1, 0.2, 0.3]}},
+                         {"mirror": "z", "pull": {"point": [0.1, 0.2, 0.4], "by": [0.02, 0.1, 0.1], "radius": 0.8}},
+                         {"falloff": {"center": [0, 0.3, 0.5], "radius": 1.0}, "rotate": {"axis": "z", "degrees": 20}},
+                         {"falloff": {"axis": "y", "from": 1, "to": -0.5}, "twist": {"axis": [0.1, 1, 0.3], "degrees": 30}},
+                         {"bend": {"axis": "x", "toward": "z", "degrees": 25}}]}
+
+
+def lattices_turned_for_z_up(place):
+    """A turned lattice does to the turned mesh what the lattice does to the mesh."""
+    def turn(points):
+        return [(x, -z, y) for x, y, z in points]
+
+    def write(name, points):
+        place.write(name, "".join("v %r %r %r\n" % point for point in points))
+
+    names = [name for name in sorted(os.listdir(os.path.join(place.source, "data/lattices"))) if name.endswith(".json")]
+    # A cylinder and a matrix are turned by hand.
+    lattices = {name: sample_lattice(place, name) for name in names if name not in ("bend-cylinder.json", "overlap.json")}
+    lattices["all-members.json"] = ALL_MEMBERS
+    lattices["box.json"] = {**ALL_MEMBERS, "units": "box"}
+    rest = place.points(place.model("spot.obj"))
+    tall = [(x, 2 + y, z) for x, y, z in rest]
+    for name, lattice in lattices.items():
+        # A cow that stands in the box of a knight's head too.
+        points = tall if name == "big-head.json" else rest
+        write("up-y.obj", points)
+        write("up-z.obj", turn(points))
+        place.write("up-y.json", json.dumps(lattice))
+        place.write("up-z.json", json.dumps(turned(lattice)))
+        for up in ("y", "z"):
+            place.run("deform", f"up-{up}.obj", f"out-{up}.obj", "-l", f"up-{up}.json", "--force")
+        expected, found = turn(place.points("out-y.obj")), place.points("out-z.obj")
+        worst = max(math.dist(p, q) for p, q in zip(expected, found))
+        if place.points("out-y.obj") == points or worst > 1e-12:
+            sys.exit(f"{name}: turned for z up it moves a vertex {worst} away from where it belongs")
+
+
 def main():
-    checks = (turn_of_the_column, exact_corners, outer_layers, falloff_that_folds, errors_of_differences)
+    checks = (turn_of_the_column, exact_corners, outer_layers, falloff_that_folds, errors_of_differences, sample_lattices_on_a_vase,
+              lattices_turned_for_z_up)
     for check in checks:
         with tempfile.TemporaryDirectory(prefix="ffd-test-") as folder:
             check(Place(*sys.argv[1:], folder))

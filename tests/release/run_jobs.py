@@ -115,6 +115,8 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--every", type=int, default=1)
     parser.add_argument("--without", default="")
+    parser.add_argument("--other-order", action="store_true",
+                        help="the machine's byte order is another one, which arrays have too: those are made, but not compared")
     parser.add_argument("--write", action="store_true")
     parser.add_argument("--verbose", action="store_true")
     parser.add_argument("program", nargs=argparse.REMAINDER)
@@ -138,7 +140,7 @@ def main():
                 print(f"{found} {command}\n    {did}")
             if options.write:
                 jobs[i][0] = found
-            elif found != wanted:
+            elif found != wanted and not (options.other_order and ".npy" in did):
                 failed += 1
                 print(f"{command}\n    {did}")
     if options.write:

@@ -29,7 +29,7 @@ LAYERS = {
     },
     "io/gltf/file": {"base", "base/file", "base/memory", "base/text", "json"},
     "io/gltf/read": {
-        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/file", "io/text",
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/file",
         "json", "mesh", "mesh/meshopt",
     },
     "io/gltf/model": {
@@ -43,7 +43,7 @@ LAYERS = {
         "io/gltf/model", "io/gltf/read", "json", "mesh/resource",
     },
     "io/gltf": {
-        "base", "base/file", "base/memory", "base/system", "base/vector", "io/gltf/edit", "io/gltf/file",
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/edit", "io/gltf/file",
         "io/gltf/model", "io/gltf/read", "io/gltf/write", "json", "mesh", "mesh/resource",
     },
     "io/openmesh": {"base/memory", "base/system", "base/vector", "mesh"},
@@ -58,7 +58,7 @@ LAYERS = {
         "mesh/resource", "splat",
     },
     "io/stl": {"base", "base/memory", "base/system", "base/text", "base/vector", "io/text", "mesh"},
-    "io": {"base", "base/file", "base/memory", "io/gltf", "io/obj", "io/off", "io/ply", "io/stl", "io/text", "mesh"},
+    "io": {"base", "base/file", "base/memory", "base/text", "io/gltf", "io/obj", "io/off", "io/ply", "io/stl", "mesh"},
     "io/write": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/file", "io/stl", "json",
         "mesh", "mesh/morph", "mesh/resource",

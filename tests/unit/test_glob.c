@@ -1,4 +1,5 @@
 /* test_glob.c - patterns find the files that those of the C library find, and characters beyond ASCII. */
+#define _GNU_SOURCE /* RTLD_NEXT */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -8,10 +9,29 @@
 #include "../support/draw.h"
 #include "../support/repetitions.h"
 #include "../support/test_folder.h"
+#include "base/file/folder.h"
 #include "base/file/glob.h"
 #include "base/file/pattern.h"
+#include <dirent.h>
+#include <dlfcn.h>
+#include <errno.h>
 #include <glob.h>
 #include <sys/stat.h>
+
+/* Instead of that of the C library: a disk that fails after so many entries; 0: it does not. */
+static int entries_left;
+
+struct dirent *readdir(DIR *open)
+{
+    static struct dirent *(*next)(DIR *);
+    if (!next)
+        *(void **)&next = dlsym(RTLD_NEXT, sizeof(long) == 8 ? "readdir" : "readdir64");
+    if (entries_left > 0 && --entries_left == 0) {
+        errno = EIO;
+        return NULL;
+    }
+    return next(open);
+}
 
 static bool matches(const char *pattern, const char *name)
 {
@@ -161,12 +181,39 @@ static void patterns_find_what_those_of_the_c_library_find(void **state)
     check("");
 }
 
+static void a_list_that_a_disk_breaks_off_is_an_error(void **state)
+{
+    static const char *const names[] = {"disk/1.obj", "disk/2.obj", "disk/3.obj", "disk/4.obj"};
+    path_list found = {0};
+    ffd_error error;
+    (void)state;
+    assert_int_equal(mkdir(in_folder("disk"), 0700), 0);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        fclose(fopen(in_folder(names[i]), "w"));
+    char made[256], pattern[256];
+    snprintf(made, sizeof made, "%s", in_folder("disk"));
+    snprintf(pattern, sizeof pattern, "%s", in_folder("disk/*.obj"));
+    assert_int_equal(ffd_folder_list(made, &found, &error), FFD_OK);
+    assert_int_equal(found.count, 6); /* with . and .. */
+    for (int left = 1; left <= 7; left++) {
+        entries_left = left;
+        assert_int_equal(ffd_folder_list(made, &found, &error), FFD_E_IO);
+        entries_left = left;
+        assert_int_equal(ffd_folder_walk(made, &found, &error), FFD_E_IO);
+        entries_left = left;
+        assert_int_equal(ffd_glob(pattern, &found, &error), FFD_E_IO);
+        assert_non_null(strstr(error.message, "to its end"));
+    }
+    entries_left = 0;
+    ffd_paths_free(&found);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(characters_are_those_of_utf8),
-        cmocka_unit_test_setup_teardown(patterns_find_what_those_of_the_c_library_find, make_folder,
-                                        remove_folder),
+        cmocka_unit_test_setup(patterns_find_what_those_of_the_c_library_find, make_folder),
+        cmocka_unit_test_teardown(a_list_that_a_disk_breaks_off_is_an_error, remove_folder),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

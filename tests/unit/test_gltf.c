@@ -428,7 +428,8 @@ static void broken_glb_is_refused(void **state)
         const char *message;
     } cases[] = {
         {"", 0, "t.glb: is not a GLB file: it does not start with \"glTF\""},
-        {"{}", 2, "t.glb: is not a GLB file: it does not start with \"glTF\""},
+        {"{}", 2, "t.glb: is a glTF file in JSON, not a GLB file: its name must end in .gltf"},
+        {"glT", 3, "t.glb: is not a GLB file: it does not start with \"glTF\""},
         {"glTF\2\0\0\0", 8, "t.glb: GLB: the file has 8 bytes, less than its header"},
         {"glTF\2\0\0\0\15\0\0\0", 12, "t.glb: GLB: the header states a size of 13, the file has 12 bytes"},
         {"glTF\2\0\0\0\14\0\0\0", 12, "t.glb: GLB: the header of the chunk at byte 12 is cut off"},

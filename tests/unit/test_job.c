@@ -8,7 +8,9 @@
 
 #include "../support/job_description.h"
 #include "../support/test_folder.h"
+#include "base/file/input.h"
 #include "base/memory/memory.h"
+#include "job/report/depfile.h"
 #include <ffd/job.h>
 #include <math.h>
 #include <pthread.h>
@@ -466,6 +468,43 @@ static void outputs_are_listed(void **state)
     assert_int_equal(remove(output), 0);
 }
 
+/* Appends a rule to a depfile as a job does that is about to place its output. */
+static void offer(ffd_depfile *depfile, const char *text, bool is_placed)
+{
+    byte_buffer rule = {0};
+    ffd_buffer_text(&rule, text);
+    assert_int_equal(ffd_depfile_offer(depfile, &rule, NULL), FFD_OK);
+    if (!is_placed)
+        ffd_depfile_withdraw(depfile, &rule);
+    ffd_buffer_free(&rule);
+}
+
+/* The rule of an output that could not be placed, first, between others, or last. */
+static void rules_that_are_withdrawn_are_not_written(void **state)
+{
+    static const char *const rules[] = {"a: b\n", "c.obj: d.obj l.json\n", "e: f\n"};
+    for (unsigned placed = 0; placed < 8; placed++) {
+        ffd_depfile *depfile;
+        file_input found;
+        byte_buffer expected = {0};
+        assert_int_equal(ffd_depfile_create(in_folder("d"), &depfile, NULL), FFD_OK);
+        for (unsigned i = 0; i < 3; i++) {
+            offer(depfile, rules[i], placed >> i & 1);
+            ffd_buffer_text(&expected, placed >> i & 1 ? rules[i] : "");
+        }
+        assert_int_equal(ffd_depfile_write(depfile, NULL), FFD_OK);
+        ffd_depfile_destroy(&depfile);
+        assert_int_equal(ffd_file_load(in_folder("d"), &found, NULL), FFD_OK);
+        assert_int_equal(found.size, expected.size);
+        if (found.size > 0)
+            assert_memory_equal(found.data, expected.data, found.size);
+        ffd_file_unload(&found);
+        ffd_buffer_free(&expected);
+        unlink(in_folder("d"));
+    }
+    (void)state;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -480,6 +519,7 @@ int main(void)
         cmocka_unit_test(the_caller_watches_a_job),
         cmocka_unit_test(the_caller_cancels_a_job),
         cmocka_unit_test(outputs_are_listed),
+        cmocka_unit_test(rules_that_are_withdrawn_are_not_written),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -268,7 +268,8 @@ static void rows_of_a_table_become_jobs(void **state)
             assert_string_equal(job.desc.set[1].value, values[i][1]);
         } else {
             assert_string_equal(job.error.message, i == 2 ? "the row has 3 cells, but the table has 4 columns"
-                                                          : "not a valid CSV row");
+                                                          : "not a valid CSV row: a quote stands beside "
+                                                            "other characters of its cell");
         }
         ffd_job_free(&job);
     }

@@ -27,7 +27,7 @@
 enum { PATH = 128 };
 
 static const char *corpus;
-static char lattice[PATH], input[PATH], output[PATH], comparison_file[PATH];
+static char lattice[PATH], input[PATH], output[PATH], array[PATH], comparison_file[PATH];
 
 typedef ffd_status job(ffd_error *error);
 
@@ -117,7 +117,7 @@ static ffd_status run_embed(ffd_error *error)
     ffd_embed_desc_init(&desc, sizeof desc);
     desc.input.path = input;
     desc.lattice.path = lattice;
-    desc.output = output;
+    desc.output = array;
     desc.threads = 1;
     return ffd_embed_run(&desc, &result, error);
 }
@@ -202,6 +202,7 @@ static size_t fail_everywhere(const char *name, job *run, void (*fail_after)(lon
             fail_msg("%s, failure after %ld: a file is left", name, successes);
     }
     unlink(output);
+    unlink(array);
     return failures;
 }
 
@@ -224,6 +225,7 @@ static void take_input(const char *format, const char *name)
     ffd_file_unload(&file);
     snprintf(own, sizeof own, "o.%s", format);
     path_of(own, output);
+    path_of("u.npy", array);
 }
 
 static const struct {

@@ -92,7 +92,8 @@ static void deform(sample *s)
 
 static uint64_t flipped(const sample *s)
 {
-    return ffd_quality_flipped(&s->faces, s->deformed, s->gradients);
+    const face_motion motion = {s->faces.positions, s->deformed, s->gradients, NULL};
+    return ffd_quality_flipped(&s->faces, &motion);
 }
 
 static edge_quality measure(const sample *s, int threads)

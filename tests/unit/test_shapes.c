@@ -587,7 +587,7 @@ static void bad_lattice_descriptions_are_refused(void **state)
     desc.knots[0] = FFD_KNOTS_OPEN;
     assert_int_equal(ffd_lattice_create(&desc, points, 2, &l, &error), FFD_E_ARGUMENT);
     assert_string_equal(error.message,
-                        "uniform spacing needs clamped knots, which direction u does not have");
+                        "spacing = uniform needs knots = clamped, which direction u does not have");
     desc = good;
     desc.shape = FFD_SHAPE_CYLINDER;
     desc.axis[2] = 0;

@@ -1,6 +1,6 @@
 /* test_turns.c - no point at which a displacement turns space inside out is passed over: moves are scaled
    until det F falls just below 0 at some of the points, which are those of a small box, of a cell, or of
-   several cells of one or more blocks. */
+   several cells of one or more blocks. Nor is one at which it collapses space, where det F is a rounding. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,6 +11,7 @@
 #include "../support/lattice_by_hand.h"
 #include "../support/repetitions.h"
 #include "base/vector/vec.h"
+#include "deform/collapse.h"
 #include "deform/displacement.h"
 #include <math.h>
 #include <stdio.h>
@@ -249,6 +250,123 @@ static void no_block_is_taken_for_another(void **state)
     (void)state;
 }
 
+/* Moves the control points towards a plane, an axis or a point, through or near `through`: `left` of their
+   distances is left. flat: the dimensions that are lost. */
+static void flatten(draw *d, int flat, bool is_aligned, const double through[3], double left,
+                    ffd_lattice *lattice)
+{
+    double across[3][3];
+    for (int a = 0; a < 3; a++)
+        across[0][a] = is_aligned ? (a == 1) : draw_between(d, -1, 1);
+    const double least[3] = {across[0][1], across[0][2], across[0][0] + 0.5};
+    vec_cross(across[0], least, across[1]);
+    vec_cross(across[0], across[1], across[2]);
+    for (size_t n = 0; n < lattice->count; n++) {
+        double *const q = lattice->deformed + 3 * n;
+        memcpy(q, lattice->rest + 3 * n, 3 * sizeof *q);
+        for (int f = 0; f < flat; f++) {
+            const double *const v = across[f];
+            const double from[3] = {q[0] - through[0], q[1] - through[1], q[2] - through[2]};
+            const double off = (1 - left) * vec_dot(from, v) / vec_dot(v, v);
+            for (int a = 0; a < 3; a++)
+                q[a] -= off * v[a];
+        }
+    }
+    assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
+}
+
+static void stay_in_place(const double g[3], double out[3])
+{
+    memcpy(out, g, 3 * sizeof *out);
+}
+
+/* Puts the control points of a box to where its frame says, and moves those of any lattice. */
+static void place(ffd_lattice *lattice, const double by[3])
+{
+    if (lattice->form == REST_BOX_AFFINE)
+        lattice_map(lattice, stay_in_place);
+    for (size_t n = 0; n < lattice->count; n++) {
+        double *const p = lattice->rest + 3 * n;
+        if (lattice->form == REST_BOX_AFFINE)
+            mat_apply(lattice->frame, p, p);
+        for (int a = 0; a < 3; a++)
+            p[a] += by[a];
+    }
+}
+
+/* Lists the points at which a lattice may turn, and counts those of them at which it collapses space. */
+static size_t count_collapses(const ffd_lattice *lattice, ffd_isa isa, sample *s)
+{
+    const displacement_batch batch = {.uvw = s->uvw,
+                                      .stride = 3 * sizeof *s->uvw,
+                                      .which = s->which,
+                                      .count = s->count,
+                                      .delta = s->delta,
+                                      .gradient = s->gradient,
+                                      .turns = &s->turns,
+                                      .only_turns = true,
+                                      .moves = s->moves};
+    size_t collapses = 0;
+    s->turns.count = 0;
+    ffd_displacement_scratch_clear(&s->scratch);
+    ffd_displacements(lattice, isa, &batch, &s->scratch);
+    for (size_t k = 0; k < s->turns.count; k++) {
+        const size_t n = s->turns.points[k];
+        collapses += ffd_collapses(lattice, s->uvw + 3 * n, NULL, 0, s->gradient + 9 * n);
+    }
+    return collapses;
+}
+
+/* Whether the rest volume has a place for every point: not where random points lie so that it has none. */
+static bool is_solid(const ffd_lattice *lattice, const sample *s)
+{
+    double point[3], jacobian[9], least = HUGE_VAL;
+    for (size_t n = 0; n < s->count; n++) {
+        ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, s->uvw + 3 * n, point, jacobian);
+        least = lesser_of(least, fabs(mat_determinant(jacobian)));
+    }
+    return least > 1;
+}
+
+/* In boxes and bent lattices, also far from the origin, where det F is a larger rounding. What is 1e-6 times
+   as flat as before, or far from the origin 1e-2 times, has a sign that means something. */
+static void no_collapse_is_passed_over(void **state)
+{
+    draw d = {draw_seed()};
+    sample *s = calloc(1, sizeof *s);
+    int solid = 0;
+    assert_non_null(s);
+    for (int i = 0; i < repetitions(LATTICES); i++) {
+        const random_moves moves = draw_moves(&d);
+        const bool is_far = draw_int(&d, 0, 1);
+        const ffd_isa isa = i % 3 ? FFD_ISA_AUTO : FFD_ISA_SCALAR;
+        double away[3], through[3];
+        ffd_lattice *lattice = random_lattice(&d, i % 2, &moves);
+        for (int a = 0; a < 3; a++) {
+            away[a] = is_far ? draw_between(&d, -1, 1) * 1e5 : 0;
+            through[a] = away[a] + draw_between(&d, -1, 4);
+        }
+        place(lattice, away);
+        random_points(&d, lattice, moves.layers, s);
+        const int flat = draw_int(&d, 1, 3);
+        flatten(&d, flat, i % 5 == 0, through, 0, lattice);
+        if (!is_solid(lattice, s)) {
+            ffd_lattice_destroy(&lattice);
+            continue;
+        }
+        const size_t collapses = count_collapses(lattice, isa, s);
+        solid++;
+        if (collapses != s->count)
+            fail_msg("%zu of %zu points collapse (%d dimensions)", collapses, s->count, flat);
+        flatten(&d, flat, i % 5 == 0, through, is_far ? 1e-2 : 1e-6, lattice);
+        assert_int_equal(count_collapses(lattice, isa, s), 0);
+        ffd_lattice_destroy(&lattice);
+    }
+    free(s);
+    assert_true(solid > repetitions(LATTICES) / 2);
+    (void)state;
+}
+
 /* Of a ring of five points, from any of them on; no cell reaches further than twice round. */
 static void a_block_goes_round_more_than_once(void **state)
 {
@@ -272,8 +390,8 @@ static void a_block_goes_round_more_than_once(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_block_goes_round_more_than_once),
-                                       cmocka_unit_test(no_turn_is_passed_over),
-                                       cmocka_unit_test(no_block_is_taken_for_another)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_block_goes_round_more_than_once), cmocka_unit_test(no_turn_is_passed_over),
+        cmocka_unit_test(no_block_is_taken_for_another), cmocka_unit_test(no_collapse_is_passed_over)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

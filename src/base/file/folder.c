@@ -1,5 +1,6 @@
 #define _XOPEN_SOURCE 700 /* realpath, readlink */
 #include "base/file/folder.h"
+#include "base/file/folder_entries.h"
 #include "base/file/input.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
@@ -121,14 +122,27 @@ static int compare(const void *a, const void *b)
     return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
+ffd_status ffd_folder_next(DIR *folder, const char *path, const struct dirent **entry, ffd_error *error)
+{
+    errno = 0;
+    *entry = readdir(folder);
+    return *entry || !errno ? FFD_OK
+                            : ffd_fail_file(error, FFD_E_IO, path,
+                                            "cannot be read to its end as a folder: %s", strerror(errno));
+}
+
 ffd_status ffd_folder_list(const char *path, path_list *names, ffd_error *error)
 {
     DIR *const folder = opendir(path);
     const struct dirent *entry;
     const size_t before = names->count;
     ffd_status status = FFD_OK;
-    while (folder && (entry = readdir(folder)) != NULL)
+    while (folder) {
+        TRY_END(ffd_folder_next(folder, path, &entry, error));
+        if (!entry)
+            break;
         TRY_END(ffd_paths_add(names, entry->d_name, error));
+    }
 end:
     if (folder)
         closedir(folder);
@@ -165,7 +179,10 @@ static ffd_status read_below(const char *top, const char *name, path_list *files
     ffd_status status =
         folder ? FFD_OK
                : ffd_fail_file(error, FFD_E_IO, path, "cannot be read as a folder: %s", strerror(errno));
-    while (!status && (entry = readdir(folder)) != NULL) {
+    while (!status) {
+        status = ffd_folder_next(folder, path, &entry, error);
+        if (status || !entry)
+            break;
         if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0)
             continue;
         char *const below = *name ? ffd_path_join(name, entry->d_name) : ffd_text_copy(entry->d_name);

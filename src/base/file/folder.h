@@ -18,8 +18,8 @@ bool ffd_folder_is_there(const char *path);
 ffd_status ffd_folder_check(const char *path, ffd_error *error);
 /* Removes the folders that ffd_folder_make created, as far as they are empty. Shortens path. */
 void ffd_folder_unmake(char *path, size_t made);
-/* Adds the names of the entries of a folder, sorted by bytes; none if it cannot be read. Errors:
-   FFD_E_MEMORY. */
+/* Adds the names of the entries of a folder, sorted by bytes; none if it cannot be opened. Errors:
+   FFD_E_MEMORY, FFD_E_IO (it cannot be read to its end). */
 ffd_status ffd_folder_list(const char *path, path_list *names, ffd_error *error);
 /* Adds the files in a folder and in those below it, as paths relative to it with '/', sorted by bytes. Links
    to files count, links to folders are not followed. Errors: FFD_E_IO (it, or one below it, is no folder that

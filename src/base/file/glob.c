@@ -1,4 +1,5 @@
 #include "base/file/glob.h"
+#include "base/file/folder_entries.h"
 #include "base/file/path.h"
 #include "base/file/pattern.h"
 #include "base/memory/memory.h"
@@ -92,9 +93,13 @@ static ffd_status find_entries(const search *of, const char *path, const char *r
                    : ffd_fail_file(error, FFD_E_IO, of->pattern, "a folder cannot be read: %s",
                                    strerror(errno));
     ffd_status status = FFD_OK;
-    while (!status && !ffd_interrupt_requested() && (entry = readdir(folder)) != NULL)
+    while (!status && !ffd_interrupt_requested()) {
+        status = ffd_folder_next(folder, of->pattern, &entry, error);
+        if (status || !entry)
+            break;
         if (ffd_pattern_matches(rest, part.name, entry->d_name))
             status = take_entry(of, path, entry->d_name, rest + part.name, rest + part.wild, error);
+    }
     closedir(folder);
     return status;
 }

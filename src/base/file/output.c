@@ -491,6 +491,12 @@ static ffd_status check_written(const file_output *output, ffd_error *error)
     return FFD_OK;
 }
 
+ffd_status ffd_output_flush(file_output *output, ffd_error *error)
+{
+    TRY(flush(output, error));
+    return check_written(output, error);
+}
+
 void ffd_output_keep_equal(file_output *output)
 {
     output->keeps_equal = true;

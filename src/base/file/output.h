@@ -39,6 +39,8 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
 ffd_status ffd_output_folder(file_output *output, const char *path, ffd_error *error);
 /* Appends bytes to the file begun last. */
 ffd_status ffd_output_write(file_output *output, const void *bytes, size_t size, ffd_error *error);
+/* Hands all bytes written so far to the system, so that a full disk or device is known now. */
+ffd_status ffd_output_flush(file_output *output, ffd_error *error);
 /* Lets the commit keep the file begun last open for reading and writing, and locked. Returns its descriptor,
    which ffd_output_destroy closes. */
 int ffd_output_keep_open(file_output *output);

@@ -1,6 +1,5 @@
 #include "base/text/stand_in.h"
 #include <stdbool.h>
-#include <stdio.h>
 #include <string.h>
 
 /* Whether data begins with a text in small letters. A byte of the text may be above 127. */
@@ -34,12 +33,4 @@ const char *ffd_stand_in(const void *data, size_t size)
         if (begins(at + first, size - first, known[i].start))
             return known[i].name;
     return NULL;
-}
-
-void ffd_stand_in_describe(const void *data, size_t size, ffd_error *error)
-{
-    const char *const name = error && error->status == FFD_E_INVALID ? ffd_stand_in(data, size) : NULL;
-    const size_t length = name ? strlen(error->message) : 0;
-    if (name)
-        snprintf(error->message + length, sizeof error->message - length, "; it seems to be %s", name);
 }

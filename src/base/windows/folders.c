@@ -233,13 +233,17 @@ DIR *opendir(const char *path)
 
 struct dirent *readdir(DIR *folder)
 {
-    if (folder->search == INVALID_HANDLE_VALUE ||
-        (!folder->is_first && !FindNextFileW(folder->search, &folder->found)))
-        return NULL;
-    folder->is_first = false;
-    return ffd_utf8_into(folder->found.cFileName, folder->entry.d_name, sizeof folder->entry.d_name)
-               ? &folder->entry
-               : NULL;
+    while (folder->search != INVALID_HANDLE_VALUE) {
+        if (!folder->is_first && !FindNextFileW(folder->search, &folder->found)) {
+            if (GetLastError() != ERROR_NO_MORE_FILES)
+                ffd_set_errno();
+            return NULL;
+        }
+        folder->is_first = false;
+        if (ffd_utf8_into(folder->found.cFileName, folder->entry.d_name, sizeof folder->entry.d_name))
+            return &folder->entry; /* one that is no Unicode can have no name here */
+    }
+    return NULL;
 }
 
 int closedir(DIR *folder)

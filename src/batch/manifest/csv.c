@@ -42,9 +42,10 @@ bool ffd_csv_is_open(csv_scan *scan, const char *separators, const char *text, s
         const char c = text[scan->at];
         if (scan->state == CSV_QUOTED)
             scan->state = c == '"' ? CSV_QUOTE_ENDS : CSV_QUOTED;
-        else if (c == '"' && (scan->state == CSV_CELL_BEGINS || scan->state == CSV_QUOTE_ENDS))
+        else if (c == '"' && (scan->state == CSV_CELL_BEGINS || scan->state == CSV_QUOTE_ENDS)) {
+            scan->opened = scan->state == CSV_CELL_BEGINS ? scan->at : scan->opened;
             scan->state = CSV_QUOTED; /* opening quote, or the second of a doubled one */
-        else if (c && strchr(separators, c) && scan->state != CSV_BROKEN)
+        } else if (c && strchr(separators, c) && scan->state != CSV_BROKEN)
             scan->state = CSV_CELL_BEGINS;
         else if (c == ' ' || c == '\t')
             scan->state = scan->state == CSV_QUOTE_ENDS ? CSV_CELL_ENDS : scan->state;

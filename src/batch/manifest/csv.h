@@ -18,7 +18,7 @@ typedef enum csv_way { CSV_IN_QUOTES = 1, CSV_HAD_BLANKS = 2 } csv_way;
 
 /* State of a scan; all zeros at the start. */
 typedef struct csv_scan {
-    size_t at;
+    size_t at, opened; /* opened: where the last quoted cell begins */
     enum { CSV_CELL_BEGINS, CSV_PLAIN, CSV_QUOTED, CSV_QUOTE_ENDS, CSV_CELL_ENDS, CSV_BROKEN } state;
 } csv_scan;
 

@@ -1,6 +1,7 @@
 #include "batch/manifest/job_rows.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "json/json_parse.h"
 #include "json/json_setting.h"
 #include <inttypes.h>
@@ -118,19 +119,46 @@ static void add_output(const job_commons *commons, const char *input, uint64_t o
     ffd_free(name);
 }
 
+/* Whether a path, relative to some folder, leads to a file outside of it; true too if memory runs out. */
+static bool leads_out(const char *path, job_description *job)
+{
+    char *const normal = ffd_path_normalize(path);
+    const bool out = !normal || ffd_path_is_absolute(path) || ffd_path_leads_out(normal);
+    job->texts.failed = job->texts.failed || !normal;
+    ffd_free(normal);
+    return out;
+}
+
+/* Adds an output that a cell names. A table that somebody else has made must not reach what is outside of
+   --out-dir. */
+static void add_named_output(const job_commons *commons, const char *cell, job_description *job)
+{
+    byte_buffer text = {0};
+    if (!commons->out_dir || !leads_out(cell, job)) {
+        add_path(job, JOB_OUTPUT, commons->out_dir ? commons->out_dir : commons->folder, cell);
+        return;
+    }
+    ffd_buffer_format(&text, SPELLED("\"out\" leads out of {out_dir}: \"%s\""), cell);
+    char *const wrong = ffd_buffer_finish(&text);
+    if (wrong)
+        ffd_description_add(job, JOB_WRONG, "out", wrong);
+    else
+        job->texts.failed = true;
+    ffd_free(wrong);
+}
+
 /* The columns "in", "out" and "lattice" are files; others are values of placeholders. Paths are relative to
    the table's folder, those of outputs to --out-dir. An empty cell says nothing; but one in quotes is a
    text. */
 static void describe_cell(const job_commons *commons, size_t i, const char *column, const char *cell,
                           char way, job_description *job, csv_flaw *flaw)
 {
-    const char *const out_dir = commons->out_dir;
     if (!*cell && !(way & CSV_IN_QUOTES))
         return;
     if (strcmp(column, "in") != 0 && strcmp(column, "out") != 0 && strcmp(column, "lattice") != 0)
         set_cell(commons, i, column, cell, job, flaw);
     else if (*cell && *column == 'o')
-        add_path(job, JOB_OUTPUT, out_dir ? out_dir : commons->folder, cell);
+        add_named_output(commons, cell, job);
     else if (*cell)
         add_path(job, *column == 'i' ? JOB_INPUT : JOB_LATTICE, commons->folder, cell);
 }
@@ -148,7 +176,8 @@ void ffd_describe_row(const job_commons *commons, const csv_row *columns, const 
     if (commons->input && !ffd_description_find(job, JOB_INPUT))
         ffd_description_add(job, JOB_INPUT, NULL, commons->input);
     const char *const input = ffd_description_find(job, JOB_INPUT);
-    if (commons->out_dir && input && !ffd_description_find(job, JOB_OUTPUT))
+    if (commons->out_dir && input && !ffd_description_find(job, JOB_OUTPUT) &&
+        !ffd_description_wrong(job, "out"))
         add_output(commons, input, ordinal, job);
     if (!ffd_description_find(job, JOB_LATTICE))
         add_lattices(job, commons);

@@ -1,4 +1,5 @@
 #include "batch/manifest/job_source.h"
+#include "base/file/folder.h"
 #include "base/file/glob.h"
 #include "base/file/input.h"
 #include "base/file/path.h"
@@ -7,6 +8,7 @@
 #include "base/memory/memory.h"
 #include "base/spelling.h"
 #include "base/system/interrupt.h"
+#include "base/text/content.h"
 #include "base/text/words.h"
 #include "batch/manifest/job_rows.h"
 #include "batch/manifest/lines.h"
@@ -166,7 +168,12 @@ end:
 
 static ffd_status find_files(job_source *source, ffd_error *error)
 {
-    TRY(ffd_glob(source->desc.pattern, &source->files, error));
+    const char *const pattern = source->desc.pattern;
+    if (ffd_folder_is_there(pattern))
+        return ffd_fail_file(
+            error, FFD_E_IO, pattern, "is a folder: name its meshes by a pattern, such as '%.*s/*.obj'",
+            (int)(strlen(pattern) - ffd_is_separator(pattern[strlen(pattern) - 1])), pattern);
+    TRY(ffd_glob(pattern, &source->files, error));
     if (ffd_interrupt_requested())
         return FFD_OK;
     if (source->files.count == 0)
@@ -199,6 +206,9 @@ static ffd_status open_text(job_source *source, const char *path, ffd_error *err
 
 static ffd_status open_table(job_source *source, ffd_error *error)
 {
+    if (ffd_format_from_name(source->desc.table) != FFD_FORMAT_AUTO)
+        return ffd_fail_file(error, FFD_E_INVALID, source->desc.table,
+                             "has the ending of a mesh, not of a table");
     const ffd_status status = open_text(source, source->desc.table, error);
     source->table.reader = &source->reader;
     source->table.name = source->frame.name;
@@ -310,6 +320,39 @@ static const char *other_manifest(const job_source *source)
     return is_table && *begin != '{' ? "is no JSON ({csv} reads a table)" : NULL;
 }
 
+/* Guesses what a manifest is whose first line is no object, by that line, and by the whole file if it can be
+   read again: comments do not tell. */
+static const content_kind *kind_of_manifest(const job_source *source)
+{
+    const byte_buffer *const line = &source->reader.line;
+    const content_kind *kind = ffd_content_kind(line->data, line->size);
+    file_input file;
+    if (kind || ffd_file_reads_once(source->desc.manifest) ||
+        ffd_file_map(source->desc.manifest, &file, NULL))
+        return kind;
+    kind = ffd_content_kind(file.data, file.size);
+    ffd_file_unload(&file);
+    return kind;
+}
+
+/* Refuses a file of another kind as a whole, by its content or its name. Of an unknown text each line is a
+   job that fails. */
+static ffd_status check_kind(const job_source *source, ffd_error *error)
+{
+    const char *const text = source->reader.line.data;
+    if (text[strspn(text, " \t")] == '{')
+        return FFD_OK;
+    const content_kind *kind = kind_of_manifest(source);
+    kind = kind && kind->format != FFD_FORMAT_GLTF ? kind : NULL; /* JSON is what a manifest has */
+    if (!kind && ffd_format_from_name(source->frame.name) == FFD_FORMAT_AUTO)
+        return FFD_OK;
+    ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
+                  "is no object of JSON: a manifest has one job a line (JSON Lines)");
+    if (error)
+        ffd_content_mention(kind, error);
+    return FFD_E_INVALID;
+}
+
 /* Refuses a text that has no jobs at all with one error, not one a line. */
 static ffd_status check_first(const job_source *source, ffd_error *error)
 {
@@ -317,9 +360,10 @@ static ffd_status check_first(const job_source *source, ffd_error *error)
     if (is_zeros(&source->reader.line))
         return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
                              "NUL bytes, and no job before them");
-    return found ? ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
-                                 "%s: a manifest has one job a line (JSON Lines)", SPELLED(found))
-                 : FFD_OK;
+    if (found)
+        return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
+                             "%s: a manifest has one job a line (JSON Lines)", SPELLED(found));
+    return source->desc.manifest ? check_kind(source, error) : FFD_OK;
 }
 
 /* Likewise; checks the first line. */

@@ -1,5 +1,6 @@
 #include "batch/manifest/lines.h"
 #include "base/system/interrupt.h"
+#include "base/text/content.h"
 #include "base/text/stand_in.h"
 #include <string.h>
 
@@ -96,7 +97,7 @@ static void skip_mark(line_reader *reader)
 static ffd_status check_mark(line_reader *reader, ffd_error *error)
 {
     const byte_buffer *const line = &reader->line;
-    if (line->size >= 2 && (memcmp(line->data, "\xff\xfe", 2) == 0 || memcmp(line->data, "\xfe\xff", 2) == 0))
+    if (ffd_content_is_utf16(line->data, line->size))
         return ffd_fail_line(error, FFD_E_INVALID, ffd_stream_name(reader->stream), 1,
                              "is text in UTF-16: it must be UTF-8");
     skip_mark(reader);

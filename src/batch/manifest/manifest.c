@@ -165,6 +165,16 @@ static void read_members(line_parser *parser, uint32_t object,
     }
 }
 
+static void refuse_key(line_parser *parser, const char *name)
+{
+    const char *const meant = ffd_word_meant(name, members, MEMBERS);
+    if (meant)
+        refuse(parser, "", "unknown key \"%.60s\" (nearest: \"%s\")", name, meant);
+    else
+        refuse(parser, "", "unknown key \"%.60s\" (known: in, out, lattice, morph, clip, options, set)",
+               name);
+}
+
 static void read_member(line_parser *parser, const char *name, uint32_t value)
 {
     if (strcmp(name, "in") == 0)
@@ -176,8 +186,7 @@ static void read_member(line_parser *parser, const char *name, uint32_t value)
     else if (strcmp(name, "clip") == 0)
         read_clips(parser, value);
     else if (!ffd_word_is_known(name, members, MEMBERS))
-        refuse(parser, "", "unknown key \"%.60s\" (nearest: \"%s\")", name,
-               ffd_nearest_word(name, members, MEMBERS));
+        refuse_key(parser, name);
     else if (!is_kind(parser, value, JSON_OBJECT))
         refuse(parser, strcmp(name, "options") == 0 ? "" : name, "\"%s\" is not an object", name);
     else if (strcmp(name, "morph") == 0 && parser->tree->values[value].count == 0)

@@ -3,6 +3,7 @@
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"
 #include "base/text/words.h"
+#include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -53,6 +54,28 @@ static bool refuse_row(const csv_table *table, ffd_error *error, const char *for
     return false;
 }
 
+/* The line in which the last quoted cell begins. */
+static uint64_t quote_line(const csv_table *table)
+{
+    const byte_buffer *const line = &table->reader->line;
+    uint64_t number = table->line;
+    for (size_t i = 0; i < table->scan.opened && i < line->size; i++)
+        number += line->data[i] == '\n';
+    return number;
+}
+
+/* Says what is wrong with the quotes of a row, the only reason why it is not valid; returns false. */
+static bool refuse_quotes(const csv_table *table, ffd_error *error)
+{
+    return table->scan.state == CSV_QUOTED
+               ? refuse_row(table, error,
+                            "not a valid CSV row: the quote that was opened in line %" PRIu64
+                            " is not closed",
+                            quote_line(table))
+               : refuse_row(table, error,
+                            "not a valid CSV row: a quote stands beside other characters of its cell");
+}
+
 /* Tells of the blanks that were left out round a text. Those round numbers change nothing. */
 static ffd_status note_blanks(csv_table *table, const csv_row *row, ffd_error *error)
 {
@@ -81,13 +104,16 @@ static ffd_status note_empty(csv_table *table, ffd_error *error)
 
 bool ffd_table_check(csv_table *table, bool valid, ffd_error *error)
 {
-    if (table->is_lost)
+    if (table->is_lost && table->scan.state == CSV_QUOTED)
         return refuse_row(
             table, error,
-            "a row of more than %zu bytes, perhaps because a quote is missing: the rest is not read",
-            LINE_MOST);
+            "a row of more than %zu bytes, perhaps because the quote that was opened in line %" PRIu64
+            " is not closed: the rest is not read",
+            LINE_MOST, quote_line(table));
+    if (table->is_lost)
+        return refuse_row(table, error, "a row of more than %zu bytes: the rest is not read", LINE_MOST);
     if (!valid)
-        return refuse_row(table, error, "not a valid CSV row");
+        return refuse_quotes(table, error);
     if (table->row.count != table->columns.count)
         return refuse_row(table, error, "the row has %zu %s, but the table has %zu %s", table->row.count,
                           ffd_plural(table->row.count, "cell", "cells"), table->columns.count,
@@ -261,6 +287,10 @@ ffd_status ffd_table_begin(csv_table *table, ffd_error *error)
         TRY(pass_separator(table, &state, &valid, error));
     if (ffd_interrupt_requested())
         return FFD_OK;
+    if (state == LINE_READ && !valid && table->scan.state == CSV_QUOTED) {
+        refuse_quotes(table, error);
+        return FFD_E_INVALID;
+    }
     if (state != LINE_READ || !valid)
         return ffd_fail_line(error, FFD_E_INVALID, table->name, 1,
                              "the first row of the table must name its columns");

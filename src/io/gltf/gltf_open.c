@@ -2,6 +2,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
+#include "base/text/content.h"
 #include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/model/gltf_instancing.h"
@@ -46,11 +47,21 @@ static ffd_status copy_json(gltf_document *d, const char **text, size_t size, ff
     return FFD_OK;
 }
 
+/* Whether a text is an object of JSON, by its first characters. */
+static bool begins_as_object(const char *text, size_t size)
+{
+    const content_kind *const kind = ffd_content_kind(text, size);
+    return kind && kind->format == FFD_FORMAT_GLTF;
+}
+
 static ffd_status find_json(gltf_document *d, ffd_format format, ffd_error *error)
 {
     const char *text = (const char *)d->input.data;
     size_t size = d->input.size;
     const bool is_glb = ffd_glb_is(d->input.data, d->input.size);
+    if (format == FFD_FORMAT_GLB && !is_glb && begins_as_object(text, size))
+        return ffd_fail_file(error, FFD_E_INVALID, d->name,
+                             "is a glTF file in JSON, not a GLB file: its name must end in .gltf");
     if (format == FFD_FORMAT_GLB || (format == FFD_FORMAT_AUTO && is_glb)) {
         TRY(ffd_glb_parse(d->input.data, d->input.size, d->name, &d->glb, error));
         d->binary = true;

@@ -49,6 +49,28 @@ bool ffd_obj_walk_corner(obj_walk *walk, obj_face_corner *corner)
     return true;
 }
 
+bool ffd_obj_walk_freeform(obj_walk *walk)
+{
+    /* With their parameter ranges before the vertices; then those of version 2, which have none. curv2 and sp
+       name points of the parameter space (vp). */
+    static const struct {
+        const char *name;
+        int parameters;
+    } statements[] = {{"curv", 2}, {"surf", 4}, {"bsp", 0}, {"bzp", 0}, {"cdc", 0}, {"cdp", 0}};
+    text_word word;
+    if (walk->scan.keyword != OBJ_OTHER)
+        return false;
+    for (size_t i = 0; i < sizeof statements / sizeof *statements; i++) {
+        int left = statements[i].parameters;
+        if (!ffd_text_is(walk->scan.name, statements[i].name))
+            continue;
+        while (left > 0 && ffd_obj_scan_word(&walk->scan, &word))
+            left--;
+        return left == 0;
+    }
+    return false;
+}
+
 static bool are_plain(const obj_block *first, const obj_block *last)
 {
     while (first < last && first->plain)

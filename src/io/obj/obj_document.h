@@ -43,8 +43,22 @@ typedef struct obj_face_corner {
 } obj_face_corner;
 
 /* Takes the next corner of the current face in a file whose faces are known to be valid. Returns false
-   if there is none left. */
+   if there is none left. The vertices of free-form geometry are not known to be: at one that is not there it
+   returns false too. */
 bool ffd_obj_walk_corner(obj_walk *walk, obj_face_corner *corner);
+
+/* Whether the current statement is free-form geometry with control vertices; passes the numbers before
+   these. */
+bool ffd_obj_walk_freeform(obj_walk *walk);
+
+/* Whether the current statement uses vertices, which ffd_obj_walk_corner takes: a face, line or point, or
+   free-form geometry. */
+static inline bool ffd_obj_walk_uses(obj_walk *walk)
+{
+    const obj_keyword keyword = walk->scan.keyword;
+    return keyword == OBJ_FACE || keyword == OBJ_LINE || keyword == OBJ_POINT ||
+           (keyword == OBJ_OTHER && ffd_obj_walk_freeform(walk));
+}
 
 /* Vertices and `vn` that a file may have: their numbers, and one value for none, are 32 bits. */
 #define OBJ_ELEMENTS_MAX (UINT32_MAX - 1)

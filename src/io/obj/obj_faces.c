@@ -388,8 +388,7 @@ static void mark_tile(void *context, size_t tile, size_t first, size_t last, int
         const size_t count = take_plain_face(d, &walk, plain);
         if (count == 0 && !ffd_obj_walk_next(&walk))
             break;
-        if (count == 0 && walk.scan.keyword != OBJ_FACE && walk.scan.keyword != OBJ_LINE &&
-            walk.scan.keyword != OBJ_POINT)
+        if (count == 0 && !ffd_obj_walk_uses(&walk))
             continue;
         for (size_t i = 0; i < count; i++)
             mark(d, plain[i]);

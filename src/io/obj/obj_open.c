@@ -1,11 +1,11 @@
 /* obj_open.c - opens and closes an OBJ file. */
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
+#include "base/text/content.h"
 #include "base/text/words.h"
 #include "io/obj/obj_document.h"
 #include "io/obj/obj_faces.h"
 #include "io/obj/obj_vectors.h"
-#include "io/text/content.h"
 
 /* A file that is no text may have lines that begin like a statement. */
 static ffd_status check_bytes(const obj_document *d, ffd_error *error)

@@ -134,13 +134,9 @@ static void find_runs(surveying *s)
         case OBJ_MATERIAL:
             enter(s, SELECT_MATERIAL, &walk.scan, &s->material);
             break;
-        case OBJ_FACE:
-        case OBJ_LINE:
-        case OBJ_POINT:
-            if (!s->in_run)
-                begin_run(s, &walk);
-            break;
         default:
+            if (ffd_obj_walk_uses(&walk) && !s->in_run)
+                begin_run(s, &walk);
             break;
         }
 }
@@ -155,14 +151,13 @@ static void draw(const obj_document *d, const run *elements, mesh_listing *listi
     walk.scan.last = elements->last;
     walk.vertices.seen = elements->vertices;
     while (ffd_obj_walk_next(&walk)) {
-        const obj_keyword keyword = walk.scan.keyword;
-        if (keyword != OBJ_FACE && keyword != OBJ_LINE && keyword != OBJ_POINT)
+        if (!ffd_obj_walk_uses(&walk))
             continue;
         while (ffd_obj_walk_corner(&walk, &corner)) {
             const uint32_t vertex = (uint32_t)corner.vertex;
             ffd_listing_draw(listing, 0, &vertex, 1);
         }
-        ffd_listing_draw_faces(listing, keyword == OBJ_FACE);
+        ffd_listing_draw_faces(listing, walk.scan.keyword == OBJ_FACE);
     }
 }
 

@@ -1,6 +1,6 @@
-/* obj_select.c - which faces, lines and points `--only` leaves, and so which vertices and normals. A `g` puts
-   what follows into each group that it names, one without names, and the file's beginning, into "default"; an
-   `o` or `usemtl` has one name, which may hold blanks. */
+/* obj_select.c - which faces, lines, points and free-form geometry `--only` leaves, and so which vertices and
+   normals. A `g` puts what follows into each group that it names, one without names, and the file's
+   beginning, into "default"; an `o` or `usemtl` has one name, which may hold blanks. */
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "io/obj/obj_faces.h"
@@ -86,11 +86,9 @@ static void mark_elements(selecting *s)
             s->document->selected_faces[walk.faces.seen - 1] = is_selected(s);
             mark_corners(s, &walk, is_selected(s));
             break;
-        case OBJ_LINE:
-        case OBJ_POINT:
-            mark_corners(s, &walk, is_selected(s));
-            break;
         default:
+            if (ffd_obj_walk_uses(&walk))
+                mark_corners(s, &walk, is_selected(s));
             break;
         }
     }
@@ -178,7 +176,7 @@ static bool is_same(text_word a, text_word b)
     return a.last - a.first == b.last - b.first && memcmp(a.first, b.first, (size_t)(a.last - a.first)) == 0;
 }
 
-/* Finds the name of the first face, line or point that has the vertex. */
+/* Finds the name of the first face, line, point, curve or surface that has the vertex. */
 static text_word find_name(const obj_document *d, uint64_t vertex, const char **kind)
 {
     obj_walk walk;
@@ -186,9 +184,8 @@ static text_word find_name(const obj_document *d, uint64_t vertex, const char **
     face_name name = {0};
     ffd_obj_document_walk(d, &walk);
     while (ffd_obj_walk_next(&walk)) {
-        const obj_keyword keyword = walk.scan.keyword;
         note_name(&name, &walk.scan);
-        if (keyword != OBJ_FACE && keyword != OBJ_LINE && keyword != OBJ_POINT)
+        if (!ffd_obj_walk_uses(&walk))
             continue;
         while (ffd_obj_walk_corner(&walk, &corner))
             if (corner.vertex == vertex)
@@ -206,10 +203,9 @@ static uint64_t count_marked(const obj_document *d, const char *kind, text_word 
     uint64_t count = 0;
     ffd_obj_document_walk(d, &walk);
     while (ffd_obj_walk_next(&walk)) {
-        const obj_keyword keyword = walk.scan.keyword;
         const char *own;
         note_name(&name, &walk.scan);
-        if (keyword != OBJ_FACE && keyword != OBJ_LINE && keyword != OBJ_POINT)
+        if (!ffd_obj_walk_uses(&walk))
             continue;
         const text_word text = name_of(&name, &own);
         if (!text.first || strcmp(own, kind) != 0 || !is_same(text, wanted))

@@ -2,8 +2,8 @@
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "base/system/deadline.h"
+#include "base/text/content.h"
 #include "base/text/words.h"
-#include "io/text/content.h"
 #include <float.h>
 #include <inttypes.h>
 #include <string.h>

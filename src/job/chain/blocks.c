@@ -335,9 +335,12 @@ static ffd_status extend(const block_work *work, size_t i, ffd_error *error)
     ffd_mark_owner(chain, run, i, block | OWNER_NEAREST);
     ffd_mark_part(chain, block, run, i, nearest.uvw);
     run->outcomes[i].extended = nearest.distance < reach || !(falloff > 0);
+    const ffd_lattice *const lattice = chain->links[block].lattice;
+    double *const gradient = run->gradient && !run->only_turns ? run->gradient + 9 * i : NULL;
     run->outcomes[i].moved =
-        ffd_extension_displacement(chain->links[block].lattice, &nearest, falloff, run->delta + 3 * i,
-                                   run->gradient && !run->only_turns ? run->gradient + 9 * i : NULL);
+        ffd_extension_displacement(lattice, &nearest, falloff, run->delta + 3 * i, gradient);
+    if (gradient)
+        ffd_outcome_note_extension(lattice, &nearest, falloff, gradient, &run->outcomes[i]);
     return FFD_OK;
 }
 
@@ -400,8 +403,11 @@ static void displace(const block_work *work)
     for (size_t k = 0; k < count; k += batch.count) {
         batch.which = sorted + k;
         batch.count = same_block(scratch->owners, batch.which, count - k);
-        ffd_displacements(chain->links[scratch->owners[sorted[k]]].lattice, chain->isa, &batch,
-                          &scratch->displacement);
+        const ffd_lattice *const lattice = chain->links[scratch->owners[sorted[k]]].lattice;
+        const size_t before = run->turns ? run->turns->count : 0;
+        ffd_displacements(lattice, chain->isa, &batch, &scratch->displacement);
+        if (run->turns)
+            ffd_outcomes_note_collapse(lattice, &batch, before, run->outcomes);
     }
     for (size_t k = 0; k < count; k++)
         run->outcomes[sorted[k]].moved = scratch->moves[sorted[k]];

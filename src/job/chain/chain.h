@@ -110,6 +110,8 @@ typedef struct point_outcome {
     bool unresolved; /* the search in some link ended at its limits */
     bool disagrees;  /* blocks: it is on a face where another block moves it differently */
     bool extended;   /* displaced by a link that it is outside of: a border point was within the falloff */
+    bool collapsed;  /* some link collapses space there: det F is 0 within rounding. Known where the run has
+                        turns, and where gradients are wanted of a point that is extended */
 } point_outcome;
 
 /* Rounding cells of the points of a run (mesh/rounding.h). */
@@ -177,7 +179,7 @@ typedef struct chain_run {
     double *delta;    /* 3: displacement by all links, world units; zeros where nothing acts */
     double *gradient; /* 9: F - I of the whole deformation; or NULL */
     turn_list *turns; /* NULL, or with gradient: the points are added where det F may be 0 or less; of several
-                         links, one after the other, those where it is less */
+                         links, one after the other, those where it is less, or 0 */
     bool only_turns;  /* not filled: gradients are wanted only there. Several links do not fill them then */
     point_outcome *outcomes;
     uint8_t *kept; /* chain->marks.planes planes of CHAIN_RUN bytes, or NULL: bits of points that links leave

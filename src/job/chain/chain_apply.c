@@ -69,6 +69,8 @@ static ffd_status extend(const lattice_chain *chain, size_t l, chain_run *run,
     run->outcomes[i].extended |= nearest.distance < reach || !(link->falloff > 0);
     run->scratch->moves[i] =
         (uint8_t)ffd_extension_displacement(link->lattice, &nearest, link->falloff, delta, gradient);
+    if (gradient)
+        ffd_outcome_note_extension(link->lattice, &nearest, link->falloff, gradient, &run->outcomes[i]);
     return FFD_OK;
 }
 
@@ -146,6 +148,8 @@ static ffd_status apply_link(const lattice_chain *chain, size_t links, size_t l,
     if (ffd_common_wanted(chain))
         ffd_common_note(chain, l, run);
     ffd_displacements(link->lattice, chain->isa, &batch, &scratch->displacement);
+    if (batch.turns)
+        ffd_outcomes_note_collapse(link->lattice, &batch, 0, run->outcomes);
     if (batch.turns == &scratch->turns)
         note_turns(batch.gradient, scratch);
     arrays->add(batch.delta, 3 * run->count, run->x);
@@ -184,7 +188,7 @@ ffd_status ffd_chain_apply(const lattice_chain *chain, size_t links, chain_run *
         TRY(status);
     }
     for (size_t i = 0; run->turns && links > 1 && i < run->count; i++)
-        if (run->scratch->is_turned[i])
+        if (run->scratch->is_turned[i] || run->outcomes[i].collapsed)
             run->turns->points[run->turns->count++] = (uint32_t)i;
     return FFD_OK;
 }

@@ -116,9 +116,8 @@ end:
     return status;
 }
 
-/* Refuses the values that no lattice has a placeholder for, all in one message. in_batch: the values may come
-   from a table, which the hint mentions. */
-static ffd_status refuse_unused(const chain_files *files, const bool *used, bool in_batch, ffd_error *error)
+/* Refuses the values that no lattice has a placeholder for, all in one message. */
+static ffd_status refuse_unused(const chain_files *files, const bool *used, ffd_error *error)
 {
     char names[300] = "";
     size_t count = 0, length = 0;
@@ -132,11 +131,9 @@ static ffd_status refuse_unused(const chain_files *files, const bool *used, bool
             memcpy(names + length, ", ...", sizeof ", ...");
         count++;
     }
-    return count == 0
-               ? FFD_OK
-               : ffd_fail_file(error, FFD_E_INVALID, files->lattices[0].path,
-                               "no lattice has the placeholder%s %s ({set}%s)", count == 1 ? "" : "s", names,
-                               in_batch ? SPELLED("; {csv_ignore} leaves columns of a table out") : "");
+    return count == 0 ? FFD_OK
+                      : ffd_fail_file(error, FFD_E_INVALID, files->lattices[0].path,
+                                      CHAIN_NO_PLACEHOLDER "%s %s ({set})", count == 1 ? "" : "s", names);
 }
 
 void ffd_chain_free(lattice_chain *chain)
@@ -189,7 +186,7 @@ ffd_status ffd_chain_load(const chain_files *files, const chain_outside *outside
     ffd_job_cache_evict_lattices(cache);
     for (size_t i = 0; i < chain->count; i++)
         TRY_END(load_link(files, used, chain, i, error));
-    TRY_END(refuse_unused(files, used, ffd_job_cache_is_of_batch(cache), error));
+    TRY_END(refuse_unused(files, used, error));
 end:
     ffd_free(used);
     if (status)
@@ -208,7 +205,7 @@ ffd_status ffd_chain_check(const chain_files *files, ffd_error *error)
         TRY_END(load_lattice(files, used, i, 0, &memory, &lattice, error));
         ffd_lattice_destroy(&lattice);
     }
-    TRY_END(refuse_unused(files, used, true, error));
+    TRY_END(refuse_unused(files, used, error));
 end:
     ffd_free(used);
     return status;

@@ -19,6 +19,9 @@ typedef struct chain_files {
     const mesh_log *log;          /* gets warnings about meshes that lattices name; may be NULL */
 } chain_files;
 
+/* How the message begins that refuses values of placeholders which no lattice has. */
+#define CHAIN_NO_PLACEHOLDER "no lattice has the placeholder"
+
 /* Refuses more lattices than a job may have (FFD_E_LIMIT). */
 ffd_status ffd_chain_check_count(size_t count, ffd_error *error);
 /* Loads the lattices into a chain. cache: may be NULL; it must outlive the chain, and

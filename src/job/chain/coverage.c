@@ -62,6 +62,23 @@ void ffd_chain_coverage(const lattice_chain *chain, char *text, size_t capacity)
     }
 }
 
+void ffd_chain_places(const lattice_chain *chain, const ffd_bounds *mesh, char *text, size_t capacity)
+{
+    ffd_bounds box = ffd_bounds_empty();
+    *text = 0;
+    if (!(mesh->min[0] <= mesh->max[0]))
+        return;
+    for (size_t l = 0; l < chain->count; l++) {
+        const ffd_bounds one = volume_bounds(chain->links[l].lattice);
+        ffd_bounds_widen(&box, one.min);
+        ffd_bounds_widen(&box, one.max);
+    }
+    snprintf(text, capacity, "; %s from %g %g %g to %g %g %g, the mesh from %g %g %g to %g %g %g",
+             chain->count == 1 ? "the lattice lies" : "the lattices lie", box.min[0], box.min[1], box.min[2],
+             box.max[0], box.max[1], box.max[2], mesh->min[0], mesh->min[1], mesh->min[2], mesh->max[0],
+             mesh->max[1], mesh->max[2]);
+}
+
 /* Writes why weights pull the border of the volume away from its shape. */
 static void describe_cause(const ffd_lattice *lattice, char *text, size_t capacity)
 {

@@ -15,4 +15,8 @@ void ffd_chain_coverage(const lattice_chain *chain, char *text, size_t capacity)
 /* Warns of each lattice with weights whose volume is not the whole box or cylinder that it was made for. */
 void ffd_coverage_warn(const lattice_chain *chain, const mesh_log *log);
 
+/* Writes where the volumes and the mesh lie (in the lattice's space), for a mesh that is outside; "" if the
+   mesh has no finite vertex. */
+void ffd_chain_places(const lattice_chain *chain, const ffd_bounds *mesh, char *text, size_t capacity);
+
 #endif

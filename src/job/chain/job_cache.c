@@ -26,7 +26,7 @@ typedef struct kept_rest {
 } kept_rest;
 
 struct ffd_job_cache {
-    bool only_lattices, is_of_job;
+    bool only_lattices;
     mesh_document *document; /* NULL: none, or the current job has it */
     bool is_noted;           /* the following members describe the document: */
     ffd_source source; /* owns its path; its list of allowed extensions is dropped, rules has their hash */
@@ -67,18 +67,6 @@ ffd_status ffd_job_cache_create_for_lattices(ffd_job_cache **cache, ffd_error *e
     TRY(ffd_job_cache_create(cache, error));
     (*cache)->only_lattices = true;
     return FFD_OK;
-}
-
-ffd_status ffd_job_cache_create_for_job(ffd_job_cache **cache, ffd_error *error)
-{
-    TRY(ffd_job_cache_create(cache, error));
-    (*cache)->is_of_job = true;
-    return FFD_OK;
-}
-
-bool ffd_job_cache_is_of_batch(const ffd_job_cache *cache)
-{
-    return cache && !cache->is_of_job;
 }
 
 bool ffd_job_cache_holds_meshes(const ffd_job_cache *cache)

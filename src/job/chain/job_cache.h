@@ -9,10 +9,6 @@
 #include "job/chain/mesh_boxes.h"
 #include "mesh/mesh.h"
 
-/* Makes a cache for a single job that passes over its mesh several times. */
-ffd_status ffd_job_cache_create_for_job(ffd_job_cache **cache, ffd_error *error);
-/* Whether several jobs use the cache, which may be NULL. */
-bool ffd_job_cache_is_of_batch(const ffd_job_cache *cache);
 /* Whether the cache keeps meshes and the locations of their vertices. */
 bool ffd_job_cache_holds_meshes(const ffd_job_cache *cache);
 /* Takes the cached mesh out of the cache if it is the one that desc asks for, opened and with its selection

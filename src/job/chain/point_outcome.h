@@ -3,6 +3,8 @@
 #define FFD_JOB_CHAIN_POINT_OUTCOME_H
 
 #include "base/vector/vec.h"
+#include "deform/collapse.h"
+#include "deform/displacement.h"
 #include "embed/locator.h"
 #include "job/chain/chain.h"
 #include "lattice/lattice.h"
@@ -26,6 +28,7 @@ static inline void ffd_outcome_make(const ffd_lattice *lattice, const ffd_locati
     outcome->unresolved = location->unresolved;
     outcome->disagrees = false;
     outcome->extended = false;
+    outcome->collapsed = false;
 }
 
 /* Being outside of one lattice does not matter if another one has the point. */
@@ -46,6 +49,27 @@ static inline void ffd_outcome_join(const point_outcome *now, point_outcome *out
     outcome->outside &= now->outside;
     outcome->multiple |= now->multiple;
     outcome->unresolved |= now->unresolved;
+}
+
+/* Notes at which points a lattice collapses space, among those where it may turn it inside out: those of
+   batch->turns from `first` on. */
+static inline void ffd_outcomes_note_collapse(const ffd_lattice *lattice, const displacement_batch *batch,
+                                              size_t first, point_outcome *outcomes)
+{
+    for (size_t k = first; k < batch->turns->count; k++) {
+        const size_t i = batch->turns->points[k];
+        if (ffd_collapses(lattice, ffd_batch_uvw(batch, i), NULL, 0, batch->gradient + 9 * i))
+            outcomes[i].collapsed = true;
+    }
+}
+
+/* The same for a point outside that is extended. */
+static inline void ffd_outcome_note_extension(const ffd_lattice *lattice, const boundary_point *nearest,
+                                              double falloff, const double gradient[9],
+                                              point_outcome *outcome)
+{
+    if (ffd_collapses(lattice, nearest->uvw, nearest->uvw_by_p, falloff, gradient))
+        outcome->collapsed = true;
 }
 
 /* The parameters beyond which a point is on or near a face of the domain. A closed direction has no faces. */

@@ -179,6 +179,7 @@ const figure ffd_figures[] = {
     {FROM(displacement_square_sum, JOIN_SUM)},
     {FROM(shapes, JOIN_BOUNDS)},
     {FROM(rounding.box, JOIN_NONE)},
+    {FROM(lost.of_doubles, JOIN_NONE)},
     {FROM(outside_all, JOIN_SUM)},
     {FROM(misses.count, JOIN_SUM)},
     {FROM(misses.examined, JOIN_SUM)},
@@ -204,6 +205,8 @@ const figure ffd_figures[] = {
     {FROM(inverted, JOIN_SUM)},
     {FROM(det_inverted, JOIN_LEAST)}, /* the first of equal ones */
     {FROM(first_inverted, JOIN_WITH)},
+    {FROM(collapsed, JOIN_SUM)},
+    {FROM(first_collapsed, JOIN_LEAST)},
     {FROM(det_min, JOIN_LEAST)},
     {FROM(det_max, JOIN_HIGHEST)},
     {FROM(embed_seconds, JOIN_SUM)},

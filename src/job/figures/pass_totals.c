@@ -21,11 +21,12 @@ void ffd_totals_add_stored(const pass_totals *stored, bool written, pass_totals 
     shown->deform_seconds += stored->deform_seconds;
 }
 
-/* A part is lost only where its floats have become coarser than they were at rest, by more than what the next
-   power of two makes of them. */
+/* A part is lost only where its numbers have become coarser than they were at rest, by more than what the
+   next power of two makes of them. */
 #define COARSER 2
 
-void ffd_totals_judge_rounding(const pass_totals *tiles, size_t count, double tolerance, pass_totals *all)
+void ffd_totals_judge_rounding(const pass_totals *tiles, size_t count, double tolerance, bool doubles,
+                               pass_totals *all)
 {
     part_rounding part = {.box = ffd_bounds_empty()};
     for (size_t i = 0; i < count; i++) {
@@ -39,7 +40,7 @@ void ffd_totals_judge_rounding(const pass_totals *tiles, size_t count, double to
         return;
     if (all->lost.side > 0 && part.error / side <= all->lost.error / all->lost.side)
         return;
-    all->lost = (rounding_loss){part.error, side};
+    all->lost = (rounding_loss){part.error, side, doubles};
 }
 
 void ffd_totals_note_splats(pass_totals *totals, size_t part, uint64_t moved)

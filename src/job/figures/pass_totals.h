@@ -6,16 +6,17 @@
 #include <ffd/embedding.h>
 #include <ffd/job.h>
 
-/* What rounding to floats does to a part, in the file's space. */
+/* What rounding to floats or doubles does to a part, in the file's space. */
 typedef struct part_rounding {
     ffd_bounds box; /* of the results */
     double error;   /* the largest one of a result; 0 if all are within the tolerance */
     double before;  /* the largest half step of a coordinate at rest */
 } part_rounding;
 
-/* The part whose shape floats change most. */
+/* The part whose shape rounding changes most. */
 typedef struct rounding_loss {
     double error, side; /* the largest error, and the part's largest side; zeros: none */
+    bool of_doubles;
 } rounding_loss;
 
 /* Vertices that are left outside although they miss the lattice by next to nothing. */
@@ -76,6 +77,7 @@ typedef struct pass_totals {
      * likewise. */
     uint64_t inverted, first_inverted;
     double det_inverted;
+    uint64_t collapsed, first_collapsed; /* vertices in a lattice with det F = 0 within rounding; likewise */
     double det_min, det_max; /* range of det F over non-singular vertices that a link moves, if wanted; empty:
                                 min > max */
     /* Vertices that are not simply inside and not visible (used by no face, line or point, or of hidden
@@ -98,8 +100,9 @@ void ffd_totals_note_splats(pass_totals *totals, size_t part, uint64_t moved);
    weights show. written: the results of the stored ones go to the file. */
 void ffd_totals_add_stored(const pass_totals *stored, bool written, pass_totals *shown);
 
-/* Judges the rounding of all tiles of a part. tolerance: of ffd_part_tolerance. */
-void ffd_totals_judge_rounding(const pass_totals *tiles, size_t count, double tolerance, pass_totals *all);
+/* Judges the rounding of all tiles of a part. tolerance: of ffd_part_tolerance. doubles: it is stored so. */
+void ffd_totals_judge_rounding(const pass_totals *tiles, size_t count, double tolerance, bool doubles,
+                               pass_totals *all);
 
 /* Adds the figures of a tile. Tiles must be added in order. */
 void ffd_totals_join(const pass_totals *tile, pass_totals *all);

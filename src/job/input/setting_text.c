@@ -209,6 +209,16 @@ static ffd_status add_gate(const reading *r, ffd_deform_desc *desc, const char *
         }
         ffd_nearest_offer(&nearest, name);
     }
+    for (size_t i = 0; r->member->words[i]; i++) {
+        const size_t size = strcspn(r->member->words[i], "=");
+        if (r->member->words[i][size] && length == size && memcmp(r->member->words[i], word, size) == 0)
+            return refuse(r, ": ", "the gate %.*s needs a length: %.*s=LENGTH", (int)size, word, (int)size,
+                          word);
+        if (!r->member->words[i][size] && length > size && word[size] == '=' &&
+            memcmp(r->member->words[i], word, size) == 0)
+            return refuse(r, ": ", "the gate %.*s takes no value: \"%.*s\"", (int)size, word,
+                          (int)(length < 60 ? length : 60), word);
+    }
     char known[200];
     list_gates(r->member->words, known, sizeof known);
     const char *const meant = ffd_nearest_meant(&nearest);

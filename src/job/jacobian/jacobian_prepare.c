@@ -253,8 +253,8 @@ static ffd_status choose_links(jacobian *j, ffd_error *error)
     const bool by_points = j->desc->by == FFD_BY_POINTS;
     const size_t of = j->desc->of == FFD_LATTICE_LAST ? all - 1 : j->desc->of;
     if (by_points && of >= all)
-        return ffd_fail(error, FFD_E_ARGUMENT, "there is no lattice %zu: the job has %zu, counted from 0", of,
-                        all);
+        return ffd_fail(error, FFD_E_ARGUMENT,
+                        "{of}: there is no lattice %zu: the job has %zu, counted from 0", of, all);
     j->links = ffd_alloc_zero(all, sizeof *j->links);
     if (!j->links)
         return ffd_fail_memory(error);

@@ -1,4 +1,4 @@
-/* folds.c - says that the deformed volume folds, or turns faces over. */
+/* folds.c - says that the deformed volume folds or collapses, or turns faces over. */
 #include "base/text/words.h"
 #include "job/judge/warnings.h"
 #include <inttypes.h>
@@ -65,6 +65,17 @@ void ffd_folds_warn(const ffd_job_result *result, const pass_totals *totals,
     if (result->det.outside <= 0)
         ffd_log_line(log, FFD_LOG_WARNING,
                      "outside the lattice det F falls to %g, at vertex %" PRIu64
-                     ": the mesh turns inside out there (see {falloff}, a larger lattice)",
-                     result->det.outside, result->det.outside_vertex);
+                     ": the mesh %s there (see {falloff}, a larger lattice)",
+                     result->det.outside, result->det.outside_vertex,
+                     result->det.outside < 0 ? "turns inside out" : "collapses");
+}
+
+void ffd_collapse_warn(const pass_totals *totals, const mesh_log *log)
+{
+    if (totals->collapsed)
+        ffd_log_line(log, FFD_LOG_WARNING,
+                     "the mesh collapses at %" PRIu64 " of %" PRIu64
+                     " %s: det F is 0 within rounding, first at vertex %" PRIu64,
+                     totals->collapsed, totals->vertices, ffd_plural(totals->vertices, "vertex", "vertices"),
+                     totals->first_collapsed);
 }

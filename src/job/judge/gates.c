@@ -35,18 +35,20 @@ static ffd_status fail_outside(const char *name, const lattice_chain *chain, con
 {
     const uint64_t shown = totals->first_outside, other = totals->first_unshown_outside;
     const uint64_t count = totals->outside_all + totals->unshown_outside;
-    char coverage[600], unshown[80] = "";
+    char coverage[600], places[400] = "", unshown[80] = "";
     ffd_chain_coverage(chain, coverage, sizeof coverage);
+    if (count == totals->vertices)
+        ffd_chain_places(chain, &totals->before, places, sizeof places);
     if (totals->unshown_outside)
         snprintf(unshown, sizeof unshown, ", %" PRIu64 " of them %s unused or hidden",
                  totals->unshown_outside, ffd_plural(totals->unshown_outside, "is", "are"));
     return ffd_fail_file(error, FFD_E_EMBEDDING, name,
                          "%" PRIu64 " of %" PRIu64
                          " %s %s outside the lattice%s%s, the first is vertex %" PRIu64
-                         " (counted from 0)%s%s",
+                         " (counted from 0)%s%s%s",
                          count, totals->vertices, ffd_plural(totals->vertices, "vertex", "vertices"),
                          ffd_plural(count, "is", "are"), as_shown(totals), unshown,
-                         shown < other ? shown : other, *coverage ? "; " : "", coverage);
+                         shown < other ? shown : other, *coverage ? "; " : "", coverage, places);
 }
 
 /* An embedding may miss its mesh: a forged file can have valid hashes. */

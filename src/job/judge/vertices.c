@@ -198,13 +198,15 @@ void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool
         totals->vertices - totals->counts[FFD_VERTEX_INSIDE] - totals->unused - totals->hidden;
     ffd_coverage_warn(chain, log);
     if (others) {
-        char list[600], coverage[600] = "";
+        char list[600], coverage[600] = "", places[400] = "";
         write_others(totals, &chain->outside, deformed, list, sizeof list);
         if (totals->outside_all)
             ffd_chain_coverage(chain, coverage, sizeof coverage);
-        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " of %" PRIu64 " %s %s not inside: %s%s%s", others,
+        if (totals->outside_all == totals->vertices)
+            ffd_chain_places(chain, &totals->before, places, sizeof places);
+        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " of %" PRIu64 " %s %s not inside: %s%s%s%s", others,
                      totals->vertices, vertices(totals->vertices), are(others), list, *coverage ? "; " : "",
-                     coverage);
+                     coverage, places);
     }
     warn_of_faces(totals, log);
     warn_of_unshown(totals, log);
@@ -233,9 +235,8 @@ void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool
                      ffd_plural(totals->normals_collapsed, "it", "them"));
     warn_of_splats(totals, log);
     if (totals->lost.side > 0)
-        ffd_log_line(
-            log, FFD_LOG_WARNING,
-            "floats cannot hold: the precision of coordinates that far from the origin (off by up to "
-            "%g, in a shape of %g)",
-            totals->lost.error, totals->lost.side);
+        ffd_log_line(log, FFD_LOG_WARNING,
+                     "%s cannot hold: the precision of coordinates that far from the origin (off by up to "
+                     "%g, in a shape of %g)",
+                     totals->lost.of_doubles ? "doubles" : "floats", totals->lost.error, totals->lost.side);
 }

@@ -19,6 +19,9 @@ void ffd_folds_describe(const ffd_job_result *result, const ffd_lattice_source *
 void ffd_folds_warn(const ffd_job_result *result, const pass_totals *totals,
                     const ffd_lattice_source *lattices, const mesh_log *log);
 
+/* Warns of vertices at which the mesh collapses to a plane, a line or a point. */
+void ffd_collapse_warn(const pass_totals *totals, const mesh_log *log);
+
 /* Describes torn edges, as in "36 vertices of Knight_Sword stay; the largest step to a neighbour is 0.47".
    Requires torn edges. */
 void ffd_tears_describe(const ffd_job_result *result, char *text, size_t capacity);

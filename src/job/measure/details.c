@@ -15,6 +15,7 @@ void ffd_details_free(job_details *details)
     ffd_mesh_faces_free(&details->faces);
     ffd_free(details->deformed);
     ffd_free(details->gradients);
+    ffd_free(details->collapsed);
     ffd_free(details->tears.list);
     *details = (job_details){0};
 }

@@ -11,6 +11,7 @@ typedef struct job_details {
     bool has_faces;               /* the following members are set: */
     mesh_faces faces;             /* at rest, selected faces only */
     double *deformed, *gradients; /* as in mesh_pass */
+    uint8_t *collapsed;           /* likewise */
     torn_edges tears;
 } job_details;
 

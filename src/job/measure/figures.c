@@ -15,7 +15,7 @@
 #include <stdio.h>
 
 /* Memory of the arrays for each vertex, in bytes. */
-#define ARRAY_BYTES (12 * sizeof(double))
+#define ARRAY_BYTES (12 * sizeof(double) + 1)
 
 /* Of a mesh with more vertices only those with det F < 0 are counted unasked. To read its faces as well takes
    a tenth of a small job's time, and as long as to deform a large mesh. */
@@ -119,7 +119,8 @@ ffd_status ffd_figures_prepare(const deform_job *job, mesh_state state, figure_a
         return FFD_OK;
     arrays->deformed = ffd_alloc(count, 3 * sizeof *arrays->deformed);
     arrays->gradients = ffd_alloc(count, 9 * sizeof *arrays->gradients);
-    return arrays->deformed && arrays->gradients ? FFD_OK : ffd_fail_memory(error);
+    arrays->collapsed = ffd_alloc_zero(count, sizeof *arrays->collapsed);
+    return arrays->deformed && arrays->gradients && arrays->collapsed ? FFD_OK : ffd_fail_memory(error);
 }
 
 void ffd_figures_free(figure_arrays *arrays)
@@ -127,6 +128,7 @@ void ffd_figures_free(figure_arrays *arrays)
     ffd_mesh_faces_free(&arrays->faces);
     ffd_free(arrays->deformed);
     ffd_free(arrays->gradients);
+    ffd_free(arrays->collapsed);
     *arrays = (figure_arrays){0};
 }
 
@@ -175,7 +177,9 @@ ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_j
     TRY(ffd_deadline_check(error));
     result->has_flipped = true;
     result->faces = arrays->faces.face_count;
-    result->flipped_faces = ffd_quality_flipped(&arrays->faces, arrays->deformed, arrays->gradients);
+    const face_motion motion = {arrays->faces.positions, arrays->deformed, arrays->gradients,
+                                arrays->collapsed};
+    result->flipped_faces = ffd_quality_flipped(&arrays->faces, &motion);
     TRY(ffd_deadline_check(error));
     if (!wants_edges(job))
         return FFD_OK;

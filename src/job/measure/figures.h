@@ -9,6 +9,7 @@ typedef struct figure_arrays {
     mesh_faces faces;
     bool has_faces;
     double *deformed, *gradients; /* as in mesh_pass */
+    uint8_t *collapsed;           /* likewise */
     memory_budget budget;         /* the document's, to which these arrays are charged */
 } figure_arrays;
 

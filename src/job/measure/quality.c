@@ -3,12 +3,21 @@
 #include "base/vector/vec.h"
 #include "mesh/polygon.h"
 
-bool ffd_quality_is_flipped(const uint32_t *corners, size_t count, const double *rest, const double *deformed,
-                            const double *gradients)
+static bool is_collapsed(const uint32_t *corners, size_t count, const uint8_t *collapsed)
 {
+    for (size_t i = 0; i < count && collapsed; i++)
+        if (!collapsed[corners[i]])
+            return false;
+    return collapsed;
+}
+
+bool ffd_quality_is_flipped(const uint32_t *corners, size_t count, const face_motion *motion)
+{
+    const double *const gradients = motion->gradients;
     double before[3], after[3], carried[3], mean[9] = {0};
-    if (count < 3 || !ffd_polygon_normal(rest, corners, count, before, NULL) ||
-        !ffd_polygon_normal(deformed, corners, count, after, NULL))
+    if (count < 3 || is_collapsed(corners, count, motion->collapsed) ||
+        !ffd_polygon_normal(motion->rest, corners, count, before, NULL) ||
+        !ffd_polygon_normal(motion->deformed, corners, count, after, NULL))
         return false;
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < 9; k++)
@@ -72,19 +81,20 @@ static bool are_moderate(const double *gradients, size_t count)
     return largest < LARGEST_GRADIENT;
 }
 
-uint64_t ffd_quality_flipped(const mesh_faces *faces, const double *deformed, const double *gradients)
+uint64_t ffd_quality_flipped(const mesh_faces *faces, const face_motion *motion)
 {
+    const double *const rest = motion->rest, *const deformed = motion->deformed;
+    const double *const gradients = motion->gradients;
     const bool moderate = faces->face_count > 0 && are_moderate(gradients, 9 * faces->vertex_count);
     uint64_t flipped = 0;
     for (size_t f = 0; f < faces->face_count; f++) {
         const uint32_t *const corners = faces->corners + faces->start[f];
         const size_t count = faces->start[f + 1] - faces->start[f];
-        const bool upright =
-            moderate && (count == 3   ? is_upright(corners, 3, faces->positions, deformed, gradients)
-                         : count == 4 ? is_upright(corners, 4, faces->positions, deformed, gradients)
-                                      : false);
+        const bool upright = moderate && (count == 3   ? is_upright(corners, 3, rest, deformed, gradients)
+                                          : count == 4 ? is_upright(corners, 4, rest, deformed, gradients)
+                                                       : false);
         if (!upright)
-            flipped += ffd_quality_is_flipped(corners, count, faces->positions, deformed, gradients);
+            flipped += ffd_quality_is_flipped(corners, count, motion);
     }
     return flipped;
 }

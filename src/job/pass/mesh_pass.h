@@ -46,8 +46,9 @@ typedef struct mesh_pass {
                           the transform is singular */
     double *gradients; /* 9 a vertex, or NULL: F - I of the whole chain, row-major, in the lattice's space;
                           NaN likewise */
-    bool determinants; /* find the range of det F for the totals */
-    bool inversions;   /* count the vertices with det F < 0 (with determinants always) */
+    uint8_t *collapsed; /* whether space collapses at a vertex, or NULL */
+    bool determinants;  /* find the range of det F for the totals */
+    bool inversions;    /* count the vertices with det F <= 0 (with determinants always) */
     /* Marks of the vertices (job/chain/marks.h): chain->marks.planes planes of kept_stride bytes, initially
        0; or NULL. */
     uint8_t *kept;

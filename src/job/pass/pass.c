@@ -31,15 +31,6 @@ static void fill_nan(double *values, size_t count)
         values[i] = NAN;
 }
 
-/* det F relative to the product of the lengths of F's rows: closer to 0 it may be the rounding of a collapse.
- */
-#define COLLAPSE 1e-12
-
-static bool turns_over(const double f[9], double det)
-{
-    return det < 0 && det < -COLLAPSE * vec_length(f) * vec_length(f + 3) * vec_length(f + 6);
-}
-
 static void note_range(double det, bool outside, size_t index, pass_totals *totals)
 {
     totals->det_min = lesser_of(totals->det_min, det);
@@ -50,8 +41,24 @@ static void note_range(double det, bool outside, size_t index, pass_totals *tota
     }
 }
 
-static void note_inversion(double det, size_t index, pass_totals *totals)
+/* det F relative to the product of the lengths of F's rows: closer to 0 its sign is not told. */
+#define FLAT 1e-12
+
+static bool turns_over(const double f[9], double det)
 {
+    return det < 0 && det < -FLAT * vec_length(f) * vec_length(f + 3) * vec_length(f + 6);
+}
+
+/* Counts a vertex that turns inside out, or collapses. f: its F. */
+static void note_turn(const point_outcome *outcome, const double f[9], size_t index, pass_totals *totals)
+{
+    const double det = mat_determinant(f);
+    if (outcome->collapsed) {
+        totals->collapsed++;
+        ffd_note_first(&totals->first_collapsed, index);
+    }
+    if (outcome->collapsed || !turns_over(f, det))
+        return;
     totals->inverted++;
     if (det < totals->det_inverted || (det == totals->det_inverted && index < totals->first_inverted)) {
         totals->det_inverted = det;
@@ -74,17 +81,17 @@ static void note_determinants(const pass_tile *tile)
         const point_outcome *const outcome = &base->outcomes[i];
         double f[9];
         mat_add_identity(base->gradient + 9 * i, f);
-        const double det = mat_determinant(f);
+        const double det = outcome->collapsed ? 0 : mat_determinant(f);
         const size_t index = (size_t)tile->first_index + i;
         if (!has_gradient(tile, outcome, i))
             continue;
         note_range(det, outcome->extended, index, tile->totals);
-        if (!outcome->extended && turns_over(f, det))
-            note_inversion(det, index, tile->totals);
+        if (!outcome->extended)
+            note_turn(outcome, f, index, tile->totals);
     }
 }
 
-/* Counts the vertices that turn inside out, of which turns has the candidates (before spread). */
+/* Counts the vertices that turn inside out or collapse, of which turns has the candidates (before spread). */
 static void note_turns(const pass_tile *tile)
 {
     const tile_points *const base = &tile->scratch->base;
@@ -94,9 +101,8 @@ static void note_turns(const pass_tile *tile)
         const point_outcome *const outcome = &base->outcomes[i];
         double f[9];
         mat_add_identity(base->gradient + 9 * i, f);
-        const double det = mat_determinant(f);
-        if (!outcome->extended && turns_over(f, det) && has_gradient(tile, outcome, v))
-            note_inversion(det, (size_t)tile->first_index + v, tile->totals);
+        if (!outcome->extended && has_gradient(tile, outcome, v))
+            note_turn(outcome, f, (size_t)tile->first_index + v, tile->totals);
     }
 }
 
@@ -105,7 +111,7 @@ static void fill_arrays(const pass_tile *tile)
 {
     const mesh_pass *const pass = tile->pass;
     const tile_points *const base = &tile->scratch->base;
-    if (!pass->statuses && !pass->deformed && !pass->gradients)
+    if (!pass->statuses && !pass->deformed && !pass->gradients && !pass->collapsed)
         return;
     for (size_t i = 0; i < tile->count; i++) {
         const size_t index = (size_t)tile->first_index + i;
@@ -113,6 +119,8 @@ static void fill_arrays(const pass_tile *tile)
         const double *gradient = base->gradient + 9 * i;
         if (pass->statuses)
             pass->statuses[index] = base->outcomes[i].status;
+        if (pass->collapsed)
+            pass->collapsed[index] = base->outcomes[i].collapsed;
         if (pass->deformed) {
             memcpy(pass->deformed + 3 * index, base->position + 3 * i, 3 * sizeof *base->position);
             if (singular)
@@ -406,7 +414,7 @@ static void take_points(const pass_tile *tile)
 typedef struct gradient_need {
     bool all;          /* those of every vertex */
     bool determinants; /* to look at det F of every vertex */
-    bool turns;        /* to count the vertices with det F < 0 */
+    bool turns;        /* to find the vertices with det F <= 0 */
 } gradient_need;
 
 static gradient_need find_need(const pass_tile *tile, bool directions)
@@ -416,7 +424,7 @@ static gradient_need find_need(const pass_tile *tile, bool directions)
     const bool determinants = counts && pass->determinants;
     return (gradient_need){.all = directions || determinants || (counts && pass->gradients),
                            .determinants = determinants,
-                           .turns = counts && pass->inversions && !determinants};
+                           .turns = determinants || (counts && (pass->inversions || pass->collapsed))};
 }
 
 /* Sends the selected vertices through the lattices. */
@@ -439,7 +447,7 @@ static ffd_status send_points(const pass_tile *tile, const gradient_need *need, 
         place_points(tile);
         choose(tile);
         run.located = recall(tile, &run);
-        run.turns = NULL;
+        turns->count = 0;
         run.only_turns = false;
         run.pace = NULL;
         run.moved_twice = run.disagreeing = 0;
@@ -472,7 +480,7 @@ static ffd_status deform_tile(const pass_tile *tile, ffd_error *error)
     take_points(tile);
     TRY(ffd_deadline_check(error));
     TRY(send_points(tile, &need, error));
-    if (need.turns)
+    if (need.turns && !need.determinants && pass->inversions)
         note_turns(tile);
     spread(tile);
     if (need.determinants)
@@ -586,7 +594,8 @@ static ffd_status pass_over_part(part_work *work, pass_totals *totals, ffd_error
     const ffd_status status = count_others(work, tiles, size, error);
     for (size_t i = 0; i < tiles; i++)
         ffd_totals_join(&work->tiles[i], totals);
-    ffd_totals_judge_rounding(work->tiles, tiles, ffd_part_tolerance(work->whole.pass->document), totals);
+    ffd_totals_judge_rounding(work->tiles, tiles, ffd_part_tolerance(work->whole.pass->document),
+                              ffd_rounding_is_none(&work->whole.part->rounding), totals);
     ffd_free(work->tiles);
     TRY(status);
     for (int i = 0; i < work->workers; i++)

@@ -55,7 +55,7 @@ typedef struct tile_scratch {
     tile_points base; /* the selected vertices, until spread makes them all vertices of the tile */
     chain_scratch
         chain;       /* its locations: of the selected vertices, then of those that a morph target moves */
-    turn_list turns; /* the points at which det F may be 0 or less, if only these are wanted */
+    turn_list turns; /* the points at which det F may be 0 or less */
     uint8_t changed[PASS_TILE];
     vertex_transforms transforms;
     double normals[3 * PASS_TILE], tangents[4 * PASS_TILE];

@@ -1,5 +1,5 @@
-/* tile_rounding.c - what the rounding of results to floats does to a tile (mesh/precision.h). A conversion's
-   results are judged by the model that is written. */
+/* tile_rounding.c - what the rounding of results does to a tile (mesh/precision.h): to floats, or to the
+   doubles that they are computed in. The floats of a conversion are judged by the model that is written. */
 #include "base/vector/array_kernel.h"
 #include "base/vector/vec.h"
 #include "job/pass/tile.h"
@@ -16,6 +16,11 @@ static bool rounds(const pass_tile *tile)
 {
     const bool *const floats = tile->part->rounding.is_float;
     return tile->pass->write && !tile->pass->is_converted && floats[0] && floats[1] && floats[2];
+}
+
+static bool are_doubles(const pass_tile *tile)
+{
+    return tile->pass->write && ffd_rounding_is_none(&tile->part->rounding);
 }
 
 /* Returns the bounds of the finite coordinates of the tile's positions in the file. counted: the bounds of
@@ -36,12 +41,15 @@ static ffd_bounds bounds_of(const pass_tile *tile, const ffd_bounds *counted)
     return box;
 }
 
-/* Returns the largest half side of the rounding cells in a box: floats grow coarser away from 0. */
+/* Returns the largest half side of the rounding cells in a box: floats and doubles grow coarser away from
+   0. */
 static double coarsest(const mesh_rounding *rounding, const ffd_bounds *box)
 {
     double farthest[3], half[3];
     for (int a = 0; a < 3; a++)
         farthest[a] = box->min[a] > box->max[a] ? 0 : larger_of(fabs(box->min[a]), fabs(box->max[a]));
+    if (ffd_rounding_is_none(rounding))
+        return ffd_double_step(vec_greatest(farthest)) / 2;
     ffd_rounding_cell(rounding, farthest, half);
     return larger_of(half[0], larger_of(half[1], half[2]));
 }
@@ -49,7 +57,7 @@ static double coarsest(const mesh_rounding *rounding, const ffd_bounds *box)
 void ffd_tile_rounding_at_rest(const pass_tile *tile)
 {
     part_rounding *const rounding = &tile->totals->rounding;
-    if (!rounds(tile))
+    if (!rounds(tile) && !are_doubles(tile))
         return;
     const ffd_bounds box = bounds_of(tile, &tile->totals->before);
     rounding->before = larger_of(rounding->before, coarsest(&tile->part->rounding, &box));
@@ -68,14 +76,17 @@ bool ffd_tile_shows(const pass_tile *tile)
 void ffd_tile_rounding_of_results(const pass_tile *tile)
 {
     part_rounding *const rounding = &tile->totals->rounding;
-    if (!rounds(tile))
+    const bool doubles = are_doubles(tile);
+    if (!rounds(tile) && !doubles)
         return;
     const ffd_bounds box = bounds_of(tile, &tile->totals->after);
     ffd_bounds_join(&rounding->box, &box);
     /* The part is no smaller than the tile: errors within the tile's tolerance are within the part's. */
-    if (coarsest(&tile->part->rounding, &box) <=
-        ffd_part_tolerance(tile->pass->document) * ffd_bounds_side(&box))
+    const double step = coarsest(&tile->part->rounding, &box);
+    if (step <= ffd_part_tolerance(tile->pass->document) * ffd_bounds_side(&box))
         return;
-    for (size_t i = 0; i < tile->count; i++)
+    if (doubles) /* the numbers that they round are not known */
+        rounding->error = larger_of(rounding->error, step);
+    for (size_t i = 0; i < tile->count && !doubles; i++)
         rounding->error = larger_of(rounding->error, ffd_float_error(tile->scratch->base.stored + 3 * i));
 }

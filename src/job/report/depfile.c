@@ -1,14 +1,28 @@
 #include "job/report/depfile.h"
 #include "base/file/output.h"
+#include "base/file/path.h"
 #include "base/memory/intern.h"
 #include "base/memory/memory.h"
 #include "job/report/replace.h"
 #include <string.h>
 
 struct ffd_depfile {
+    char *path;
     file_output *output; /* begun by ffd_depfile_create */
     byte_buffer rules;
+    size_t written;  /* bytes of the rules that output has */
+    bool is_spoiled; /* output has others, or an error: it is to be begun again */
 };
+
+/* Begins the file; one that was begun is dropped. */
+static ffd_status begin(ffd_depfile *depfile, ffd_error *error)
+{
+    ffd_output_destroy(&depfile->output);
+    depfile->written = 0;
+    depfile->is_spoiled = false;
+    TRY(ffd_output_create(&depfile->output, error));
+    return ffd_output_begin(depfile->output, depfile->path, true, error);
+}
 
 /* Whether a file looks like a depfile: each of its lines names targets, the last of which ends in a colon,
    and is no comment or JSON. */
@@ -45,8 +59,8 @@ ffd_status ffd_depfile_create(const char *path, ffd_depfile **depfile, ffd_error
     if (!made)
         return ffd_fail_memory(error);
     ffd_status status;
-    TRY_END(ffd_output_create(&made->output, error));
-    TRY_END(ffd_output_begin(made->output, path, true, error));
+    made->path = ffd_text_copy(path);
+    TRY_END(made->path ? begin(made, error) : ffd_fail_memory(error));
 end:
     if (status)
         ffd_depfile_destroy(&made);
@@ -60,6 +74,7 @@ void ffd_depfile_destroy(ffd_depfile **depfile)
         return;
     ffd_output_destroy(&(*depfile)->output);
     ffd_buffer_free(&(*depfile)->rules);
+    ffd_free((*depfile)->path);
     ffd_free(*depfile);
     *depfile = NULL;
 }
@@ -129,10 +144,37 @@ void ffd_depfile_add(ffd_depfile *depfile, const byte_buffer *rules)
     ffd_buffer_append(&depfile->rules, rules->data, rules->size);
 }
 
+/* Writes the rules that the file does not have yet. */
+static ffd_status write_rules(ffd_depfile *depfile, ffd_error *error)
+{
+    const byte_buffer *const rules = &depfile->rules;
+    TRY(rules->failed ? ffd_fail_memory(error) : FFD_OK);
+    TRY(depfile->is_spoiled ? begin(depfile, error) : FFD_OK);
+    if (depfile->written < rules->size)
+        TRY(ffd_output_write(depfile->output, rules->data + depfile->written, rules->size - depfile->written,
+                             error));
+    depfile->written = rules->size;
+    return FFD_OK;
+}
+
+ffd_status ffd_depfile_offer(ffd_depfile *depfile, const byte_buffer *rules, ffd_error *error)
+{
+    ffd_depfile_add(depfile, rules);
+    if (ffd_output_is_stream(depfile->path))
+        return FFD_OK;
+    TRY(write_rules(depfile, error));
+    return ffd_output_flush(depfile->output, error);
+}
+
+void ffd_depfile_withdraw(ffd_depfile *depfile, const byte_buffer *rules)
+{
+    if (!depfile->rules.failed)
+        depfile->rules.size -= rules->size;
+    depfile->is_spoiled = !ffd_output_is_stream(depfile->path);
+}
+
 ffd_status ffd_depfile_write(ffd_depfile *depfile, ffd_error *error)
 {
-    const byte_buffer *rules = &depfile->rules;
-    TRY(rules->failed ? ffd_fail_memory(error) : FFD_OK);
-    TRY(ffd_output_write(depfile->output, rules->data, rules->size, error));
+    TRY(write_rules(depfile, error));
     return ffd_output_commit(depfile->output, error);
 }

@@ -108,7 +108,10 @@ static ffd_status open_file(ffd_report *report, ffd_output_set *output_set, cons
         TRY(ffd_output_begin(report->stream, report->path, true, error));
         if (head->failed)
             return ffd_fail_memory(error);
-        return ffd_output_write(report->stream, head->data, head->size, error);
+        TRY(ffd_output_write(report->stream, head->data, head->size, error));
+        /* A device that is full is told before the first job. A stream gets nothing before it has an entry.
+         */
+        return ffd_output_is_stream(report->path) ? FFD_OK : ffd_output_flush(report->stream, error);
     }
     ffd_report_end_text(report->lines, true, head);
     return head->failed ? ffd_fail_memory(error)

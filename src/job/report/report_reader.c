@@ -1,8 +1,13 @@
 #include "job/report/report_reader.h"
+#include "base/text/content.h"
+#include "base/text/words.h"
 #include "job/report/report.h"
 #include "json/json_parse.h"
 #include <stdio.h>
 #include <string.h>
+
+/* The most bytes of what was found, for messages. */
+#define SHOWN_MOST 64
 
 /* Returns the line number of a position. Counts lines, so only for messages. */
 static size_t line_of(const report_reader *reader, const char *at)
@@ -13,14 +18,34 @@ static size_t line_of(const report_reader *reader, const char *at)
     return line;
 }
 
+/* Returns the end of the text, number, word or character at the current position. */
+static const char *token_end(const report_reader *reader)
+{
+    const char *c = reader->at;
+    if (*c == '"') {
+        for (c++; c < reader->end && *c != '"' && (unsigned char)*c >= ' ';)
+            c += *c == '\\' && c + 1 < reader->end ? 2 : 1;
+        return c < reader->end && *c == '"' ? c + 1 : reader->at + 1;
+    }
+    while (c < reader->end && *c &&
+           strchr("+-.0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_", *c))
+        c++;
+    return c > reader->at ? c : c + 1;
+}
+
 static ffd_status refuse(const report_reader *reader, const char *what, ffd_error *error)
 {
-    char found[16] = "the end";
+    char found[SHOWN_MOST] = "the end";
     const unsigned char byte = reader->at < reader->end ? (unsigned char)*reader->at : 0;
-    if (byte > 0x20 && byte < 0x7f)
-        snprintf(found, sizeof found, "'%c'", byte);
-    else if (reader->at < reader->end)
+    if (byte > 0x20 && byte < 0x7f) {
+        const size_t length = (size_t)(token_end(reader) - reader->at);
+        const char *const quote = length == 1 ? "'" : "";
+        char shown[SHOWN_MOST - 3];
+        ffd_bytes_shown(reader->at, length, shown, sizeof shown);
+        snprintf(found, sizeof found, "%s%s%s", quote, shown, quote);
+    } else if (reader->at < reader->end) {
         snprintf(found, sizeof found, "byte 0x%02x", (unsigned)byte);
+    }
     return ffd_fail_line(error, FFD_E_INVALID, reader->name, line_of(reader, reader->at),
                          "not a report: %s, found %s", what, found);
 }
@@ -249,6 +274,8 @@ ffd_status ffd_report_reader_open(report_reader *reader, const char *name, bool 
     unsigned seen = 0;
     *reader = (report_reader){
         .name = name, .begin = text, .at = text, .end = (const char *)text + size, .lines = lines};
+    if (ffd_content_is_utf16(text, size))
+        return ffd_fail_line(error, FFD_E_INVALID, name, 1, "is text in UTF-16: it must be UTF-8");
     take_text(reader, "\xef\xbb\xbf"); /* RFC 8259, 8.1: a byte order mark may be ignored */
     skip_space(reader);
     if (lines)

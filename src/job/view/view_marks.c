@@ -34,7 +34,7 @@ static ffd_status add_statuses(const job_details *details, const mesh_model *mod
         memcpy(f, details->gradients + 9 * index, sizeof f);
         for (size_t a = 0; a < 3; a++)
             f[4 * a] += 1;
-        scene->dets[v] = mat_determinant(f);
+        scene->dets[v] = details->collapsed && details->collapsed[index] ? 0 : mat_determinant(f);
     }
     return FFD_OK;
 }
@@ -47,8 +47,9 @@ static bool is_flipped(const job_details *details, const view_scene *scene, cons
     const model_corner *const corners = model_element(&model->lists[MODEL_FACES], face, &count);
     for (size_t c = 0; c < count; c++)
         indices[c] = (uint32_t)index_of(scene, corners[c].position);
-    return ffd_quality_is_flipped(indices, count, details->faces.positions, details->deformed,
-                                  details->gradients);
+    const face_motion motion = {details->faces.positions, details->deformed, details->gradients,
+                                details->collapsed};
+    return ffd_quality_is_flipped(indices, count, &motion);
 }
 
 static ffd_status add_flipped(const job_details *details, const mesh_model *model, const uint32_t *faces,

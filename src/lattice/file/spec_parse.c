@@ -1,8 +1,8 @@
 #include "lattice/file/spec_parse.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/text/content.h"
 #include "base/text/number.h"
-#include "base/text/stand_in.h"
 #include "lattice/file/spec_parameters.h"
 #include "lattice/file/spec_parse_moves.h"
 #include "lattice/file/spec_parse_rest.h"
@@ -284,18 +284,30 @@ end:
     return status;
 }
 
+/* Says what a file that is no JSON seems to be, in place of the character that was not expected. */
+static void mention_content(const char *text, size_t size, const char *name, ffd_error *error)
+{
+    const content_kind *const kind = ffd_content_kind(text, size);
+    if (!kind || kind->format == FFD_FORMAT_GLTF || ffd_content_is_utf16(text, size))
+        return;
+    ffd_fail_line(error, FFD_E_INVALID, name, 1, "not valid JSON");
+    ffd_content_mention(kind, error);
+}
+
 ffd_status ffd_spec_parse(const char *text, size_t size, const char *name, const spec_settings *settings,
                           lattice_spec **spec, ffd_error *error)
 {
     static const spec_settings none = {.count = 0};
-    const json_input input = {
-        .text = text, .size = size, .name = name, .rules = JSON_ALLOW_MARK | JSON_NO_NUL | JSON_DOUBLES};
+    const json_input input = {.text = text,
+                              .size = size,
+                              .name = name,
+                              .rules = JSON_ALLOW_MARK | JSON_NO_NUL | JSON_DOUBLES | JSON_HAS_COMMENT};
     json_tree tree = {0};
     lattice_spec *result = NULL;
     *spec = NULL;
     ffd_status status = ffd_json_parse(&input, &tree, error);
-    if (status)
-        ffd_stand_in_describe(text, size, error);
+    if (status == FFD_E_INVALID && error)
+        mention_content(text, size, name, error);
     TRY_END(status);
     result = ffd_alloc_zero(1, sizeof *result);
     if (!result || !(result->name = ffd_text_copy(name)))

@@ -1,9 +1,9 @@
 #include "io/gltf/read/gltf_contents.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
+#include "base/text/content.h"
 #include "base/vector/array_kernel.h"
 #include "io/gltf/read/gltf_elements.h"
-#include "io/text/content.h"
 #include <math.h>
 
 static void mark_view(const gltf_document *d, int view, bool *is_read)

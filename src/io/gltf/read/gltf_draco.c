@@ -204,6 +204,8 @@ static ffd_status decode_mesh(gltf_document *d, const packed_primitive *packed, 
     ffd_error problem = {0};
     if (!bytes)
         return fail(d, value, FFD_E_INVALID, error, "the bufferView has no bytes");
+    if (!LITTLE_ENDIAN_MACHINE) /* the library copies numbers as the machine has them */
+        return fail(d, value, FFD_E_UNSUPPORTED, error, "Draco is not supported on big-endian machines");
     const ffd_status status = ffd_draco_decode(bytes, (size_t)d->model.views[packed->view].length, claim,
                                                &d->base.budget, mesh, &problem);
     if (status)

@@ -1,7 +1,11 @@
-#include "io/text/content.h"
+#include "base/text/content.h"
+#include "base/little_endian.h"
 #include "base/text/stand_in.h"
-#include "io/text/text_scan.h"
+#include <stdio.h>
 #include <string.h>
+
+#define STL_START 84
+#define STL_FACET 50
 
 /* Bytes of JSON text that are looked at. */
 #define TEXT_SEEN 512
@@ -60,6 +64,9 @@ static const struct {
     {"off", {"an OFF file", FFD_FORMAT_OFF, false, false}},
     {"v", {"an OBJ file", FFD_FORMAT_OBJ, false, false}},
     {"mtllib", {"an OBJ file", FFD_FORMAT_OBJ, false, false}},
+    {"usemtl", {"an OBJ file", FFD_FORMAT_OBJ, false, false}},
+    {"o", {"an OBJ file", FFD_FORMAT_OBJ, false, false}},
+    {"g", {"an OBJ file", FFD_FORMAT_OBJ, false, false}},
     {"newmtl", {"an MTL file", FFD_FORMAT_AUTO, false, false}},
 };
 
@@ -67,17 +74,42 @@ static const content_kind stand_ins[] = {{STAND_IN_LFS, FFD_FORMAT_AUTO, false, 
                                          {STAND_IN_ANNEX, FFD_FORMAT_AUTO, false, true},
                                          {STAND_IN_HTML, FFD_FORMAT_AUTO, false, true}};
 
-static bool matches(text_word word, const char *pattern)
+static bool is_blank(unsigned char byte)
 {
-    const size_t size = strlen(pattern);
-    if (size == 0 || pattern[size - 1] != '*')
-        return ffd_text_is_any_case(word, pattern);
-    if ((size_t)(word.last - word.first) < size - 1)
-        return false;
-    char start[32];
-    memcpy(start, pattern, size - 1);
-    start[size - 1] = '\0';
-    return ffd_text_is_any_case((text_word){word.first, word.first + size - 1}, start);
+    return byte == ' ' || byte == '\t' || byte == '\n' || byte == '\r';
+}
+
+/* The size of a byte order mark of UTF-8 at the start. */
+static size_t mark_size(const unsigned char *data, size_t size)
+{
+    return size >= 3 && memcmp(data, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+}
+
+/* Finds the first word that is in no comment. Returns its size; *begin becomes its start. */
+static size_t first_word(const unsigned char *data, size_t size, size_t *begin)
+{
+    size_t at = mark_size(data, size), end;
+    while (at < size && (is_blank(data[at]) || data[at] == '\v' || data[at] == '\f' || data[at] == '#')) {
+        const bool is_comment = data[at] == '#';
+        for (at++; is_comment && at < size && data[at] != '\n' && data[at] != '\r';)
+            at++;
+    }
+    for (end = at;
+         end < size && !is_blank(data[end]) && data[end] != '\v' && data[end] != '\f' && data[end] != '#';)
+        end++;
+    *begin = at;
+    return end - at;
+}
+
+static bool matches(const unsigned char *word, size_t size, const char *pattern)
+{
+    const size_t length = strlen(pattern);
+    const bool is_start = length > 0 && pattern[length - 1] == '*';
+    const size_t compared = length - is_start;
+    bool same = is_start ? size >= compared : size == compared;
+    for (size_t i = 0; i < compared && same; i++)
+        same = (word[i] >= 'A' && word[i] <= 'Z' ? word[i] - 'A' + 'a' : word[i]) == pattern[i];
+    return same;
 }
 
 static const content_kind *kind_of_words(const void *data, size_t size)
@@ -86,13 +118,10 @@ static const content_kind *kind_of_words(const void *data, size_t size)
     for (size_t i = 0; stand_in && i < sizeof stand_ins / sizeof *stand_ins; i++)
         if (strcmp(stand_in, stand_ins[i].name) == 0)
             return &stand_ins[i];
-    text_scan scan;
-    text_word first = {"", ""};
-    ffd_text_begin(&scan, data, size, true);
-    if (ffd_text_find(&scan))
-        ffd_text_word(&scan, &first);
+    size_t begin;
+    const size_t length = first_word(data, size, &begin);
     for (size_t i = 0; i < sizeof first_words / sizeof *first_words; i++)
-        if (matches(first, first_words[i].first))
+        if (matches((const unsigned char *)data + begin, length, first_words[i].first))
             return &first_words[i].kind;
     return NULL;
 }
@@ -106,9 +135,18 @@ static size_t find_magic(const unsigned char *data, size_t size)
     return SIZE_MAX;
 }
 
+/* The header of a binary STL file, and each of its facets, have a fixed size. */
+static bool is_binary_stl(const unsigned char *data, size_t size)
+{
+    return size >= STL_START && STL_START + (uint64_t)load_u32(data + STL_START - 4) * STL_FACET == size;
+}
+
 const content_kind *ffd_content_kind(const void *data, size_t size)
 {
+    static const content_kind binary_stl = {"a binary STL file", FFD_FORMAT_STL, true, false};
     const size_t found = find_magic(data, size);
+    if (found == SIZE_MAX && is_binary_stl(data, size))
+        return &binary_stl;
     return found != SIZE_MAX ? &magic_numbers[found].kind : kind_of_words(data, size);
 }
 
@@ -126,17 +164,11 @@ static bool is_text(const unsigned char *data, size_t size)
     return true;
 }
 
-static bool is_blank(unsigned char byte)
-{
-    return byte == ' ' || byte == '\t' || byte == '\n' || byte == '\r';
-}
-
 /* Whether JSON text begins with an object, or with an array of objects: a quote or the end of the object
    follows its brace. */
 static bool is_objects(const unsigned char *data, size_t size)
 {
-    const unsigned char *at = data + (ffd_text_has_mark(data, size) ? TEXT_MARK_SIZE : 0), *const end =
-                                                                                               data + size;
+    const unsigned char *at = data + mark_size(data, size), *const end = data + size;
     for (bool in_array = false; at < end && (is_blank(*at) || (*at == '[' && !in_array)); at++)
         in_array = in_array || *at == '[';
     if (at == end || *at != '{')
@@ -147,15 +179,38 @@ static bool is_objects(const unsigned char *data, size_t size)
     return at < end && (*at == '"' || *at == '}');
 }
 
+/* Whether two bytes are a character of ASCII in UTF-16. */
+static bool is_unit(const unsigned char *bytes, size_t low)
+{
+    const unsigned char byte = bytes[low];
+    return bytes[1 - low] == 0 && byte < 127 && (byte >= ' ' || is_blank(byte));
+}
+
+bool ffd_content_is_utf16(const void *data, size_t size)
+{
+    const unsigned char *const bytes = data;
+    if (size < 2)
+        return false;
+    if ((bytes[0] == 0xff && bytes[1] == 0xfe) || (bytes[0] == 0xfe && bytes[1] == 0xff))
+        return true;
+    const size_t low = bytes[0] == 0;
+    return is_unit(bytes, low) && (size < 4 || is_unit(bytes + 2, low));
+}
+
+void ffd_content_mention(const content_kind *kind, ffd_error *error)
+{
+    const size_t length = strlen(error->message);
+    if (kind && !(kind->name == utf16 && strstr(error->message, "UTF-16")))
+        snprintf(error->message + length, sizeof error->message - length, "; it seems to be %s", kind->name);
+}
+
 /* Whether text in UTF-16 follows the mark: letters of ASCII, more than numbers have by chance. */
 static bool is_utf16(const unsigned char *data, size_t size)
 {
     const size_t low = data[0] == 0xff ? 0 : 1;
     bool is_text = size >= 2 + 2 * UTF16_SEEN;
-    for (size_t i = 2; i < 2 + 2 * UTF16_SEEN && is_text; i += 2) {
-        const unsigned char byte = data[i + low];
-        is_text = data[i + 1 - low] == 0 && byte < 127 && (byte >= ' ' || is_blank(byte));
-    }
+    for (size_t i = 2; i < 2 + 2 * UTF16_SEEN && is_text; i += 2)
+        is_text = is_unit(data + i, low);
     return is_text;
 }
 
