@@ -286,8 +286,9 @@ test_windows() {
     printf '[constants]\ncache = [%s]\n' "${ccache:+'ccache'}" >"$work/cache.ini"
     [ -f "$work/windows/build.ninja" ] || step windows setup meson setup "$work/windows" "$root" \
         --cross-file "$root/data/packaging/windows.ini" --cross-file "$work/cache.ini" --wrap-mode=forcefallback \
-        -Dbuildtype=release -Dstatic=true -Ddefault_library=static -Dtests=disabled || return
-    if step windows build ninja -C "$work/windows" src/cli/ffd.exe tests/windows/ffd_fault.exe tests/windows/hold.exe; then
+        -Dwerror=true -Dbuildtype=release -Dstatic=true -Ddefault_library=static -Dpython=true -Dtests=disabled || return
+    if step windows build ninja -C "$work/windows" ffd_mesh src/cli/ffd.exe tests/windows/ffd_fault.exe tests/windows/hold.exe \
+        tests/windows/library.exe; then
         say windows built
         FFD_WINDOWS=$work/windows
         export FFD_WINDOWS
@@ -377,7 +378,7 @@ test_release() {
     rm -rf "$work/artefacts" "$work/artefacts-again"
     step release setup sh "$root/.ci/setup" release || return
     case_of release twice release_twice || return
-    for name in sums sbom wheel wheel-arm64 wheel-musl static static-arm64 windows npm source deb; do
+    for name in sums sbom wheel wheel-arm64 wheel-musl wheel-windows static static-arm64 windows npm source deb; do
         case_of release "$name" python3 "$root/tests/release/test_artefacts.py" "$work/artefacts" "$name"
     done
     clock=$(date +%s)

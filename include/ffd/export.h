@@ -8,6 +8,8 @@
 #else
 #define FFD_API __declspec(dllimport)
 #endif
+#elif defined(_WIN32)
+#define FFD_API
 #elif defined(__GNUC__)
 #define FFD_API __attribute__((visibility("default")))
 #else

@@ -61,6 +61,10 @@ FFD_API bool ffd_paths_meet(const char *a, const char *b);
 FFD_API ffd_status ffd_output_path(const char *folder, const char *input, const char *ending, char **path,
                                    ffd_error *error);
 
+/* Checks that no file is where a folder for outputs is to be. A folder need not be there yet. Thread-safe.
+   Errors: FFD_E_IO, FFD_E_MEMORY. */
+FFD_API ffd_status ffd_check_output_folder(const char *folder, ffd_error *error);
+
 /* Does the work of this process if ffd_batch_run has started it (ffd/batch.h), and sets *exit_code. Returns
    false otherwise. The program `ffd` calls it with the arguments of main, after ffd_cleanup_on_signals. */
 FFD_API bool ffd_worker_main(int argc, char **argv, int *exit_code);

@@ -241,8 +241,8 @@ static ffd_status make_table(job_journal *journal, ffd_error *error)
     journal->slots = FIRST_SLOTS;
     journal->end = figures_begin(FIRST_SLOTS);
     if (!ffd_update_clear(journal->file) || !write_empty(journal->file, journal->slots))
-        return ffd_fail_file(error, FFD_E_IO, journal->path, "cannot be written: %s",
-                             errno ? strerror(errno) : "unknown reason");
+        return errno ? ffd_fail_errno(error, journal->path, "cannot be written")
+                     : ffd_fail_file(error, FFD_E_IO, journal->path, "cannot be written: unknown reason");
     return FFD_OK;
 }
 

@@ -1,6 +1,5 @@
 /* deform.c - ffd deform: one mesh to a file, or many to a folder. */
 #include "cli/deform.h"
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -80,22 +79,8 @@ static int refuse_conflicts(const settings *s, const cli_words *inputs)
 /* A file in the place of the folder would fail every job: complain once, before any work. */
 static int refuse_no_folder(const char *folder)
 {
-    const size_t capacity = strlen(folder) + 3;
-    char *const inside = malloc(capacity);
-    if (!inside) {
-        cli_complain("out of memory");
-        return ffd_status_exit_code(FFD_E_MEMORY);
-    }
-    snprintf(inside, capacity, "%s/.", folder);
-    FILE *file = fopen(inside, "r");
-    const bool is_none = !file && errno == ENOTDIR;
-    if (file)
-        fclose(file);
-    free(inside);
-    if (!is_none)
-        return EXIT_DONE;
-    cli_complain("%s: is not a folder", folder);
-    return ffd_status_exit_code(FFD_E_IO);
+    ffd_error error;
+    return ffd_check_output_folder(folder, &error) ? cli_fail(&error) : EXIT_DONE;
 }
 
 static bool describe(settings *s, const char *input, const char *output, ffd_deform_desc *desc)

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Generates from include/ffd the ctypes declarations of the library's structures and functions for the Python package,
-and a C source with which the compiler checks that both sides agree on every size and offset.
+a C source with which the compiler checks that both sides agree on every size and offset, and the list of what the library
+shows on Windows.
 
-    declare.py HEADERS DECLARATIONS.py LAYOUT.c COMPILER...
+    declare.py HEADERS DECLARATIONS.py LAYOUT.c EXPORTS.def COMPILER...
 
 COMPILER is used as a preprocessor only. No declaration of the library is written by hand.
 """
@@ -36,7 +37,7 @@ def expand(headers, compiler):
                 file.write(text)
         return subprocess.run(
             [*compiler, "-E", "-P", "-nostdinc", "-U__GNUC__", "-x", "c", "-I", folder, "-I", os.path.dirname(headers),
-             os.path.join(headers, "ffd.h")], check=True, capture_output=True, text=True).stdout
+             "-DFFD_STATIC", os.path.join(headers, "ffd.h")], check=True, capture_output=True, text=True).stdout
 
 
 class Headers:
@@ -141,10 +142,11 @@ def layout(headers, text):
 
 
 def main():
-    folder, module, source, *compiler = sys.argv[1:]
+    folder, module, source, exports, *compiler = sys.argv[1:]
     headers = Headers(expand(folder, compiler))
     text = python(headers)
-    for path, content in ((module, text), (source, layout(headers, text))):
+    names = "".join(f"    {name}\n" for name in sorted(headers.functions))
+    for path, content in ((module, text), (source, layout(headers, text)), (exports, f"EXPORTS\n{names}")):
         with open(path, "w", encoding="utf-8") as file:
             file.write(content)
 

@@ -3,8 +3,11 @@
 
    The callbacks are in C because a KeyboardInterrupt inside a Python callback of ctypes could not be caught
    by the caller. Each callback acquires the GIL and stores its results, or an exception, in a list. */
+#ifndef _WIN32
 #define PY_SSIZE_T_CLEAN
 #include <Python.h>
+#endif
+#include "python/stable_abi.h"
 #include <ffd/batch.h>
 #include <ffd/job.h>
 #include <ffd/lattice.h>

@@ -145,7 +145,14 @@ typedef struct ffd_border_allowance {
 ffd_status ffd_locator_locate(const ffd_locator *locator, const double *xyz, size_t count,
                               const ffd_border_allowance *allowance, ffd_location *locations,
                               size_t location_size, ffd_error *error);
-typedef enum ffd_isa { FFD_ISA_AUTO, FFD_ISA_SCALAR, FFD_ISA_SSE2, FFD_ISA_AVX2, FFD_ISA_AVX512 } ffd_isa;
+typedef enum ffd_isa {
+    FFD_ISA_AUTO,
+    FFD_ISA_SCALAR,
+    FFD_ISA_SSE2,
+    FFD_ISA_AVX2,
+    FFD_ISA_AVX512,
+    FFD_ISA_NEON
+} ffd_isa;
 bool ffd_isa_available(ffd_isa isa);
 typedef enum ffd_fold_verdict {
     FFD_FOLDS_NONE = 0,
@@ -794,6 +801,7 @@ const char *ffd_word_meant(const char *word, const char *const *known, size_t co
 bool ffd_paths_meet(const char *a, const char *b);
 ffd_status ffd_output_path(const char *folder, const char *input, const char *ending, char **path,
                            ffd_error *error);
+ffd_status ffd_check_output_folder(const char *folder, ffd_error *error);
 bool ffd_worker_main(int argc, char **argv, int *exit_code);
 typedef enum ffd_member_kind {
     FFD_MEMBER_FLAG = 0,

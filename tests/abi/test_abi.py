@@ -146,7 +146,7 @@ def symbols(kept, library, abi):
 CASES = {
     "a function": (r"(const char \*ffd_version\(void\);)", r"\1 int ffd_more(int x);", True),
     "a member at the end of a struct with its size": (r"(\} ffd_run_options;)", r"double later; \1", True),
-    "a number of an enumeration": (r"FFD_ISA_AVX512\b", "FFD_ISA_AVX512, FFD_ISA_LATER", True),
+    "a number of an enumeration": (r"FFD_ISA_NEON\b", "FFD_ISA_NEON, FFD_ISA_LATER", True),
     "a figure of folds, in their room": (r"(\} ffd_folds;)((?:.|\n)*folds_room)\[8\]", r"uint64_t later; \1\2[7]", True),
     "a figure of a group, in its room": (r"uint64_t room\[2\];(\s+\} ffd_splat_figures;)", r"uint64_t later; uint64_t room[1];\1", True),
     "a figure of a group, beside its room": (r"uint64_t room\[2\];(\s+\} ffd_splat_figures;)", r"uint64_t later; uint64_t room[2];\1", False),

@@ -8,7 +8,7 @@
 The build and the C example are run by tests/install/test_packages.py, in the source that a release is packed into.
 Blocks are fenced: ```sh (commands of the tutorial), ```sh build (those of the build), ```json NAME, ```csv NAME, ```ninja NAME,
 ```make NAME and ```c NAME (files). ```sh package and ```sh library are run by tests of tests/install,
-```sh slurm, parallel and snakemake by those of tests/cluster.
+```sh slurm, parallel and snakemake by those of tests/cluster, ```bat and ```powershell (data/windows.md) by tests/windows.
 Commands that stand indented are compared with a list: a new one must find its test here."""
 import os
 import re
@@ -21,7 +21,7 @@ import zlib
 
 # In the order in which a reader comes to them: a page may use the files of those before it.
 PAGES = ("README.md", "data/tutorial.md", "data/promises.md", "data/reference.md")
-LINKED = PAGES + ("CONTRIBUTING.md", "data/README.md", "data/python.md", "data/npm.md", "data/schema/formats.md", "data/schema/lattice.md", "src/README.md",
+LINKED = PAGES + ("CONTRIBUTING.md", "data/README.md", "data/python.md", "data/npm.md", "data/windows.md", "data/schema/formats.md", "data/schema/lattice.md", "src/README.md",
                   "tests/README.md")
 MOST_WORDS = 2500
 

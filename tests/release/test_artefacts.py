@@ -29,6 +29,7 @@ NAMES = {
     "wheel": f"ffd_mesh-{VERSION}-cp311-abi3-manylinux_2_28_x86_64.whl",
     "wheel-musl": f"ffd_mesh-{VERSION}-cp311-abi3-musllinux_1_2_x86_64.whl",
     "wheel-arm64": f"ffd_mesh-{VERSION}-cp311-abi3-manylinux_2_28_aarch64.whl",
+    "wheel-windows": f"ffd_mesh-{VERSION}-cp311-abi3-win_amd64.whl",
     "static": f"ffd-{VERSION}-linux-x86_64.tar.xz",
     "static-arm64": f"ffd-{VERSION}-linux-arm64.tar.xz",
     "windows": f"ffd-{VERSION}-windows-x86_64.zip",
@@ -37,6 +38,8 @@ NAMES = {
     "deb": f"ffd_{VERSION}-1_amd64.deb",
 }
 MEGABYTE = 1_000_000
+# What every Windows has.
+WINDOWS = {"ADVAPI32.dll", "KERNEL32.dll", "msvcrt.dll"}
 # Debian's cross compiler brings this system of arm64.
 SYSTEM = "/usr/aarch64-linux-gnu"
 findings = []
@@ -129,10 +132,34 @@ def test_windows(out):
         check(sorted(os.listdir(tree)) == ["LICENSE", "THIRD-PARTY.md", "ffd.exe", "licenses"], f"windows: holds {os.listdir(tree)}")
         program = os.path.join(tree, "ffd.exe")
         check(os.path.getsize(program) <= 8 * MEGABYTE, f"windows: ffd.exe has {os.path.getsize(program)} bytes")
-        libraries = set(re.findall(r"DLL Name: (\S+)", run("x86_64-w64-mingw32-objdump", "-p", program)))
-        check(libraries <= {"ADVAPI32.dll", "KERNEL32.dll", "msvcrt.dll"}, f"windows: needs {sorted(libraries)}")
-        os.environ |= {"WINEPREFIX": os.path.join(folder, "wine"), "WINEDEBUG": "-all"}
-        do_jobs("windows", shutil.which("wine64") or "/usr/lib/wine/wine64", program)
+        check(imported(program) <= WINDOWS, f"windows: needs {sorted(imported(program))}")
+        do_jobs_in_wine("windows", program, folder)
+
+
+def imported(path):
+    return set(re.findall(r"DLL Name: (\S+)", run("x86_64-w64-mingw32-objdump", "-p", path)))
+
+
+def do_jobs_in_wine(what, program, folder, options=()):
+    os.environ |= {"WINEPREFIX": os.path.join(folder, "wine"), "WINEDEBUG": "-all"}
+    do_jobs(what, shutil.which("wine64") or "/usr/lib/wine/wine64", program, options=options)
+
+
+def test_wheel_windows(out):
+    """Without Python: its files, what they need, and the program."""
+    path = os.path.join(out, NAMES["wheel-windows"])
+    check(os.path.getsize(path) <= 6 * MEGABYTE, f"wheel-windows: {os.path.getsize(path)} bytes")
+    with tempfile.TemporaryDirectory() as folder:
+        with zipfile.ZipFile(path) as archive:
+            archive.extractall(folder)
+            names = archive.namelist()
+            (tag,) = [name for name in names if name.endswith(".dist-info/WHEEL")]
+            check(b"Tag: cp311-abi3-win_amd64\n" in archive.read(tag) + b"\n", "wheel-windows: another tag")
+        for name, others in (("libffd.dll", set()), ("_native.pyd", {"python3.dll"}), ("ffd.exe", set())):
+            needs = imported(os.path.join(folder, "ffd_mesh", name))
+            check(others <= needs <= WINDOWS | others, f"wheel-windows: {name} needs {sorted(needs)}")
+        do_jobs_in_wine("wheel-windows", os.path.join(folder, "ffd_mesh/ffd.exe"), folder, ["--every", "10"])
+    check_notices(names, "wheel-windows", ("gcc", "mingw"))
 
 
 def in_empty_root(program, emulator, folder):
@@ -175,8 +202,12 @@ def check_wheel(path, name):
         program = os.path.join(folder, "ffd_mesh/ffd")
         check(needed(program) <= system | {"libffd.so"}, f"{name}: the program needs {sorted(needed(program) - system)}")
         check("[$ORIGIN]" in run("readelf", "-d", program), f"{name}: the program does not look beside itself")
-    for notice in ("LICENSE", "THIRD-PARTY.md", "licenses/draco.txt"):
-        check(any("licenses/" in entry and entry.endswith(notice) for entry in names), f"{name}: lacks {notice}")
+    check_notices(names, name, ("llvm",))
+
+
+def check_notices(names, artefact, libraries):
+    for notice in ("LICENSE", "THIRD-PARTY.md", "licenses/draco.txt", *(f"licenses/{library}.txt" for library in libraries)):
+        check(any("licenses/" in entry and entry.endswith(notice) for entry in names), f"{artefact}: lacks {notice}")
 
 
 def test_wheel(out):

@@ -537,16 +537,24 @@ static void paths_are_worked_in(void **state)
         assert_string_equal(path, normal[i][1]);
         ffd_free(path);
     }
-    static const char *const relative[][3] = {{"/a/b", "/a/c/x", "../c/x"},
-                                              {"/a/b", "/a/b/x", "x"},
-                                              {"/a/bc", "/a/b/x", "../b/x"},
-                                              {"/", "/x", "x"},
-                                              {"/a/b", "/c", "../../c"}};
+    static const char *const relative[][3] = {
+        {"/a/b", "/a/c/x", "../c/x"},  {"/a/b", "/a/b/x", "x"},
+        {"/a/bc", "/a/b/x", "../b/x"}, {"/", "/x", "x"},
+        {"/a/b", "/a/b", ""},          {"/A/b", "/a/b/x", "../../a/b/x"},
+        {"/a/b", "/c", "../../c"}};
     for (size_t i = 0; i < sizeof relative / sizeof *relative; i++) {
         char *path = ffd_path_relative(relative[i][0], relative[i][1]);
         assert_string_equal(path, relative[i][2]);
         ffd_free(path);
     }
+    static const struct {
+        const char *folder, *path;
+        bool is_inside;
+    } places[] = {{"/a/b", "/a/b/x", true},    {"/", "/x", true},         {"/a/b", "/a/bc", false},
+                  {"/a/b", "/a/b", false},     {"/a/b/c", "/a/b", false}, {"/A", "/a/x", false},
+                  {"/A", "/\xc1\x81/x", false}};
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++)
+        assert_int_equal(ffd_path_is_inside(places[i].folder, places[i].path), places[i].is_inside);
     char text[] = "a%20b%2Fc%zz%4";
     text[ffd_uri_decode(text, sizeof text - 1)] = 0;
     assert_string_equal(text, "a b/c%zz%4");

@@ -1,6 +1,9 @@
 /* hold.c - another program: "open FILE" has a file open and lets nobody else open it, "lock FILE" has locked
    it as a run of ffd does that writes it; both say "ready", and end when their standard input does. "kill
-   NAME" ends the workers of a program of that name as the task manager does, and says how many. */
+   NAME" says "ready", and when its standard input ends it ends the workers of a program of that name as the
+   task manager does, and says how many. "console
+   COMMAND" runs a command line in its console, with the code page 437, and says which page and mode that has
+   afterwards, and whether the mode is the one before. */
 #include <stdio.h>
 #include <string.h>
 #include <windows.h>
@@ -17,8 +20,16 @@ static BOOL is_worker(HANDLE all, const PROCESSENTRY32W *process)
     return FALSE;
 }
 
+static void wait_for_input(void)
+{
+    puts("ready");
+    fflush(stdout);
+    getchar();
+}
+
 static int kill_workers(const wchar_t *name)
 {
+    wait_for_input();
     PROCESSENTRY32W process = {.dwSize = sizeof process};
     const HANDLE list = CreateToolhelp32Snapshot(TH32CS_SNAPPROCESS, 0),
                  all = CreateToolhelp32Snapshot(TH32CS_SNAPPROCESS, 0);
@@ -33,6 +44,27 @@ static int kill_workers(const wchar_t *name)
     return count == 0;
 }
 
+static int run_in_console(wchar_t *command)
+{
+    STARTUPINFOW startup = {.cb = sizeof startup};
+    PROCESS_INFORMATION made;
+    DWORD before = 0, after = 1, code = 1;
+    const HANDLE console = GetStdHandle(STD_ERROR_HANDLE);
+    if (!SetConsoleOutputCP(437) || !GetConsoleMode(console, &before) ||
+        !SetConsoleMode(console, before & ~(DWORD)ENABLE_VIRTUAL_TERMINAL_PROCESSING) ||
+        !GetConsoleMode(console, &before) ||
+        !CreateProcessW(NULL, command, NULL, NULL, TRUE, 0, NULL, NULL, &startup, &made))
+        return 1;
+    WaitForSingleObject(made.hProcess, INFINITE);
+    GetExitCodeProcess(made.hProcess, &code);
+    GetConsoleMode(console, &after);
+    char line[100];
+    snprintf(line, sizeof line, "exit %lu, page %u, %s mode\n", code, GetConsoleOutputCP(),
+             before == after ? "old" : "new");
+    fputs(line, stdout);
+    return 0;
+}
+
 int main(int argc, char **argv)
 {
     wchar_t path[MAX_PATH];
@@ -42,6 +74,8 @@ int main(int argc, char **argv)
     const DWORD sharing = FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE;
     if (strcmp(argv[1], "kill") == 0)
         return kill_workers(path);
+    if (strcmp(argv[1], "console") == 0)
+        return run_in_console(path);
     const HANDLE file =
         CreateFileW(path, GENERIC_READ | GENERIC_WRITE, locks ? sharing : 0, NULL, OPEN_ALWAYS, 0, NULL);
     OVERLAPPED place = {0};
@@ -50,8 +84,6 @@ int main(int argc, char **argv)
     if (file == INVALID_HANDLE_VALUE ||
         (locks && !LockFileEx(file, LOCKFILE_EXCLUSIVE_LOCK, 0, 1, 0, &place)))
         return 1;
-    puts("ready");
-    fflush(stdout);
-    getchar();
+    wait_for_input();
     return 0;
 }

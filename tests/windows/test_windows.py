@@ -1,16 +1,20 @@
 #!/usr/bin/env python3
 """The program for Windows under wine: what it does by other calls than on Linux, and the jobs of the list.
 
-    test_windows.py FFD names|outputs|batch|faults|jobs
+    test_windows.py FFD LIBRARY names|outputs|batch|faults|jobs|package|console|pages
 
-FFD is the program of this system, whose files are compared. FFD_WINDOWS names the build folder of the other one; without it, and
+FFD is the program of this system, and LIBRARY is library.c for it, whose files are compared. FFD_WINDOWS names the build folder of the other one; without it, and
 without wine, these tests are skipped. wine is not Windows: it keeps Linux's permissions, and lets mapped files be replaced.
 """
 
 import json
 import os
+import pty
 import re
+import select
+import shlex
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -23,6 +27,7 @@ SKIPPED = 77
 SPOT = os.path.join(ROOT, "data/models/spot.obj")
 LATTICE = os.path.join(ROOT, "data/lattices/twist.json")
 NATIVE = os.path.abspath(sys.argv[1])
+NATIVE_LIBRARY = os.path.abspath(sys.argv[2])
 BUILD = os.environ.get("FFD_WINDOWS", "")
 WINE = shutil.which("wine64") or shutil.which("wine64", path="/usr/lib/wine")
 
@@ -107,6 +112,16 @@ def test_names(folder):
         before = sorted(os.listdir(folder))
         run("deform", "spot.obj", name, "-l", "twist.json", "--force", "--output-format", "obj", folder=folder, code=3, said=why)
         assert sorted(os.listdir(folder)) == before, f"{name}: {os.listdir(folder)}"
+    # Names that differ in capitals are one file, also in folders that are not there yet.
+    write(os.path.join(folder, "twice.jsonl"), "".join(json.dumps({"in": "spot.obj", "lattice": "twist.json", "out": name}) + "\n"
+                                                       for name in ("Новая/a.obj", "новая/A.obj")))
+    run("batch", "twice.jsonl", folder=folder, code=1, said="twice.jsonl:2: .*is written by the job of line 1 too")
+    # A file in the place of a folder is refused once.
+    shutil.copyfile(SPOT, os.path.join(folder, "龍.obj"))
+    for name in ("龍.obj", "龍.obj\\below"):
+        process = start("deform", "spot.obj", "in\\c2.obj", "--out-dir", name, "-l", "twist.json", folder=folder)
+        errors = process.communicate(timeout=SECONDS)[1]
+        assert process.returncode == 3 and errors.splitlines() == [f"ffd: {name}: is not a folder"], errors
     native("deform", "spot.obj", "model.gltf", "-l", "twist.json", folder=folder)
     path = os.path.join(folder, "model.gltf")
     with open(path, encoding="utf-8") as file:
@@ -196,16 +211,23 @@ def test_batch(folder):
 
 def check_killed_worker(folder):
     """Its job fails, what it had begun is removed, and another worker does the rest."""
-    process = start("batch", "slow.jsonl", "-j", "1", "-q", folder=folder)
+    names = [f"kept{i}.obj" for i in range(12)]
+    write(os.path.join(folder, "kept.jsonl"), "".join(json.dumps({"in": "large.obj", "lattice": "twist.json", "out": name}) + "\n"
+                                                      for name in names))
+    killer = start("kill", "ffd.exe", exe=HOLD)
+    assert killer.stdout.readline().strip() == "ready"
+    process = start("batch", "kept.jsonl", "-j", "1", "-q", folder=folder)
     end = time.monotonic() + SECONDS
-    while not os.path.exists(os.path.join(folder, ".slow0.obj.ffd-tmp")):
+    while not os.path.exists(os.path.join(folder, ".kept0.obj.ffd-tmp")):
         assert time.monotonic() < end and process.poll() is None, process.communicate()
         time.sleep(0.001)
-    assert run("kill", "ffd.exe", exe=HOLD)[1].strip() == "1"
+    assert killer.communicate(timeout=SECONDS)[0].strip() == "1"
     errors = process.communicate(timeout=SECONDS)[1]
-    made = sorted(name for name in os.listdir(folder) if "slow" in name)
-    assert process.returncode and errors.count("large.obj: was ended by the system") == 1, f"exit {process.returncode}: {errors}"
-    assert len(made) == 3 and not [name for name in made if name.startswith(".")], f"{made}: {errors}"
+    failed = re.findall(r"kept\.jsonl:(\d+): large\.obj: was ended by the system", errors)
+    assert process.returncode and len(failed) == 1, f"exit {process.returncode}: {errors}"
+    # The worker may have been killed when it had written all of it, and not yet said so.
+    made = {name for name in os.listdir(folder) if "kept" in name} - {names[int(failed[0]) - 1]}
+    assert made == {"kept.jsonl", *names} - {names[int(failed[0]) - 1]}, f"{made}: {errors}"
 
 
 def test_faults(folder):
@@ -257,6 +279,185 @@ def test_jobs(_):
     assert done.returncode == 0
 
 
+# What every Windows has.
+SYSTEM = {"ADVAPI32.dll", "KERNEL32.dll", "msvcrt.dll"}
+
+
+def test_package(folder):
+    """The Python package without Python: what its files need and show; its library from a program in C, and with its workers."""
+    package = os.path.join(folder, "ffd_mesh")
+    os.mkdir(package)
+    for name in ("src/python/libffd.dll", "src/python/_native.pyd", "src/python/ffd.exe", "tests/windows/library.exe"):
+        shutil.copy(program(name), package)
+    check_linking(package)
+    library = os.path.join(package, "library.exe")
+    check_points(folder, library)
+    copy_of_spot(folder)
+    for model in ("spot.obj", "knight.glb", "banner_red.glb"):
+        path = os.path.join(ROOT, "data/models", model)
+        native("deform", path, "wanted-" + model, "-l", "twist.json", folder=folder)
+        run("file", path, "made-" + model, "twist.json", exe=library, folder=folder)
+        assert content(folder, "made-" + model) == content(folder, "wanted-" + model), model
+    names = [f"job{i}.obj" for i in range(6)]
+    write(os.path.join(folder, "jobs.jsonl"), "".join(json.dumps({"in": "spot.obj", "lattice": "twist.json", "out": name}) + "\n" for name in names))
+    assert run("batch", "jobs.jsonl", exe=library, folder=folder)[1].strip() == "6"
+    assert all(content(folder, name) == content(folder, "wanted-spot.obj") for name in names)
+    os.remove(os.path.join(package, "ffd.exe"))
+    process = start("batch", "jobs.jsonl", exe=library, folder=folder)
+    errors = process.communicate(timeout=SECONDS)[1]
+    assert process.returncode == 6 and '"ffd.exe"' in errors, f"exit {process.returncode}: {errors}"
+    check_last_words()
+
+
+def check_linking(package):
+    for name, others, shows in (("libffd.dll", set(), "ffd_"), ("_native.pyd", {"python3.dll"}, "PyInit__native"), ("ffd.exe", set(), None)):
+        text = subprocess.run(["x86_64-w64-mingw32-objdump", "-p", os.path.join(package, name)], check=True, capture_output=True, text=True).stdout
+        needed = set(re.findall(r"DLL Name: (\S+)", text))
+        assert needed <= SYSTEM | others and others <= needed, f"{name} needs {sorted(needed)}"
+        table = re.search(r"\[Ordinal/Name Pointer\] Table\n(.*?)\n\n", text, re.S)
+        shown = re.findall(r"\] (\S+)", table[1]) if table else []
+        assert bool(shown) == bool(shows) and all(other.startswith(shows) for other in shown), f"{name} shows {shown}"
+
+
+def check_points(folder, library):
+    """The vertices of the OBJ jobs of the list, as arrays: embedded, deformed, with gradients, normals and derivatives."""
+    pairs, embedded = {}, set()
+    with open(os.path.join(ROOT, "tests/release/jobs.txt"), encoding="utf-8") as file:
+        for line in file:
+            words = shlex.split(line)[1:]
+            found = re.match(r"(embed|deform) (models/\S+\.obj) .*?-l ((?:lattices|inputs)/\S+\.json)$",
+                             " ".join(words[:words.index("-l") + 2] if "-l" in words else []))
+            if found and not {"--set", "--only", "--space"} & set(words):
+                pairs[found[2], found[3]] = True
+                embedded |= {(found[2], found[3])} if found[1] == "embed" else set()
+    folders = {"models": "data/models", "lattices": "data/lattices", "inputs": "tests/release/inputs"}
+    done = 0
+    for model, lattice in pairs:
+        model_path, lattice_path = (os.path.join(ROOT, folders[path.split("/")[0]], path.split("/", 1)[1]) for path in (model, lattice))
+        if not os.path.exists(model_path):
+            continue
+        with open(model_path, encoding="utf-8") as file:
+            numbers = [float(word) for line in file if line.startswith("v ") for word in line.split()[1:4]]
+        with open(os.path.join(folder, "points"), "wb") as file:
+            file.write(struct.pack(f"<{len(numbers)}d", *numbers))
+        wanted = subprocess.run([NATIVE_LIBRARY, "points", lattice_path, "points", "wanted"], cwd=folder, capture_output=True, check=False)
+        if wanted.returncode:  # a lattice with placeholders
+            assert (model, lattice) not in embedded, wanted.stderr
+            continue
+        run("points", lattice_path, "points", "made", exe=library, folder=folder)
+        assert content(folder, "made") == content(folder, "wanted"), f"{model} in {lattice}"
+        if (model, lattice) in embedded:
+            native("embed", model_path, "-l", lattice_path, "-o", "uvw.npy", "--force", folder=folder)
+            size, stored = 8 * len(numbers), content(folder, "uvw.npy")
+            stored = stored[10 + int.from_bytes(stored[8:10], "little"):]  # behind the header
+            assert content(folder, "made")[:size] == stored[:size], f"u,v,w of {model} in {lattice}"
+        done += 1
+    print(f"arrays of {done} jobs")
+    assert done >= 15 and len(embedded) >= 5, f"{done} jobs, {len(embedded)} of them embed"
+
+
+def in_console(*arguments, exe=FFD, folder=".", until=None):
+    """Exit code and output, in a console of wine, in which Ctrl-C is pressed when until() is true."""
+    process, terminal = pty.fork()
+    if process == 0:
+        os.chdir(folder)
+        os.execve(WINE, [WINE, exe, *arguments], {**os.environ, "TERM": "xterm"})
+    output, status, end = b"", 0, time.monotonic() + SECONDS
+    is_over = False
+    while time.monotonic() < end:
+        is_read = select.select([terminal], [], [], 0.001)[0]
+        try:
+            output += os.read(terminal, 65536) if is_read else b""
+        except OSError:
+            is_read = []
+        if until and until():
+            os.write(terminal, b"\x03")
+            until = None
+        if is_over and not is_read:
+            break
+        if not is_over:
+            ended, status = os.waitpid(process, os.WNOHANG)
+            is_over = ended != 0
+    if not is_over:
+        os.kill(process, 9)
+        os.waitpid(process, 0)
+    os.close(terminal)
+    spaced = re.sub(r"\x1b\[(\d+)C", lambda match: " " * int(match[1]), output.decode("utf-8", "replace"))
+    output = re.sub(r"\x1b\[[?0-9]*[A-Za-z]", "", spaced)
+    assert is_over and until is None, f"{arguments}: over: {is_over}, no Ctrl-C yet: {until is not None}: {output!r}"
+    return os.waitstatus_to_exitcode(status), output
+
+
+def test_console(folder):
+    """In a console: letters of several bytes, page and mode as they were, and Ctrl-C, which leaves no unfinished output."""
+    copy_of_spot(folder)
+    code, output = in_console("info", "нет 龍.obj", folder=folder)
+    assert code == 3 and "ffd: нет 龍.obj: cannot be opened: No such file" in output, f"exit {code}: {output!r}"
+    code, output = in_console("console", f"{FFD} batch none.jsonl", exe=HOLD, folder=folder)
+    assert "exit 3, page 437, old mode" in output, f"exit {code}: {output!r}"
+    with open(os.path.join(folder, "large.obj"), "w", encoding="utf-8") as file:
+        file.writelines(f"v {i % 997 * 0.001} {i % 991 * 0.001} {i % 983 * 0.001}\n" for i in range(400000))
+    before = sorted(os.listdir(folder))
+    in_console("deform", "large.obj", "out.obj", "-l", "twist.json", folder=folder,
+               until=lambda: os.path.exists(os.path.join(folder, ".out.obj.ffd-tmp")))
+    assert sorted(os.listdir(folder)) == before, os.listdir(folder)
+    names = ["first.obj", "second.obj", "third.obj"]
+    write(os.path.join(folder, "jobs.jsonl"), "".join(json.dumps({"in": "large.obj", "lattice": "twist.json", "out": name}) + "\n" for name in names))
+    code, output = in_console("batch", "jobs.jsonl", "-j", "1", folder=folder,
+                              until=lambda: os.path.exists(os.path.join(folder, ".second.obj.ffd-tmp")))
+    left = sorted(set(os.listdir(folder)) - set(before))
+    # The job that runs is done to its end, as elsewhere.
+    assert left == ["first.obj", "jobs.jsonl", "second.obj"], f"{left}: exit {code}: {output!r}"
+    assert "interrupted" in output, f"exit {code}: {output!r}"
+
+
+def test_pages(folder):
+    """The commands of data/windows.md, in wine's cmd; those of PowerShell as it takes them apart."""
+    data, tools = os.path.join(folder, "data"), os.path.join(os.environ["WINEPREFIX"], "drive_c/Tools/ffd-0.3.0")
+    shutil.copytree(os.path.join(ROOT, "data"), data)
+    os.makedirs(tools, exist_ok=True)
+    shutil.copy(FFD, tools)
+    with open(os.path.join(ROOT, "data/windows.md"), encoding="utf-8") as file:
+        blocks = re.findall(r"^```(\S+)\n(.*?)^```$", file.read(), re.M | re.S)
+    assert [language for language, _ in blocks].count("bat") >= 5 and {language for language, _ in blocks} == {"bat", "powershell"}
+    path = next(line for line in blocks[0][1].splitlines() if line.startswith("set "))
+    for language, block in blocks:
+        if language == "powershell":
+            run_as_powershell(block, data)
+            continue
+        # A command that fails ends the block; cmd by itself goes on.
+        lines = [part for line in block.splitlines() for part in (line, "if errorlevel 1 exit 1")[:1 if line.endswith("^") else 2]]
+        with open(os.path.join(data, "block.cmd"), "w", encoding="utf-8", newline="") as file:
+            file.write("\r\n".join(["@echo off", path, *lines, "exit 0", ""]))
+        process = subprocess.run([WINE, "cmd", "/c", "block.cmd"], cwd=data, stdin=subprocess.DEVNULL, capture_output=True, check=False,
+                                 timeout=SECONDS)
+        assert process.returncode == 0, f"{block}exit {process.returncode}: {process.stdout.decode()}{process.stderr.decode()}"
+    made = ["fatter.html", "fatter.obj", "my cow.obj", "my cows/spot.obj", "bent/one.obj", "bent/two.obj", "twisted/one.obj", "twisted/two.obj",
+            "my lean cow.obj", "cage.json"]
+    assert all(os.path.exists(os.path.join(data, name)) for name in made), [name for name in made if not os.path.exists(os.path.join(data, name))]
+
+
+def run_as_powershell(block, folder):
+    """Words in quotes lose these; outside of quotes nothing may stand that PowerShell takes for its own."""
+    for line in block.splitlines():
+        if re.fullmatch(r'\$env:Path \+= ";C:\\Tools\\[^"$`;]+"', line):
+            continue
+        words = re.findall(r"""(?:"[^"$`]*"|'[^']*'|[^\s"'`$@;,{}()|<>&])+""", line)
+        assert words[0] == "ffd" and " ".join(words) == line, f"PowerShell does not read as words: {line}"
+        run(*(re.sub(r"""["']""", "", word) for word in words[1:]), folder=folder)
+
+
+def check_last_words():
+    """What starts the program from Python hands on its words as they were typed."""
+    sys.path.insert(0, os.path.join(ROOT, "src/python"))
+    import ffd_mesh_program  # pylint: disable=import-outside-toplevel
+    typed = ["deform", r"in\*.obj", '"*.obj"', r'"a b\\"', r'\"', '"in ""x"" y"', 'a" "b', r"c\\", "''"]
+    for count in range(len(typed) + 1):
+        line = r'"C:\Program Files\python.exe"  -m ffd_mesh  ' + "  ".join(typed) + " "
+        rest = ffd_mesh_program.last_words(line, count)
+        assert rest.split() == " ".join(typed[len(typed) - count:]).split(), f"{count}: {rest!r}"
+
+
 def main():
     if not BUILD:
         skip("FFD_WINDOWS is not set (tests/run.sh --suite windows sets it)")
@@ -266,8 +467,9 @@ def main():
     os.environ["WINEDEBUG"] = "-all"
     os.environ.pop("DISPLAY", None)
     run("--version")
-    with tempfile.TemporaryDirectory() as folder:
-        globals()["test_" + sys.argv[2]](folder)
+    # While one program runs, wine need not begin anew for each.
+    with tempfile.TemporaryDirectory() as folder, start("open", os.path.join(BUILD, "wine", "kept"), exe=HOLD):
+        globals()["test_" + sys.argv[3]](folder)
 
 
 main()

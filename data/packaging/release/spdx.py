@@ -3,6 +3,7 @@
 the wraps.
 
     spdx.py ROOT NAME FILE COMMIT
+    spdx.py ROOT NAME                 prints the licence of the artefact, as one expression
 """
 
 import datetime
@@ -48,8 +49,17 @@ def package(name, version, license_, origin):
     return described | ({"versionInfo": version} if version else {})
 
 
+def licence(root, artefact):
+    """Of ffd and of what the artefact contains."""
+    return " AND ".join(sorted({"MIT"}.union(*(names.split(" AND ") for _, names, _ in libraries(root, artefact)))))
+
+
 def main():
-    root, artefact, path, commit = sys.argv[1:]
+    root, artefact = sys.argv[1:3]
+    if len(sys.argv) == 3:
+        print(licence(root, artefact))
+        return
+    path, commit = sys.argv[3:]
     with open(path, "rb") as file:
         digest = hashlib.sha256(file.read()).hexdigest()
     version = re.search(r'^#define FFD_VERSION "(.*)"$', read(root, "include/ffd/version.h"), re.M)[1]

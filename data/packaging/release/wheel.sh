@@ -1,6 +1,25 @@
-# The Python package with all that it needs, for CPython 3.11 and later; by zig, which compiles for older systems. Read by
-# release.sh.
+# The Python package with all that it needs, for CPython 3.11 and later; by zig, which compiles for older systems, and for Windows by
+# mingw-w64. Read by release.sh.
 set -eu
+# make_wheel PLATFORM OPTION,...: what is installed is told by this name of the system.
+make_wheel() {
+    cd "$source"
+    _PYTHON_HOST_PLATFORM=$1 PATH=$tools/bin:$PATH "$tools/bin/python3" -c "
+import sys, mesonpy
+mesonpy.build_wheel(sys.argv[1], {'setup-args': [$2]})" "$made"
+}
+
+if [ "$name" = wheel-windows ]; then
+    printf "[constants]\ncache = [%s]\nsymbols = ['-s']\n" "${ccache:+'ccache'}" >"$work/wheel-windows.ini"
+    # In it are libraries of gcc in place of those of LLVM.
+    cp -p "$source/pyproject.toml" "$work/pyproject.toml"
+    sed -i "s/^license = .*/license = \"$(python3 "$parts/spdx.py" "$root" "$name")\"/" "$source/pyproject.toml"
+    make_wheel win_amd64 "'--wrap-mode=forcefallback', '--cross-file=$source/data/packaging/windows.ini', \
+        '--cross-file=$work/wheel-windows.ini', '-Dstatic=true', '-Ddefault_library=static'"
+    cp -p "$work/pyproject.toml" "$source/pyproject.toml"
+    return
+fi
+
 is_crossed=
 case $name in
 wheel)
@@ -50,9 +69,4 @@ cpp = cache + ['$work/zig/$target/c++']
 EOF
     options="$options, '--cross-file=$source/data/packaging/arm64.ini', '--cross-file=$work/zig.ini'"
 fi
-# What is installed is told by this name of the system.
-export _PYTHON_HOST_PLATFORM="$platform"
-cd "$source"
-PATH=$tools/bin:$PATH CC="$ccache$work/zig/$target/cc" CXX="$ccache$work/zig/$target/c++" "$tools/bin/python3" -c "
-import sys, mesonpy
-mesonpy.build_wheel(sys.argv[1], {'setup-args': [$options]})" "$made"
+CC="$ccache$work/zig/$target/cc" CXX="$ccache$work/zig/$target/c++" make_wheel "$platform" "$options"

@@ -97,6 +97,16 @@ ffd_status ffd_folder_check(const char *path, ffd_error *error)
     return status;
 }
 
+ffd_status ffd_check_output_folder(const char *folder, ffd_error *error)
+{
+    struct stat info;
+    char *const there = find_existing(folder);
+    TRY(there ? FFD_OK : ffd_fail_memory(error));
+    const bool is_refused = stat(there, &info) == 0 ? !S_ISDIR(info.st_mode) : errno == ENOTDIR;
+    ffd_free(there);
+    return is_refused ? ffd_fail_file(error, FFD_E_IO, folder, "is not a folder") : FFD_OK;
+}
+
 void ffd_folder_unmake(char *path, size_t made)
 {
     for (size_t end = strlen(path); made && end >= made; end--) {
@@ -217,7 +227,7 @@ bool ffd_paths_meet(const char *a, const char *b)
     if (ffd_file_exists(a) || ffd_file_exists(b) || !ffd_names_equal(ffd_path_name(a), ffd_path_name(b)))
         return false;
     char *const here = ffd_path_folder(a), *const there = ffd_path_folder(b);
-    const bool meet = here && there && (strcmp(here, there) == 0 || ffd_file_same(here, there));
+    const bool meet = here && there && (ffd_names_equal(here, there) || ffd_file_same(here, there));
     ffd_free(here);
     ffd_free(there);
     return meet;

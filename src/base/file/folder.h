@@ -1,5 +1,5 @@
 /* folder.h - creates folders, and removes those that are not needed after all; resolves paths (folder.c has
-   ffd_paths_meet of ffd/program.h too). All paths are UTF-8. */
+   ffd_paths_meet and ffd_check_output_folder of ffd/program.h too). All paths are UTF-8. */
 #ifndef FFD_BASE_FILE_FOLDER_H
 #define FFD_BASE_FILE_FOLDER_H
 

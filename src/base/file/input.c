@@ -305,13 +305,6 @@ ffd_status ffd_file_map(const char *path, file_input *input, ffd_error *error)
     return load(path, 1, input, error);
 }
 
-static bool is_inside(const char *folder, const char *path)
-{
-    const size_t length = strlen(folder);
-    const bool is_root = length > 0 && folder[length - 1] == '/';
-    return strncmp(folder, path, length) == 0 && (is_root || path[length] == '/');
-}
-
 ffd_status ffd_file_load_within(const char *folder, const char *relative, const char *named_by, size_t *most,
                                 file_input *input, ffd_error *error)
 {
@@ -331,7 +324,7 @@ ffd_status ffd_file_load_within(const char *folder, const char *relative, const 
     else if (!root || !path)
         TRY_END(ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" cannot be opened: %s", relative,
                               strerror(reason)));
-    else if (!is_inside(root, path))
+    else if (!ffd_path_is_inside(root, path))
         TRY_END(ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" is outside the model's folder",
                               relative));
     else if (stat(path, &info) != 0 || !S_ISREG(info.st_mode))

@@ -4,7 +4,11 @@
 #include "base/memory/memory.h"
 #include "base/windows/names.h"
 #include "base/windows/posix.h"
+#include <pthread.h>
 #include <windows.h>
+
+/* Milliseconds that a line for a console waits at most; bytes that wait. */
+enum { FLUSH_INTERVAL = 50, CONSOLE_BUFFER = 1 << 16 };
 
 int main(int argc, char **argv);
 int wmain(void);
@@ -22,15 +26,42 @@ static void put_page_back(void)
     SetConsoleOutputCP(page_before);
 }
 
+static bool is_console(DWORD stream)
+{
+    DWORD mode;
+    return GetConsoleMode(GetStdHandle(stream), &mode);
+}
+
 /* Messages are UTF-8. */
 static void set_console_page(void)
 {
-    DWORD mode;
     page_before = GetConsoleOutputCP();
-    const bool is_console = GetConsoleMode(GetStdHandle(STD_ERROR_HANDLE), &mode) ||
-                            GetConsoleMode(GetStdHandle(STD_OUTPUT_HANDLE), &mode);
-    if (is_console && page_before != 0 && page_before != CP_UTF8 && SetConsoleOutputCP(CP_UTF8))
+    if (page_before != 0 && page_before != CP_UTF8 && SetConsoleOutputCP(CP_UTF8))
         atexit(put_page_back);
+}
+
+/* A printf locks its stream: none is cut. */
+static void *flush_streams(void *nothing)
+{
+    for (;; Sleep(FLUSH_INTERVAL)) {
+        fflush(stdout);
+        fflush(stderr);
+    }
+    return nothing;
+}
+
+/* The printf of mingw-w64 writes byte by byte, and a console would take each byte of a character for one of
+   its own: what is printed is kept for a moment. */
+static void buffer_console(void)
+{
+    static const DWORD streams[] = {STD_OUTPUT_HANDLE, STD_ERROR_HANDLE};
+    pthread_t thread;
+    if (pthread_create(&thread, NULL, flush_streams, NULL) != 0)
+        return;
+    pthread_detach(thread);
+    for (int i = 0; i < 2; i++)
+        if (is_console(streams[i]))
+            setvbuf(i == 0 ? stdout : stderr, NULL, _IOFBF, CONSOLE_BUFFER);
 }
 
 /* Adds a word or, as a shell does, the files that it matches if it has * or ? outside of quotes. */
@@ -97,6 +128,9 @@ int wmain(void)
     }
     ffd_free(given.words.paths[--given.words.count]);
     given.words.paths[given.words.count] = NULL;
-    set_console_page();
+    if (is_console(STD_OUTPUT_HANDLE) || is_console(STD_ERROR_HANDLE)) {
+        set_console_page();
+        buffer_console();
+    }
     return main((int)given.words.count, given.words.paths);
 }

@@ -6,6 +6,9 @@
 #endif
 #include <string.h>
 
+/* A byte that is in no character of UTF-8 counts as a character beyond the last one. */
+#define BEYOND 0x110000u
+
 bool ffd_is_separator(char c)
 {
 #ifdef _WIN32
@@ -15,12 +18,38 @@ bool ffd_is_separator(char c)
 #endif
 }
 
-uint32_t ffd_fold_case(uint32_t c)
+static uint32_t fold_case(uint32_t c)
 {
 #ifdef _WIN32
     return ffd_small_letter(c);
 #else
     return c;
+#endif
+}
+
+uint32_t ffd_take_character(const char **text)
+{
+    const unsigned char *const at = (const unsigned char *)*text;
+    const size_t length = at[0] < 0x80 ? 1 : at[0] >= 0xf0 ? 4 : at[0] >= 0xe0 ? 3 : at[0] >= 0xc0 ? 2 : 0;
+    uint32_t value = length == 1 ? at[0] : length ? at[0] & (0x7fu >> length) : 0;
+    for (size_t i = 1; i < length; i++) {
+        if ((at[i] & 0xc0) != 0x80) {
+            *text += 1;
+            return BEYOND + at[0];
+        }
+        value = value << 6 | (at[i] & 0x3fu);
+    }
+    *text += length ? length : 1;
+    return length ? fold_case(value) : BEYOND + at[0];
+}
+
+/* Passes over a character in both paths. Returns false if these differ. Not at an end of either. */
+static bool pass_same(const char **a, const char **b)
+{
+#ifdef _WIN32
+    return ffd_take_character(a) == ffd_take_character(b);
+#else
+    return *(*a)++ == *(*b)++;
 #endif
 }
 
@@ -192,6 +221,16 @@ char *ffd_path_normalize(const char *path)
     return out;
 }
 
+bool ffd_path_is_inside(const char *folder, const char *path)
+{
+    const size_t length = strlen(folder);
+    const bool is_root = length > 0 && folder[length - 1] == '/';
+    while (*folder && *path)
+        if (!pass_same(&folder, &path))
+            return false;
+    return !*folder && (is_root || *path == '/');
+}
+
 bool ffd_path_leads_out(const char *path)
 {
     return strcmp(path, "..") == 0 || strncmp(path, "../", 3) == 0;
@@ -199,20 +238,21 @@ bool ffd_path_leads_out(const char *path)
 
 char *ffd_path_relative(const char *from, const char *to)
 {
-    size_t common = 0;
-    for (size_t i = 0;; i++) {
-        const bool from_ends = from[i] == 0 || from[i] == '/', to_ends = to[i] == 0 || to[i] == '/';
-        if (from_ends && to_ends)
-            common = i;
-        if (from[i] != to[i] || from[i] == 0)
-            break;
+    /* Behind the names that both have. */
+    const char *from_rest = from, *to_rest = to;
+    for (bool same = true; same;) {
+        const bool from_ends = *from == 0 || *from == '/', to_ends = *to == 0 || *to == '/';
+        if (from_ends && to_ends) {
+            from_rest = from;
+            to_rest = to;
+        }
+        same = *from && *to && pass_same(&from, &to);
     }
     byte_buffer out = {0};
-    for (const char *c = from + common; *c; c++)
+    for (const char *c = from_rest; *c; c++)
         if (*c == '/' && c[1])
             ffd_buffer_text(&out, "../");
-    to += common;
-    ffd_buffer_text(&out, *to == '/' ? to + 1 : to);
+    ffd_buffer_text(&out, *to_rest == '/' ? to_rest + 1 : to_rest);
     return ffd_buffer_finish(&out);
 }
 

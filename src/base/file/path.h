@@ -8,8 +8,9 @@
 
 /* Whether a character separates names. */
 bool ffd_is_separator(char c);
-/* Returns a character of Unicode as names are compared: small on Windows, unchanged elsewhere. */
-uint32_t ffd_fold_case(uint32_t c);
+/* Takes the next character of a text in UTF-8 as patterns see it: small on Windows, unchanged elsewhere. A
+   byte that is in no character counts as one beyond the last. */
+uint32_t ffd_take_character(const char **text);
 /* "a/b.obj" -> "b.obj"; points into path. */
 const char *ffd_path_name(const char *path);
 /* "a/b.obj" -> ".obj", or ""; points into path. */
@@ -21,6 +22,9 @@ bool ffd_path_is_absolute(const char *path);
 
 /* Returns whether two names are those of one file. */
 bool ffd_names_equal(const char *a, const char *b);
+/* Returns whether a path leads to something below a folder; both are absolute and resolved. On Windows the
+   case of letters does not matter. */
+bool ffd_path_is_inside(const char *folder, const char *path);
 /* Returns whether a normalized relative path leads out of its folder. */
 bool ffd_path_leads_out(const char *path);
 

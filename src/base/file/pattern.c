@@ -3,38 +3,18 @@
 #include <stdint.h>
 #include <string.h>
 
-/* A byte that is in no character of UTF-8 counts as a character beyond the last one. */
-#define BEYOND 0x110000u
-
 #ifdef _WIN32
 #define ESCAPES false
 #else
 #define ESCAPES true
 #endif
 
-/* Takes the next character of text. */
-static uint32_t take(const char **text)
-{
-    const unsigned char *const at = (const unsigned char *)*text;
-    const size_t length = at[0] < 0x80 ? 1 : at[0] >= 0xf0 ? 4 : at[0] >= 0xe0 ? 3 : at[0] >= 0xc0 ? 2 : 0;
-    uint32_t value = length == 1 ? at[0] : length ? at[0] & (0x7fu >> length) : 0;
-    for (size_t i = 1; i < length; i++) {
-        if ((at[i] & 0xc0) != 0x80) {
-            *text += 1;
-            return BEYOND + at[0];
-        }
-        value = value << 6 | (at[i] & 0x3fu);
-    }
-    *text += length ? length : 1;
-    return length ? ffd_fold_case(value) : BEYOND + at[0];
-}
-
-/* Likewise; a backslash is passed over. */
+/* Takes the next character of text; a backslash before it is passed over. */
 static uint32_t take_escaped(const char **text, const char *end)
 {
     if (ESCAPES && **text == '\\' && *text + 1 < end)
         ++*text;
-    return take(text);
+    return ffd_take_character(text);
 }
 
 /* Returns the end of the bracket expression at `at`, behind its ']'; NULL: there is none, and '[' is a
@@ -112,7 +92,7 @@ static bool match_one(const char **pattern, const char *end, const char **name)
     const char *const bracket = **pattern == '[' ? end_of_bracket(*pattern, end) : NULL;
     if (!**name)
         return false;
-    const uint32_t c = take(name);
+    const uint32_t c = ffd_take_character(name);
     if (bracket) {
         const char *const at = *pattern;
         *pattern = bracket;
@@ -140,7 +120,7 @@ bool ffd_pattern_matches(const char *pattern, size_t length, const char *name)
         } else if (pattern == end || !match_one(&pattern, end, &name)) {
             if (!star || !*from)
                 return false;
-            take(&from);
+            ffd_take_character(&from);
             pattern = star;
             name = from;
         }

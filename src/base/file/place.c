@@ -110,14 +110,16 @@ static const char *find_folder(file_places *places, const char *path, size_t len
 static hash128 hash_of(const char *folder, const char *name)
 {
 #ifdef _WIN32
-    char *const same = ffd_small_letters(name);
+    char *const small_folder = ffd_small_letters(folder), *const small_name = ffd_small_letters(name);
 #else
-    char *const same = NULL;
+    char *const small_folder = NULL, *const small_name = NULL;
 #endif
-    const char *const hashed = same ? same : name;
-    const hash_block blocks[] = {{folder, strlen(folder) + 1}, {hashed, strlen(hashed)}};
+    folder = small_folder ? small_folder : folder;
+    name = small_name ? small_name : name;
+    const hash_block blocks[] = {{folder, strlen(folder) + 1}, {name, strlen(name)}};
     const hash128 hash = ffd_hash_blocks(blocks, 2);
-    free(same);
+    free(small_folder);
+    free(small_name);
     return hash;
 }
 

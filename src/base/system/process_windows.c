@@ -11,10 +11,11 @@
 #define KILLED 1
 /* Exit codes from here on are those of crashes. */
 #define LEAST_CRASH 0xC0000000u
-/* Milliseconds between two looks at an input, which cannot be waited for. */
-#define LOOK 20
-/* Milliseconds after which a wait looks again: another batch of this process may have taken the sign. */
-#define AGAIN 100
+/* Milliseconds from one poll of an input to the next: it cannot be waited for. */
+#define INPUT_INTERVAL 20
+/* Milliseconds from one poll of the workers to the next: another batch of this process may have taken the
+   event. */
+#define WORKER_INTERVAL 100
 
 enum { BLOCK = 4096, PIPE_BYTES = 1 << 16, COMMAND = 512 };
 
@@ -145,12 +146,34 @@ static bool start(worker_process *process, const wchar_t *program, wchar_t *comm
     return process->has_reader;
 }
 
+/* Returns false with errno. */
 static bool find_program(const char *program, wchar_t wide[WIDE_ROOM])
 {
     if (program)
         return ffd_wide_path(program, wide);
     const DWORD length = GetModuleFileNameW(NULL, wide, WIDE_ROOM);
-    return length > 0 && length < WIDE_ROOM;
+    if (length > 0 && length < WIDE_ROOM)
+        return true;
+    if (length > 0)
+        errno = ENAMETOOLONG;
+    else
+        ffd_set_errno();
+    return false;
+}
+
+/* Makes the command line of a worker. Returns false with errno. */
+static bool make_command(const char *name, const char *build, wchar_t command[COMMAND])
+{
+    char text[COMMAND];
+    const int length = snprintf(text, sizeof text, "\"%s\" \"%s\"", name, build);
+    if (length < 0 || length >= COMMAND) {
+        errno = ENAMETOOLONG;
+        return false;
+    }
+    if (MultiByteToWideChar(CP_UTF8, 0, text, -1, command, COMMAND) > 0)
+        return true;
+    ffd_set_errno();
+    return false;
 }
 
 ffd_status ffd_process_start(const char *program, const char *name, const char *build,
@@ -158,16 +181,13 @@ ffd_status ffd_process_start(const char *program, const char *name, const char *
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     wchar_t wide[WIDE_ROOM], command[COMMAND];
-    char text[COMMAND];
     pthread_once(&once, prepare);
     worker_process *made = ffd_alloc_zero(1, sizeof *made);
     *process = NULL;
     if (!made)
         return ffd_fail_memory(error);
     pthread_mutex_init(&made->lock, NULL);
-    snprintf(text, sizeof text, "\"%s\" \"%s\"", name, build);
-    if (find_program(program, wide) && MultiByteToWideChar(CP_UTF8, 0, text, -1, command, COMMAND) > 0 &&
-        start(made, wide, command)) {
+    if (find_program(program, wide) && make_command(name, build, command) && start(made, wide, command)) {
         *process = made;
         return FFD_OK;
     }
@@ -224,7 +244,8 @@ void ffd_process_wait(worker_process *const *processes, size_t count, int input,
         const double passed = (double)(GetTickCount64() - begin), left = most - passed;
         if (has_arrived(processes, count) || is_readable(input) || ffd_interrupt_requested() || left <= 0)
             return;
-        const DWORD slice = input >= 0 ? LOOK : AGAIN, pause = left < slice ? (DWORD)left + 1 : slice;
+        const DWORD slice = input >= 0 ? INPUT_INTERVAL : WORKER_INTERVAL,
+                    pause = left < slice ? (DWORD)left + 1 : slice;
         HANDLE signs[2];
         DWORD used = 0;
         if (arrival)

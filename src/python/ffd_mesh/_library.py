@@ -21,7 +21,7 @@ Progress = Callable[[float], "bool | None"]
 LOG = logging.getLogger("ffd_mesh")
 LOG.addHandler(logging.NullHandler())
 
-_LIBRARY = ctypes.CDLL(os.path.join(os.path.dirname(os.path.abspath(__file__)), "libffd.so"))
+_LIBRARY = ctypes.CDLL(os.path.join(os.path.dirname(os.path.abspath(__file__)), "libffd.dll" if os.name == "nt" else "libffd.so"))
 for _name, (_result, _arguments) in declared.FUNCTIONS.items():
     _function = getattr(_LIBRARY, _name)
     _function.restype, _function.argtypes = _result, _arguments
