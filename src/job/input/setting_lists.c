@@ -97,10 +97,9 @@ const char *ffd_setting_list_name(const ffd_member *member, void *base, const ch
     return head->list.names[head->list.name_count++] = copy;
 }
 
-/* Sets a member to its default, and frees a list of this file. */
-static void clear(const ffd_member *member, ffd_deform_desc *base)
+/* Sets a member to that of `defaults`, and frees a list of this file. */
+static void clear(const ffd_member *member, const ffd_deform_desc *defaults, ffd_deform_desc *base)
 {
-    ffd_deform_desc none;
     if (ffd_member_is_list(member)) {
         list_head *const head = head_of(member, base);
         for (size_t i = 0; head && i < head->list.name_count; i++)
@@ -114,15 +113,16 @@ static void clear(const ffd_member *member, ffd_deform_desc *base)
         *count_of(member, base) = 0;
         return;
     }
-    ffd_deform_desc_init(&none, sizeof none);
-    ffd_member_copy(member, &none, base);
+    ffd_member_copy(member, defaults, base);
 }
 
 void ffd_deform_desc_clear(ffd_deform_desc *desc)
 {
     const ffd_member *member;
+    ffd_deform_desc defaults;
+    ffd_deform_desc_init(&defaults, sizeof defaults);
     for (size_t index = 0; (member = ffd_deform_member(index)) != NULL; index++)
-        clear(member, desc);
+        clear(member, &defaults, desc);
 }
 
 static const ffd_member *find(ffd_member_kind kind)

@@ -181,7 +181,8 @@ bool ffd_setting_is_set(const ffd_deform_desc *desc, const char *setting)
     const size_t length = strcspn(setting, "=");
     const char *const word = setting[length] ? setting + length + 1 : NULL;
     size_t m = 0;
-    while (m < MEMBERS && (strncmp(members[m].name, setting, length) != 0 || members[m].name[length]))
+    while (m < MEMBERS && (members[m].name[0] != *setting || strncmp(members[m].name, setting, length) != 0 ||
+                           members[m].name[length]))
         m++;
     if (m == MEMBERS || !ffd_member_is_set(desc, &members[m]))
         return false;
