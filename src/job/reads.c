@@ -90,14 +90,16 @@ ffd_status ffd_job_check_mesh_files(const char *output, const ffd_source *source
 {
     ffd_format format;
     mesh_names names = {0};
-    if (ffd_file_is_stream(source->path) || source->bytes.data || !replaces(output) ||
-        ffd_source_format(source, &format, NULL))
+    if (ffd_file_is_stream(source->path) || source->bytes.data || ffd_source_format(source, &format, NULL))
         return FFD_OK;
     const mesh_format *const table = ffd_format_table(format);
+    const bool may = may_name(table, output);
     ffd_status status = FFD_OK;
     if (document)
         TRY_END(ffd_mesh_list_linked(document, &names.linked, error));
-    if (may_name(table, output))
+    if ((!may && names.linked.count == 0) || !replaces(output))
+        goto end;
+    if (may)
         TRY_END(document && table->sidecars ? list_by_document(document, &names, error)
                                             : list_by_bytes(table, source, &names, error));
     const char *const role = role_of(&names, output);

@@ -273,7 +273,7 @@ static ffd_status explain(const set_record *record, ffd_error *error)
 {
     const int reason = errno;
     struct stat info;
-    if (lstat(record->path, &info) != 0)
+    if (reason == ENOENT || lstat(record->path, &info) != 0)
         return FFD_OK;
     errno = reason;
     TRY(check_owner(record, &info, error));
