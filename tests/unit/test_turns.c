@@ -160,9 +160,8 @@ static void scale_moves(ffd_lattice *lattice, double scale)
     assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
 }
 
-static size_t found, passed_over; /* points that turn; others whose gradient was not needed */
-
-static void check_points(const ffd_lattice *lattice, ffd_isa isa, sample *s)
+/* Displaces the points of a sample, and lists those at which the lattice may turn. */
+static void displace(const ffd_lattice *lattice, ffd_isa isa, sample *s)
 {
     const displacement_batch batch = {.uvw = s->uvw,
                                       .stride = 3 * sizeof *s->uvw,
@@ -173,10 +172,17 @@ static void check_points(const ffd_lattice *lattice, ffd_isa isa, sample *s)
                                       .turns = &s->turns,
                                       .only_turns = true,
                                       .moves = s->moves};
-    bool is_listed[DISPLACEMENT_BATCH] = {false};
     s->turns.count = 0;
     ffd_displacement_scratch_clear(&s->scratch);
     ffd_displacements(lattice, isa, &batch, &s->scratch);
+}
+
+static size_t found, passed_over; /* points that turn; others whose gradient was not needed */
+
+static void check_points(const ffd_lattice *lattice, ffd_isa isa, sample *s)
+{
+    bool is_listed[DISPLACEMENT_BATCH] = {false};
+    displace(lattice, isa, s);
     for (size_t k = 0; k < s->turns.count; k++)
         is_listed[s->turns.points[k]] = true;
     for (size_t n = 0; n < s->count; n++) {
@@ -297,19 +303,8 @@ static void place(ffd_lattice *lattice, const double by[3])
 /* Lists the points at which a lattice may turn, and counts those of them at which it collapses space. */
 static size_t count_collapses(const ffd_lattice *lattice, ffd_isa isa, sample *s)
 {
-    const displacement_batch batch = {.uvw = s->uvw,
-                                      .stride = 3 * sizeof *s->uvw,
-                                      .which = s->which,
-                                      .count = s->count,
-                                      .delta = s->delta,
-                                      .gradient = s->gradient,
-                                      .turns = &s->turns,
-                                      .only_turns = true,
-                                      .moves = s->moves};
     size_t collapses = 0;
-    s->turns.count = 0;
-    ffd_displacement_scratch_clear(&s->scratch);
-    ffd_displacements(lattice, isa, &batch, &s->scratch);
+    displace(lattice, isa, s);
     for (size_t k = 0; k < s->turns.count; k++) {
         const size_t n = s->turns.points[k];
         collapses += ffd_collapses(lattice, s->uvw + 3 * n, NULL, 0, s->gradient + 9 * n);
