@@ -1,6 +1,7 @@
 #include "base/text/content.h"
 #include "base/little_endian.h"
 #include "base/text/stand_in.h"
+#include "base/text/text_scan.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -74,42 +75,23 @@ static const content_kind stand_ins[] = {{STAND_IN_LFS, FFD_FORMAT_AUTO, false, 
                                          {STAND_IN_ANNEX, FFD_FORMAT_AUTO, false, true},
                                          {STAND_IN_HTML, FFD_FORMAT_AUTO, false, true}};
 
+/* White space of JSON. */
 static bool is_blank(unsigned char byte)
 {
     return byte == ' ' || byte == '\t' || byte == '\n' || byte == '\r';
 }
 
-/* The size of a byte order mark of UTF-8 at the start. */
-static size_t mark_size(const unsigned char *data, size_t size)
+static bool matches(text_word word, const char *pattern)
 {
-    return size >= 3 && memcmp(data, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
-}
-
-/* Finds the first word that is in no comment. Returns its size; *begin becomes its start. */
-static size_t first_word(const unsigned char *data, size_t size, size_t *begin)
-{
-    size_t at = mark_size(data, size), end;
-    while (at < size && (is_blank(data[at]) || data[at] == '\v' || data[at] == '\f' || data[at] == '#')) {
-        const bool is_comment = data[at] == '#';
-        for (at++; is_comment && at < size && data[at] != '\n' && data[at] != '\r';)
-            at++;
-    }
-    for (end = at;
-         end < size && !is_blank(data[end]) && data[end] != '\v' && data[end] != '\f' && data[end] != '#';)
-        end++;
-    *begin = at;
-    return end - at;
-}
-
-static bool matches(const unsigned char *word, size_t size, const char *pattern)
-{
-    const size_t length = strlen(pattern);
-    const bool is_start = length > 0 && pattern[length - 1] == '*';
-    const size_t compared = length - is_start;
-    bool same = is_start ? size >= compared : size == compared;
-    for (size_t i = 0; i < compared && same; i++)
-        same = (word[i] >= 'A' && word[i] <= 'Z' ? word[i] - 'A' + 'a' : word[i]) == pattern[i];
-    return same;
+    const size_t size = strlen(pattern);
+    if (size == 0 || pattern[size - 1] != '*')
+        return ffd_text_is_any_case(word, pattern);
+    if ((size_t)(word.last - word.first) < size - 1)
+        return false;
+    char start[32];
+    memcpy(start, pattern, size - 1);
+    start[size - 1] = '\0';
+    return ffd_text_is_any_case((text_word){word.first, word.first + size - 1}, start);
 }
 
 static const content_kind *kind_of_words(const void *data, size_t size)
@@ -118,10 +100,13 @@ static const content_kind *kind_of_words(const void *data, size_t size)
     for (size_t i = 0; stand_in && i < sizeof stand_ins / sizeof *stand_ins; i++)
         if (strcmp(stand_in, stand_ins[i].name) == 0)
             return &stand_ins[i];
-    size_t begin;
-    const size_t length = first_word(data, size, &begin);
+    text_scan scan;
+    text_word first = {"", ""};
+    ffd_text_begin(&scan, data, size, true);
+    if (ffd_text_find(&scan))
+        ffd_text_word(&scan, &first);
     for (size_t i = 0; i < sizeof first_words / sizeof *first_words; i++)
-        if (matches((const unsigned char *)data + begin, length, first_words[i].first))
+        if (matches(first, first_words[i].first))
             return &first_words[i].kind;
     return NULL;
 }
@@ -168,7 +153,8 @@ static bool is_text(const unsigned char *data, size_t size)
    follows its brace. */
 static bool is_objects(const unsigned char *data, size_t size)
 {
-    const unsigned char *at = data + mark_size(data, size), *const end = data + size;
+    const unsigned char *at = data + (ffd_text_has_mark(data, size) ? TEXT_MARK_SIZE : 0), *const end =
+                                                                                               data + size;
     for (bool in_array = false; at < end && (is_blank(*at) || (*at == '[' && !in_array)); at++)
         in_array = in_array || *at == '[';
     if (at == end || *at != '{')

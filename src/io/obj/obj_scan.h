@@ -10,7 +10,7 @@
 #ifndef FFD_IO_OBJ_OBJ_SCAN_H
 #define FFD_IO_OBJ_OBJ_SCAN_H
 
-#include "io/text/text_scan.h"
+#include "base/text/text_scan.h"
 #include <stdbool.h>
 #include <stddef.h>
 

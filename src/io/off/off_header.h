@@ -8,7 +8,7 @@
 #define FFD_IO_OFF_OFF_HEADER_H
 
 #include "base/file/input.h"
-#include "io/text/text_scan.h"
+#include "base/text/text_scan.h"
 
 /* The maximum number of vertices: corners of faces are 32-bit numbers. */
 #define OFF_VERTICES_MAX (UINT32_MAX - 1)

@@ -5,7 +5,7 @@
 
 #include "base/little_endian.h"
 #include "base/text/number.h"
-#include "io/text/text_scan.h"
+#include "base/text/text_scan.h"
 #include <stdbool.h>
 #include <stddef.h>
 

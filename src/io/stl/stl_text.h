@@ -7,7 +7,7 @@
 #ifndef FFD_IO_STL_STL_TEXT_H
 #define FFD_IO_STL_STL_TEXT_H
 
-#include "io/text/text_scan.h"
+#include "base/text/text_scan.h"
 #include "mesh/flaws.h"
 
 typedef struct stl_text {

@@ -5,8 +5,8 @@
 #include "base/file/output.h"
 #include "base/text/buffer.h"
 #include "base/text/decimal.h"
+#include "base/text/text_scan.h"
 #include "io/text/file_document.h"
-#include "io/text/text_scan.h"
 
 typedef struct file_splice {
     const file_document *document; /* NULL in a part */

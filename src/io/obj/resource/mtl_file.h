@@ -4,7 +4,7 @@
 
 #include "base/fail.h"
 #include "base/memory/intern.h"
-#include "io/text/text_scan.h"
+#include "base/text/text_scan.h"
 #include "mesh/resource/resource_list.h"
 
 extern const resource_kind ffd_resource_library;

@@ -1,9 +1,9 @@
 #include "io/obj/resource/obj_libraries.h"
 #include "base/memory/memory.h"
+#include "base/text/text_scan.h"
 #include "io/obj/resource/mtl_file.h"
 #include "io/obj/resource/obj_paths.h"
 #include "io/obj/resource/obj_statements.h"
-#include "io/text/text_scan.h"
 #include <string.h>
 
 /* The longest statement that may be a single name. */

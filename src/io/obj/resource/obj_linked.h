@@ -5,7 +5,7 @@
 
 #include "base/file/file_folder.h"
 #include "base/file/path_list.h"
-#include "io/text/text_scan.h"
+#include "base/text/text_scan.h"
 #include "mesh/resource/left_out.h"
 
 /* Whether a keyword is one of these. The functions below read the file once for each: call them if it has

@@ -1,8 +1,8 @@
 #include "io/obj/resource/obj_statements.h"
 #include "base/memory/memory.h"
 #include "base/text/buffer.h"
+#include "base/text/text_scan.h"
 #include "io/obj/resource/obj_paths.h"
-#include "io/text/text_scan.h"
 #include <string.h>
 
 /* The longest statement whose arguments are looked at. */

@@ -1,4 +1,4 @@
-#include "io/text/text_scan.h"
+#include "base/text/text_scan.h"
 #include "base/text/number.h"
 #include "base/text/words.h"
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* text_scan.h - scans the words and lines of a text file. Line ends may be any mixture of LF, CRLF and CR;
    blanks and tabs separate words; a byte order mark is skipped. */
-#ifndef FFD_IO_TEXT_TEXT_SCAN_H
-#define FFD_IO_TEXT_TEXT_SCAN_H
+#ifndef FFD_BASE_TEXT_TEXT_SCAN_H
+#define FFD_BASE_TEXT_TEXT_SCAN_H
 
 #include <stdbool.h>
 #include <stddef.h>
