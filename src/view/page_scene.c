@@ -61,7 +61,7 @@ static void put_parts(json_text *json, const page_mesh *mesh)
         if (material) {
             put_name(json, "material", material->name);
             ffd_json_vector(json, "color", material->color, 4);
-            ffd_json_bool(json, "texture", material->image != MATERIAL_NONE);
+            ffd_json_bool(json, "texture", material->base.image != MATERIAL_NONE);
         }
         ffd_json_end(json, '}');
     }
