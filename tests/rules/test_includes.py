@@ -136,7 +136,7 @@ OUTSIDE = [
     (r"tiny_gltf\.h|nlohmann/", {"io/gltf/read"}),
     (r"draco/", {"io/gltf/read"}),
     (r"meshoptimizer\.h", {"mesh/meshopt"}),
-    (r"png\.h|jpeglib\.h|jerror\.h", {"picture/image"}),
+    (r"png\.h|jpeglib\.h|jerror\.h|webp/", {"picture/image"}),
     (r"Python\.h", {"python"}),
     (r"xxhash\.h|xxh3\.h", {"base/memory"}),
     (r"sys/platform/", {"base/vector"}),
