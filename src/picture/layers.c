@@ -1,6 +1,5 @@
 #include "picture/layers.h"
 #include "picture/linear.h"
-#include "picture/samples.h"
 #include <stdbool.h>
 #include <string.h>
 

@@ -7,6 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* The samples of a pixel. */
+#define SAMPLES 4
 /* The most fragments of a pixel. Of more the two farthest become one, which is seen least. */
 #define LAYERS_MOST 16
 

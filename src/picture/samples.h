@@ -6,7 +6,6 @@
 #include "picture/surface.h"
 #include <math.h>
 
-#define SAMPLES 4
 /* Positions of the samples in a pixel, in subpixels (rotated grid): no two share a row or a column, so nearly
    horizontal and vertical edges are smooth too. */
 #define SAMPLE_X                                                                                             \

@@ -1,5 +1,6 @@
 /* splat.h - Gaussian splats under a deformation gradient F = I + gradient (src/maths.md 9.6): the rotation of
-   view-dependent colours, and the ellipsoid. */
+   view-dependent colours, and the ellipsoid. The covariances by which splats are drawn are in covariance.c.
+ */
 #ifndef FFD_SPLAT_SPLAT_H
 #define FFD_SPLAT_SPLAT_H
 

@@ -261,6 +261,33 @@ def mistakes_are_refused_before_any_work(run):
 
 
 @case
+def whatever_points_upwards_stands_upright(run):
+    """The same body with y, z and x upwards gives the same picture, from every side."""
+    body = [(x * 0.5, y + 0.25 * x, z * (1 + y / 4)) for x in (0, 1) for y in (0, 3) for z in (0, 2)]
+    faces = "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n"
+    for name, turn in (("y", lambda x, y, z: (x, y, z)), ("z", lambda x, y, z: (x, -z, y)), ("x", lambda x, y, z: (y, -x, z))):
+        run.write(name + ".obj", "".join("v {} {} {}\n".format(*turn(*point)) for point in body) + faces)
+    for side in ("front", "back", "left", "right", "top", "bottom", "iso"):
+        look = ["--camera", side, "--size", "120x100"]
+        upright = picture(run, "y.obj", *look)
+        for up in ("z", "x"):
+            check(picture(run, up + ".obj", *look, "--up", up) == upright, side, up)
+    # Numbers are in the axes of the mesh.
+    check(picture(run, "y.obj", "--camera", "1,2,3", "--size", "120x100") ==
+          picture(run, "z.obj", "--camera", "1,-3,2", "--up", "z", "--size", "120x100"), "a direction")
+    run.ffd("view", "y.obj", "-o", "q.png", "--up", "w", code=USAGE, err=re.compile("--up"))
+
+
+@case
+def the_cage_can_be_left_out(run):
+    work = start(run)
+    for more in ([], ["--frames", "3"]):
+        check(count(picture(run, *work, *more, "--size", "300x200"), is_blue) > 100, "with its cage")
+        equal(count(picture(run, *work, *more, "--size", "300x200", "--no-cage", "--color", "plain"), is_blue), 0, "without")
+    equal([len(view(run, *work, *more).scene["cages"]) for more in ([], ["--no-cage"])], [1, 0], "of a page")
+
+
+@case
 def how_a_page_opens(run):
     work = start(run)
     equal(view(run, *work).scene["view"], {"color": "displacement", "camera": [0, 0, 0], "up": "y"}, "by default")
@@ -673,6 +700,17 @@ def a_violated_gate_still_has_its_picture(run):
     run.ffd("view", *work, "--fail-on", "folds", "-o", "p.png", "--size", "64x64", code=NO, lines=1)
     equal(len(read_png(run.read("p.png"))), 64)
     run.ffd("view", *work, "-o", "p.png", code=IO, err=re.compile("--force"))
+
+
+@case
+def a_check_draws_from_where_it_is_told(run):
+    work = start(run)
+    look = ["--camera", "bottom", "--up", "z", "--no-cage"]
+    run.ffd("check", *work, "--picture", "c.png", *look, err=lambda said: None)
+    run.ffd("view", *work, "-o", "v.png", *look)
+    check(run.read("c.png") == run.read("v.png"), "the picture of view")
+    for option in (["--camera", "front"], ["--up", "y"], ["--no-cage"]):
+        run.ffd("check", *work, *option, code=USAGE, err=re.compile(f"{option[0]} needs --picture"))
 
 
 @case

@@ -25,7 +25,7 @@ LAYERS = {
     "mesh/resource": {"base", "base/file", "base/memory", "base/system", "base/text", "mesh"},
     "picture/image": {"base", "base/memory", "base/system", "mesh"},
     "picture": {
-        "base", "base/memory", "base/system", "base/text", "base/vector", "mesh", "picture/image",
+        "base", "base/memory", "base/system", "base/vector", "mesh", "picture/image",
     },
     "io/gltf/file": {"base", "base/file", "base/memory", "base/text", "json"},
     "io/gltf/read": {
@@ -44,7 +44,7 @@ LAYERS = {
     },
     "io/gltf": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/edit", "io/gltf/file",
-        "io/gltf/model", "io/gltf/read", "io/gltf/write", "json", "mesh", "mesh/resource",
+        "io/gltf/model", "io/gltf/read", "io/gltf/write", "json", "mesh", "mesh/resource", "splat",
     },
     "io/openmesh": {"base/memory", "base/system", "base/vector", "mesh"},
     "io/text": {"base/file", "base/memory", "base/text", "mesh"},

@@ -20,7 +20,6 @@
 #include "job/pass/chain_fit.h"
 #include "job/report/output_set.h"
 #include "job/report/report.h"
-#include "picture/camera.h"
 #include "view/page.h"
 #include "view/view_picture.h"
 #include <math.h>
@@ -43,16 +42,6 @@ void ffd_view_desc_init(ffd_view_desc *desc, size_t size)
 {
     const ffd_view_desc defaults = {.struct_size = sizeof defaults};
     ffd_struct_give(&defaults, sizeof defaults, desc, size);
-}
-
-ffd_status ffd_view_camera(const char *name, ffd_up up, double direction[3])
-{
-    const bool is_up = (int)up >= FFD_UP_Y && up <= FFD_UP_X, is_iso = name && strcmp(name, "iso") == 0;
-    if (!is_up || !name || !(is_iso || ffd_camera_side(name, up, direction)))
-        return FFD_E_ARGUMENT;
-    for (int a = 0; a < 3 && is_iso; a++)
-        direction[a] = 0;
-    return FFD_OK;
 }
 
 static bool is_page(const char *path)
