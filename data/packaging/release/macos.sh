@@ -5,7 +5,8 @@ for processor in arm64 x86_64; do
     machine=$(echo $processor | sed 's/arm64/aarch64/')
     name=wheel-macos-$machine
     . "$parts/wheel.sh"
-    build=$work/macos-$processor
+    # Where the wheel's was: ccache has what that one has compiled.
+    build=$source/.build-$processor
     meson setup "$build" "$source" --cross-file "$source/data/packaging/macos.ini" --cross-file "$work/$name.ini" --buildtype=release \
         -Dstatic=true -Ddefault_library=static -Dtests=disabled -Dpython=false --wrap-mode=forcefallback -Dc_link_args=-s -Dcpp_link_args=-s
     ninja -C "$build" src/cli/ffd
