@@ -99,8 +99,18 @@ static void place_points(const lattice_spec *spec, ffd_lattice *lattice, rest_re
     }
 }
 
-static ffd_status place_rest(const lattice_spec *spec, const double *min, const double *max,
-                             ffd_lattice *lattice, rest_region *region, ffd_error *error)
+/* A side in which the mesh is flat counts as widened, as that of its box without margin. */
+static ffd_status make_mesh_region(const fit_extent *extent, rest_region *region, ffd_error *error)
+{
+    static const double none[3] = {0, 0, 0}, axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    double min[3], max[3];
+    TRY(ffd_shape_grow_box(extent->shown_min, extent->shown_max, none, min, max, error));
+    ffd_shape_box_region(min, max, axes, region);
+    return FFD_OK;
+}
+
+static ffd_status place_rest(const lattice_spec *spec, const fit_extent *extent, ffd_lattice *lattice,
+                             rest_region *region, ffd_error *error)
 {
     double grown_min[3], grown_max[3];
     ffd_status status;
@@ -109,10 +119,11 @@ static ffd_status place_rest(const lattice_spec *spec, const double *min, const 
     case SPEC_BOX:
         return place_box(spec, lattice, spec->box_min, spec->box_max, region, error);
     case SPEC_BOX_MESH:
-        status = ffd_shape_grow_box(min, max, spec->margin, grown_min, grown_max, error);
+        status = ffd_shape_grow_box(extent->min, extent->max, spec->margin, grown_min, grown_max, error);
         if (status)
             return locate(spec, "/rest/box", status, error);
-        return place_box(spec, lattice, grown_min, grown_max, region, error);
+        TRY(place_box(spec, lattice, grown_min, grown_max, region, error));
+        return spec->units == UNITS_MESH ? make_mesh_region(extent, region, error) : FFD_OK;
     case SPEC_CYLINDER:
         ffd_shape_cylinder_region(spec, region);
         return locate(spec, "/rest/cylinder", ffd_shape_cylinder(lattice, spec, lattice->rest, error), error);
@@ -138,20 +149,20 @@ static ffd_status set_deformed(const lattice_spec *spec, ffd_lattice *lattice, f
     return FFD_OK;
 }
 
-static ffd_status set_points(const lattice_spec *spec, const double *min, const double *max,
+static ffd_status set_points(const lattice_spec *spec, const fit_extent *extent,
                              const move_observer *observer, ffd_lattice *lattice, ffd_error *error)
 {
     rest_region region;
     TRY(make_points(lattice, error));
     TRY(make_weights(spec, lattice, error));
-    TRY(place_rest(spec, min, max, lattice, &region, error));
+    TRY(place_rest(spec, extent, lattice, &region, error));
     TRY(set_deformed(spec, lattice, error));
     if (spec->move_count > 0)
         TRY(ffd_moves_apply(spec, &region, lattice, observer, error));
     return ffd_lattice_finish_moved(lattice, error);
 }
 
-static ffd_status build(lattice_spec *spec, const double *min, const double *max, bool points,
+static ffd_status build(lattice_spec *spec, const fit_extent *extent, bool points,
                         const move_observer *observer, ffd_lattice **lattice, ffd_error *error)
 {
     *lattice = NULL;
@@ -159,7 +170,7 @@ static ffd_status build(lattice_spec *spec, const double *min, const double *max
     ffd_status status;
     TRY_END(result ? make_knots(spec, result, error) : ffd_fail_memory(error));
     if (points)
-        TRY_END(set_points(spec, min, max, observer, result, error));
+        TRY_END(set_points(spec, extent, observer, result, error));
 end:
     if (status) {
         ffd_fail_name_file(error, spec->name);
@@ -167,26 +178,23 @@ end:
         return status;
     }
     result->spec = spec;
-    for (int c = 0; c < 3 && min; c++) {
-        result->fitted_min[c] = min[c];
-        result->fitted_max[c] = max[c];
-    }
+    if (extent)
+        result->fitted = *extent;
     *lattice = result;
     return FFD_OK;
 }
 
-ffd_status ffd_spec_build(lattice_spec *spec, const double *min, const double *max, ffd_lattice **lattice,
+ffd_status ffd_spec_build(lattice_spec *spec, const fit_extent *extent, ffd_lattice **lattice,
                           ffd_error *error)
 {
-    return build(spec, min, max, spec->rest != SPEC_BOX_MESH || min, NULL, lattice, error);
+    return build(spec, extent, spec->rest != SPEC_BOX_MESH || extent, NULL, lattice, error);
 }
 
 ffd_status ffd_lattice_replay(const ffd_lattice *lattice, const move_observer *observer, ffd_error *error)
 {
     const bool fitted = lattice->spec->rest == SPEC_BOX_MESH;
     ffd_lattice *again;
-    TRY(build(lattice->spec, fitted ? lattice->fitted_min : NULL, fitted ? lattice->fitted_max : NULL, true,
-              observer, &again, error));
+    TRY(build(lattice->spec, fitted ? &lattice->fitted : NULL, true, observer, &again, error));
     again->spec = NULL; /* it belongs to the lattice */
     ffd_lattice_destroy(&again);
     return FFD_OK;
@@ -194,7 +202,7 @@ ffd_status ffd_lattice_replay(const ffd_lattice *lattice, const move_observer *o
 
 ffd_status ffd_spec_build_knots(lattice_spec *spec, ffd_lattice **lattice, ffd_error *error)
 {
-    return build(spec, NULL, NULL, false, NULL, lattice, error);
+    return build(spec, NULL, false, NULL, lattice, error);
 }
 
 uint64_t ffd_spec_knot_bytes(const lattice_spec *spec)

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-/* With "units": "box", lengths and positions (by, to, about, within, the argument of a matrix, the positions
+/* With "units": "box" or "mesh", lengths and positions (by, to, about, within, the argument of a matrix, the positions
    in a pull and in a falloff) are fractions of the sides of the rest region, along these sides. Directions,
    angles and factors are the same in both units. */
 
@@ -22,7 +22,7 @@ typedef struct move_work {
     double *points;          /* the deformed control points */
     double *difference;      /* their displacements from rest */
     unsigned char *selected; /* by the current move; one byte for each control point */
-    bool box_units;
+    bool in_region; /* lengths and positions are fractions of the region */
     rest_region region;
     double inverse[9]; /* inverse of the region's frame; box units only */
     double slack[3];   /* tolerance of the coordinates that `within` compares */
@@ -44,8 +44,8 @@ static void to_world(const move_work *work, double position[3])
 static void coordinates_of(const move_work *work, const double point[3], double coordinates[3])
 {
     for (int c = 0; c < 3; c++)
-        coordinates[c] = work->box_units ? point[c] - work->region.origin[c] : point[c];
-    if (work->box_units)
+        coordinates[c] = work->in_region ? point[c] - work->region.origin[c] : point[c];
+    if (work->in_region)
         mat_apply(work->inverse, coordinates, coordinates);
 }
 
@@ -78,7 +78,7 @@ static bool adds_vector(const lattice_move *move)
 
 static void move_to_world(const move_work *work, lattice_move *move)
 {
-    if (!work->box_units)
+    if (!work->in_region)
         return;
     if (move->has_about)
         to_world(work, move->about);
@@ -100,7 +100,7 @@ static void find_slack(move_work *work)
             size[c] = larger_of(size[c], fabs(work->lattice->rest[3 * i + c]));
     for (int c = 0; c < 3; c++) {
         const double *const row = work->inverse + 3 * c;
-        const double largest = work->box_units
+        const double largest = work->in_region
                                    ? fabs(row[0]) * size[0] + fabs(row[1]) * size[1] + fabs(row[2]) * size[2]
                                    : size[c];
         work->slack[c] = 16 * DBL_EPSILON * largest;
@@ -181,12 +181,12 @@ static double way_along(const move_work *work, const move_falloff *falloff, cons
 {
     double from_origin[3], extent = 0;
     for (int c = 0; c < 3; c++)
-        from_origin[c] = work->box_units ? rest[c] - work->region.origin[c] : rest[c];
+        from_origin[c] = work->in_region ? rest[c] - work->region.origin[c] : rest[c];
     for (int a = 0; a < 3; a++) {
         const double side[3] = {work->region.frame[a], work->region.frame[3 + a], work->region.frame[6 + a]};
         extent += fabs(vec_dot(falloff->axis, side));
     }
-    const double s = vec_dot(falloff->axis, from_origin) / (work->box_units ? extent : 1);
+    const double s = vec_dot(falloff->axis, from_origin) / (work->in_region ? extent : 1);
     return (0.5 * s - 0.5 * falloff->from) / (0.5 * falloff->to - 0.5 * falloff->from);
 }
 
@@ -273,7 +273,7 @@ static ffd_status observe(const move_work *work, size_t index, const lattice_mov
                             .selected = work->selected,
                             .lattice = work->lattice,
                             .region = &work->region,
-                            .inverse = work->box_units ? work->inverse : NULL};
+                            .inverse = work->in_region ? work->inverse : NULL};
     return work->observer ? work->observer->see(work->observer->context, &step, work->error) : FFD_OK;
 }
 
@@ -332,12 +332,12 @@ ffd_status ffd_moves_apply(const lattice_spec *spec, const rest_region *region, 
     move_work work = {.lattice = lattice,
                       .points = lattice->deformed,
                       .difference = lattice->difference,
-                      .box_units = spec->box_units,
+                      .in_region = spec->units != UNITS_WORLD,
                       .region = *region,
                       .file = spec->name,
                       .observer = observer,
                       .error = error};
-    if (work.box_units && !mat_invert(region->frame, work.inverse))
+    if (work.in_region && !mat_invert(region->frame, work.inverse))
         return ffd_fail_at(error, FFD_E_INVALID, spec->name, "/units",
                            "the rest points lie in a plane: there is no box to take fractions of");
     find_slack(&work);

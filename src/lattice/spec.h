@@ -20,6 +20,10 @@ typedef enum move_action {
     MOVE_PULL
 } move_action;
 
+/* Of the lengths and positions in moves: of the world, or fractions of the rest region's sides, or of the
+   bounds of the mesh that the box goes round. */
+typedef enum lattice_units { UNITS_WORLD, UNITS_BOX, UNITS_MESH } lattice_units;
+
 typedef enum falloff_kind { FALLOFF_NONE, FALLOFF_AXIS, FALLOFF_BALL } falloff_kind;
 
 /* How the weight of a move depends on the rest position, in the units of the file. */
@@ -108,7 +112,7 @@ typedef struct lattice_spec {
     size_t variable_count;
     spec_seed *seeds;
     size_t seed_count;
-    bool box_units;
+    lattice_units units;
     lattice_move *moves;
     size_t move_count;
     intern_table open; /* names of placeholders without a value; if there are any, there are no moves */

@@ -100,7 +100,7 @@ static const sample samples[] = {
 /* Builds the lattice with one component of the value increased by `by`. */
 static ffd_lattice *built(const sample *s, size_t component, double by, bool derives)
 {
-    static const double min[3] = {-1, 0.5, -1}, max[3] = {1, 2, 3};
+    static const fit_extent extent = {{-1, 0.5, -1}, {1, 2, 3}, {-0.9, 0.6, -1}, {1, 2, 2.5}};
     double value[3];
     char text[4096], set[200];
     bool used;
@@ -118,7 +118,7 @@ static ffd_lattice *built(const sample *s, size_t component, double by, bool der
     const ffd_setting setting = {"A", set};
     const spec_settings settings = {.values = &setting, .used = &used, .count = 1, .derives = derives};
     if (ffd_spec_parse(text, (size_t)size, "t", &settings, &spec, &error) ||
-        ffd_spec_build(spec, min, max, &lattice, &error))
+        ffd_spec_build(spec, &extent, &lattice, &error))
         fail_msg("%s %s: %s", error.pointer, error.message, s->moves);
     return lattice;
 }

@@ -200,11 +200,14 @@ static ffd_status read_deformed(json_cursor cursor, lattice_spec *spec)
 
 static ffd_status read_units(json_cursor cursor, lattice_spec *spec)
 {
-    static const char *const names[] = {"world", "box"};
+    static const char *const names[] = {"world", "box", "mesh"};
+    static const lattice_units units[] = {UNITS_WORLD, UNITS_BOX, UNITS_MESH};
     size_t index;
-    const ffd_status status = ffd_json_read_word(cursor, names, COUNT_OF(names), &index);
-    spec->box_units = index == 1;
-    return status;
+    TRY(ffd_json_read_word(cursor, names, COUNT_OF(names), &index));
+    spec->units = units[index];
+    if (spec->units != UNITS_MESH || spec->rest == SPEC_BOX_MESH)
+        return FFD_OK;
+    return ffd_cursor_fail(cursor, "\"mesh\" needs a rest box round a mesh: {\"box\": \"mesh\"} or {\"meshes\": [..]}");
 }
 
 static ffd_status read_rest_weights(json_cursor cursor, lattice_spec *spec)

@@ -270,8 +270,8 @@ char *ffd_spec_text(const lattice_spec *spec, size_t *size)
         ffd_json_vector(&json, "weights", spec->weights, spec->count);
     if (spec->deformed_points || spec->deformed_offsets || spec->deformed_weights)
         write_deformed(&json, spec);
-    if (spec->box_units)
-        ffd_json_string(&json, "units", "box");
+    if (spec->units != UNITS_WORLD)
+        ffd_json_string(&json, "units", spec->units == UNITS_BOX ? "box" : "mesh");
     /* Also if there are none: a new file shows where moves are to be added. */
     write_moves(&json, spec);
     ffd_json_end(&json, '}');
