@@ -222,7 +222,7 @@ uint64_t ffd_spec_point_bytes(const lattice_spec *spec)
     uint64_t each = 3 * 3 * sizeof(double) + 1; /* rest, deformed, difference, moved */
     each += spec->weights || spec->deformed_weights || ffd_spec_has_exact(spec) ? 2 * sizeof(double) : 0;
     /* Two trees while the moves are applied. */
-    each += ffd_spec_has_mirror(spec) ? 2 * (sizeof(uint32_t) + 1) : 0;
+    each += ffd_spec_finds_images(spec) ? 2 * (sizeof(uint32_t) + 1) : 0;
     each += spec->points ? 3 * sizeof(double) : 0;
     each += spec->deformed_points || spec->deformed_offsets ? 3 * sizeof(double) : 0;
     each += spec->weights ? sizeof(double) : 0;

@@ -1,6 +1,5 @@
 #include "lattice/moves.h"
 #include "base/memory/memory.h"
-#include "base/text/number.h"
 #include "base/vector/vec.h"
 #include "lattice/lattice.h"
 #include "lattice/mirror.h"
@@ -175,18 +174,26 @@ static double radii_from(const double x[3], const double center[3], double radiu
     return vec_length(away) / radius;
 }
 
+/* Returns the extent of the region along a unit vector. */
+static double extent_along(const rest_region *region, const double axis[3])
+{
+    double extent = 0;
+    for (int a = 0; a < 3; a++) {
+        const double side[3] = {region->frame[a], region->frame[3 + a], region->frame[6 + a]};
+        extent += fabs(vec_dot(axis, side));
+    }
+    return extent;
+}
+
 /* Returns the position between `from` (0) and `to` (1) of a rest point along the axis; in box units along the
    whole region, from its lower corner. Terms are halved, because a difference could overflow. */
 static double way_along(const move_work *work, const move_falloff *falloff, const double rest[3])
 {
-    double from_origin[3], extent = 0;
+    double from_origin[3];
     for (int c = 0; c < 3; c++)
         from_origin[c] = work->in_region ? rest[c] - work->region.origin[c] : rest[c];
-    for (int a = 0; a < 3; a++) {
-        const double side[3] = {work->region.frame[a], work->region.frame[3 + a], work->region.frame[6 + a]};
-        extent += fabs(vec_dot(falloff->axis, side));
-    }
-    const double s = vec_dot(falloff->axis, from_origin) / (work->in_region ? extent : 1);
+    const double extent = work->in_region ? extent_along(&work->region, falloff->axis) : 1;
+    const double s = vec_dot(falloff->axis, from_origin) / extent;
     return (0.5 * s - 0.5 * falloff->from) / (0.5 * falloff->to - 0.5 * falloff->from);
 }
 
@@ -249,16 +256,19 @@ static ffd_status move_point(const move_work *work, ready_move *ready, const mir
         return FFD_OK;
     double to[3] = {from[0], from[1], from[2]};
     ffd_move_act(ready, to);
+    if (plane && adds_vector(move))
+        ffd_mirror_vector(plane, move->vector, to);
+    else if (adds_vector(move))
+        memcpy(to, move->vector, sizeof to);
+    else if (plane)
+        ffd_mirror_back(plane, p, from, to, to);
     for (int c = 0; c < 3; c++) {
-        const bool reflected = plane && c == plane->axis;
         if (adds_vector(move)) {
-            const double by = weight * (reflected ? -move->vector[c] : move->vector[c]);
-            p[c] += by;
-            difference[c] += by;
+            p[c] += weight * to[c];
+            difference[c] += weight * to[c];
             continue;
         }
-        const double moved = !reflected ? to[c] : to[c] == from[c] ? p[c] : plane->twice - to[c];
-        ffd_move_put(weight == 1 ? moved : p[c] + weight * (moved - p[c]), rest[c], &p[c], &difference[c]);
+        ffd_move_put(weight == 1 ? to[c] : p[c] + weight * (to[c] - p[c]), rest[c], &p[c], &difference[c]);
     }
     return check_finite(work, move, point);
 }
@@ -293,20 +303,40 @@ static ffd_status move_points(const move_work *work, size_t index, const lattice
     return FFD_OK;
 }
 
-/* Applies the action again, reflected, to the mirror images of the points. */
+/* Returns the plane in world units. With fractions, `at` counts along the normal, as in way_along. */
+static mirror_plane plane_of(const move_work *work, const move_mirror *mirror)
+{
+    const rest_region *const region = &work->region;
+    const double *const normal = mirror->normal;
+    double point[3] = {mirror->point[0], mirror->point[1], mirror->point[2]}, offset = mirror->at;
+    if (mirror->kind == MIRROR_MIDDLE)
+        return ffd_mirror_middle(work->lattice, normal[0] != 0 ? 0 : normal[1] != 0 ? 1 : 2);
+    if (mirror->kind == MIRROR_POINT) {
+        if (work->in_region)
+            to_world(work, point);
+        offset = vec_dot(normal, point);
+    } else if (work->in_region) {
+        offset = vec_dot(normal, region->origin) + mirror->at * extent_along(region, normal);
+    }
+    return ffd_mirror_plane(work->lattice, normal, offset);
+}
+
+/* Applies the action again, reflected: to the mirror images of the points, or, where the weight depends on the
+   position, to the same points with the mirrored weight. */
 static ffd_status move_images(move_work *work, size_t index, const lattice_move *move, ready_move *ready)
 {
     const size_t *const size = work->lattice->size, count = work->lattice->count;
-    const mirror_plane plane = ffd_mirror_plane(work->lattice, move->mirror);
-    size_t missing;
+    const mirror_plane plane = plane_of(work, &move->mirror);
+    size_t missing = count;
+    if (ffd_move_weighs_places(move))
+        return move_points(work, index, move, ready, &plane);
     TRY(ffd_mirror_select(work->lattice, &plane, &work->rest, work->selected, &missing, work->error));
     if (missing == count)
         return move_points(work, index, move, ready, &plane);
     return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->pointer,
-                       "control point %zu,%zu,%zu has no mirror image in %c: no other rests across the plane "
-                       "%c = %s",
+                       "control point %zu,%zu,%zu has no mirror image: no other rests across the plane %s",
                        missing % size[0], missing / size[0] % size[1], missing / size[0] / size[1],
-                       "xyz"[move->mirror], "xyz"[move->mirror], ffd_number_text(0.5 * plane.twice).text);
+                       ffd_mirror_describe(&plane).text);
 }
 
 static ffd_status apply_move(move_work *work, const lattice_spec *spec, size_t index)
@@ -323,7 +353,7 @@ static ffd_status apply_move(move_work *work, const lattice_spec *spec, size_t i
     if (ffd_move_has_extent(move->action))
         find_extent(work, &ready);
     TRY(move_points(work, index, move, &ready, NULL));
-    return move->has_mirror ? move_images(work, index, move, &ready) : FFD_OK;
+    return move->mirror.kind != MIRROR_NONE ? move_images(work, index, move, &ready) : FFD_OK;
 }
 
 ffd_status ffd_moves_apply(const lattice_spec *spec, const rest_region *region, ffd_lattice *lattice,

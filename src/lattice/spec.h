@@ -34,6 +34,17 @@ typedef struct move_falloff {
     double center[3], radius; /* FALLOFF_BALL; radius > 0 */
 } move_falloff;
 
+/* The plane of a mirrored move: none, through the middle of the rest points, at a coordinate along its normal,
+   through a point. */
+typedef enum mirror_kind { MIRROR_NONE, MIRROR_MIDDLE, MIRROR_AT, MIRROR_POINT } mirror_kind;
+
+/* In the units of the file. */
+typedef struct move_mirror {
+    mirror_kind kind;
+    double normal[3]; /* unit length; of MIRROR_MIDDLE a coordinate axis */
+    double at, point[3];
+} move_mirror;
+
 typedef struct lattice_move {
     move_action action;
     double weight; /* 0..1 */
@@ -50,8 +61,7 @@ typedef struct lattice_move {
     double matrix[16];
     double point[3], radius; /* of a pull, in the units of the file */
     bool exact;              /* of a bend: with rational quadratic arcs */
-    bool has_mirror;
-    int mirror; /* the coordinate that is reflected */
+    move_mirror mirror;
     move_falloff falloff;
     char pointer[32]; /* "/moves/3", for messages when the moves are applied */
 } lattice_move;
@@ -126,7 +136,7 @@ static inline bool ffd_spec_full_turn(const lattice_spec *spec)
     return spec->angle[1] - spec->angle[0] >= 360 - SPEC_TURN_TOLERANCE;
 }
 
-/* Return whether a move adds weights (an exact bend), and whether a move is mirrored. */
+/* Returns whether a move adds weights (an exact bend). */
 static inline bool ffd_spec_has_exact(const lattice_spec *spec)
 {
     for (size_t i = 0; i < spec->move_count; i++)
@@ -135,10 +145,17 @@ static inline bool ffd_spec_has_exact(const lattice_spec *spec)
     return false;
 }
 
-static inline bool ffd_spec_has_mirror(const lattice_spec *spec)
+/* Returns whether the weight of a move depends on positions: its mirror image then acts on the same points. */
+static inline bool ffd_move_weighs_places(const lattice_move *move)
+{
+    return move->action == MOVE_PULL || move->falloff.kind != FALLOFF_NONE;
+}
+
+/* Returns whether a move looks for the mirror images of control points. */
+static inline bool ffd_spec_finds_images(const lattice_spec *spec)
 {
     for (size_t i = 0; i < spec->move_count; i++)
-        if (spec->moves[i].has_mirror)
+        if (spec->moves[i].mirror.kind != MIRROR_NONE && !ffd_move_weighs_places(&spec->moves[i]))
             return true;
     return false;
 }

@@ -236,7 +236,7 @@ static void images_are_found_within_1e_9_and_rounding(void **state)
     assert_int_equal(parse(rest, "{\"at\":[0,0,0],\"mirror\":\"x\",\"by\":[0,1,0]}", &l, &error),
                      FFD_E_INVALID);
     assert_string_equal(message_of(&error),
-                        "t.json:/moves/0: control point 0,0,0 has no mirror image in x: no "
+                        "t.json:/moves/0: control point 0,0,0 has no mirror image: no "
                         "other rests across the plane x = 0.5");
     /* Doubles are 1/8192 apart there. Of the two points in the middle, neither is exactly the other's mirror
        image. */
@@ -268,7 +268,7 @@ static void selections_are_as_all_pairs_say(void **state)
         }
         const ffd_lattice lattice = {.rest = rest, .count = N};
         const int axis = round % 3;
-        const mirror_plane plane = ffd_mirror_plane(&lattice, axis);
+        const mirror_plane plane = ffd_mirror_middle(&lattice, axis);
         mirror_tree all = {0};
         for (size_t i = 0; i < N; i++) {
             draw = draw * 1664525u + 1013904223u;

@@ -297,15 +297,41 @@ static ffd_status read_falloff(json_cursor cursor, move_falloff *falloff)
     return ffd_spec_read_positive(cursor, "radius", &falloff->radius);
 }
 
+/* Reads the plane of a mirror: a coordinate along an axis, or a point and the normal. */
+static ffd_status read_plane(json_cursor cursor, move_mirror *mirror)
+{
+    static const char *const keys[] = {"axis", "at", "point", "normal", SPEC_NOTES};
+    TRY(ffd_spec_read_object(cursor, keys, COUNT_OF(keys)));
+    const char *const along = first_member(cursor, keys, 2), *const through = first_member(cursor, keys + 2, 2);
+    const bool is_along = ffd_cursor_exists(ffd_cursor_member(cursor, along));
+    const bool is_through = ffd_cursor_exists(ffd_cursor_member(cursor, through));
+    if (is_along && is_through)
+        return ffd_cursor_fail(cursor,
+                               "has both \"%s\" and \"%s\"; a plane has axis and at, or point and normal",
+                               along, through);
+    if (!is_along && !is_through)
+        return ffd_cursor_fail(cursor, "is empty; a plane has axis and at, or point and normal");
+    mirror->kind = is_along ? MIRROR_AT : MIRROR_POINT;
+    TRY(ffd_spec_read_axis(cursor, is_along ? "axis" : "normal", mirror->normal));
+    return is_along ? ffd_json_member_double(cursor, "at", &mirror->at)
+                    : ffd_json_member_doubles(cursor, "point", 3, mirror->point);
+}
+
 static ffd_status read_mirror(json_cursor cursor, lattice_move *move)
 {
     static const char *const names[] = {"x", "y", "z"};
     size_t axis;
     if (!ffd_cursor_exists(cursor))
         return FFD_OK;
+    if (ffd_cursor_is(cursor, JSON_OBJECT))
+        return read_plane(cursor, &move->mirror);
+    if (!ffd_cursor_is(cursor, JSON_STRING))
+        return ffd_cursor_fail(cursor, "must be \"x\", \"y\", \"z\", or a plane by axis and at, or point and "
+                                       "normal, not %s",
+                               ffd_json_describe(cursor).text);
     TRY(ffd_json_read_word(cursor, names, COUNT_OF(names), &axis));
-    move->has_mirror = true;
-    move->mirror = (int)axis;
+    move->mirror.kind = MIRROR_MIDDLE;
+    move->mirror.normal[axis] = 1;
     return FFD_OK;
 }
 

@@ -169,10 +169,21 @@ static void write_falloff(json_text *json, const move_falloff *falloff)
     ffd_json_end(json, '}');
 }
 
-static void write_mirror(json_text *json, int axis)
+static void write_mirror(json_text *json, const move_mirror *mirror)
 {
-    const char name[2] = {"xyz"[axis], 0};
-    ffd_json_string(json, "mirror", name);
+    if (mirror->kind == MIRROR_MIDDLE) {
+        ffd_json_string(json, "mirror", mirror->normal[0] != 0 ? "x" : mirror->normal[1] != 0 ? "y" : "z");
+        return;
+    }
+    ffd_json_object(json, "mirror", true);
+    if (mirror->kind == MIRROR_AT) {
+        ffd_json_vector(json, "axis", mirror->normal, 3);
+        ffd_json_number(json, "at", mirror->at);
+    } else {
+        ffd_json_vector(json, "point", mirror->point, 3);
+        ffd_json_vector(json, "normal", mirror->normal, 3);
+    }
+    ffd_json_end(json, '}');
 }
 
 static void write_pull(json_text *json, const lattice_move *move)
@@ -246,8 +257,8 @@ static void write_moves(json_text *json, const lattice_spec *spec)
         write_selection(json, &spec->moves[i]);
         if (spec->moves[i].falloff.kind != FALLOFF_NONE)
             write_falloff(json, &spec->moves[i].falloff);
-        if (spec->moves[i].has_mirror)
-            write_mirror(json, spec->moves[i].mirror);
+        if (spec->moves[i].mirror.kind != MIRROR_NONE)
+            write_mirror(json, &spec->moves[i].mirror);
         write_action(json, &spec->moves[i]);
         ffd_json_end(json, '}');
     }
