@@ -1,6 +1,7 @@
 #include "lattice/build.h"
 #include "base/memory/memory.h"
 #include "lattice/cylinder.h"
+#include "lattice/drag.h"
 #include "lattice/lattice.h"
 #include "lattice/moves.h"
 #include "lattice/shapes.h"
@@ -217,6 +218,21 @@ uint64_t ffd_spec_knot_bytes(const lattice_spec *spec)
     return bytes;
 }
 
+/* The bytes that the largest drag takes while it is applied. */
+static uint64_t drag_bytes(const lattice_spec *spec)
+{
+    uint64_t most = 0, acting = 1;
+    for (int a = 0; a < 3; a++)
+        acting *= (uint64_t)spec->degree[a] + 1;
+    for (size_t i = 0; i < spec->move_count; i++) {
+        const lattice_move *const move = &spec->moves[i];
+        const uint64_t bytes =
+            ffd_drag_bytes(move->drag_count * (move->mirror.kind == MIRROR_NONE ? 1 : 2), acting);
+        most = bytes > most ? bytes : most;
+    }
+    return most;
+}
+
 uint64_t ffd_spec_point_bytes(const lattice_spec *spec)
 {
     uint64_t each = 3 * 3 * sizeof(double) + 1; /* rest, deformed, difference, moved */
@@ -227,5 +243,5 @@ uint64_t ffd_spec_point_bytes(const lattice_spec *spec)
     each += spec->deformed_points || spec->deformed_offsets ? 3 * sizeof(double) : 0;
     each += spec->weights ? sizeof(double) : 0;
     each += spec->deformed_weights ? sizeof(double) : 0;
-    return spec->count * each;
+    return spec->count * each + drag_bytes(spec);
 }

@@ -40,6 +40,13 @@ typedef enum point_move {
     POINT_BEGINS_CELL = 64
 } point_move;
 
+/* What the drag that misses most misses of a place. */
+typedef struct drag_miss {
+    size_t move;        /* its index */
+    double miss, asked; /* lengths; both 0: all drags meet their places */
+    double place[3];    /* at rest */
+} drag_miss;
+
 struct ffd_lattice {
     struct lattice_spec *spec; /* owned; kept for saving and for a later ffd_lattice_fit */
     knot_vector knots[3];
@@ -47,7 +54,8 @@ struct ffd_lattice {
     size_t count; /* size[0]*size[1]*size[2] */
 
     fit_extent fitted; /* of a box round a mesh */
-    bool edited;        /* control points or weights were set after the spec's moves */
+    bool edited;       /* control points or weights were set after the spec's moves */
+    drag_miss missed;  /* by the spec's moves */
 
     /* NULL until the lattice has control points (a box "mesh" gets them in ffd_lattice_fit). */
     double *rest;                            /* 3*count */

@@ -1,6 +1,8 @@
 #include "lattice/moves.h"
 #include "base/memory/memory.h"
+#include "base/text/number.h"
 #include "base/vector/vec.h"
+#include "lattice/drag.h"
 #include "lattice/lattice.h"
 #include "lattice/mirror.h"
 #include "lattice/move_action.h"
@@ -11,9 +13,12 @@
 #include <math.h>
 #include <string.h>
 
-/* With "units": "box" or "mesh", lengths and positions (by, to, about, within, the argument of a matrix, the positions
-   in a pull and in a falloff) are fractions of the sides of the rest region, along these sides. Directions,
-   angles and factors are the same in both units. */
+/* A drag misses a place by more than rounding where it misses more than this part of what was asked. */
+#define MISSED 1e-9
+
+/* With "units": "box" or "mesh", lengths and positions (by, to, about, within, the argument of a matrix, the
+   positions in a pull and in a falloff) are fractions of the sides of the rest region, along these sides.
+   Directions, angles and factors are the same in both units. */
 
 /* The state while the moves of a lattice are applied. */
 typedef struct move_work {
@@ -21,7 +26,7 @@ typedef struct move_work {
     double *points;          /* the deformed control points */
     double *difference;      /* their displacements from rest */
     unsigned char *selected; /* by the current move; one byte for each control point */
-    bool in_region; /* lengths and positions are fractions of the region */
+    bool in_region;          /* lengths and positions are fractions of the region */
     rest_region region;
     double inverse[9]; /* inverse of the region's frame; box units only */
     double slack[3];   /* tolerance of the coordinates that `within` compares */
@@ -273,17 +278,124 @@ static ffd_status move_point(const move_work *work, ready_move *ready, const mir
     return check_finite(work, move, point);
 }
 
+void ffd_drag_targets(const move_step *step, const spec_drag *from, double *targets)
+{
+    const size_t own = step->move->drag_count;
+    for (size_t i = 0; i < own; i++) {
+        double *const by = targets + 3 * i;
+        memcpy(by, from[i].by, 3 * sizeof *by);
+        if (step->inverse)
+            mat_apply(step->region->frame, by, by);
+        if (step->plane)
+            ffd_mirror_vector(step->plane, by, by + 3 * own);
+    }
+}
+
+/* Fills xyz with the places of a drag in world units, and their mirror images. */
+static void find_places(const move_work *work, const lattice_move *move, const mirror_plane *plane,
+                        double *xyz)
+{
+    for (size_t i = 0; i < move->drag_count; i++) {
+        double *const place = xyz + 3 * i;
+        memcpy(place, move->drags[i].point, 3 * sizeof *place);
+        if (work->in_region)
+            to_world(work, place);
+        if (plane)
+            ffd_mirror_point(plane, place, place + 3 * move->drag_count);
+    }
+}
+
+/* Drops the points from the selection that rest beyond the radius of all places. Returns how many are left.
+ */
+static size_t keep_near(move_work *work, const double *xyz, size_t places, double radius)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < work->lattice->count; i++) {
+        double rest[3], place[3];
+        bool is_near = !(radius > 0);
+        coordinates_of(work, work->lattice->rest + 3 * i, rest);
+        for (size_t k = 0; k < places && work->selected[i] && !is_near; k++) {
+            coordinates_of(work, xyz + 3 * k, place);
+            is_near = radii_from(rest, place, radius) <= 1;
+        }
+        work->selected[i] = work->selected[i] && is_near;
+        count += work->selected[i];
+    }
+    return count;
+}
+
+/* Notes the largest miss of a drag, if it is more than rounding and more than those of the moves before. */
+static void note_miss(move_work *work, size_t index, const drag_solver *solver, const double *xyz,
+                      const double *by)
+{
+    drag_miss *const missed = &work->lattice->missed;
+    double asked = 0, most = 0;
+    size_t worst = 0;
+    for (size_t i = 0; i < solver->places; i++) {
+        const double miss = vec_length(solver->miss + 3 * i);
+        asked = larger_of(asked, vec_length(by + 3 * i));
+        worst = miss > most ? i : worst;
+        most = larger_of(most, miss);
+    }
+    if (!(most > MISSED * asked) || !(most > missed->miss))
+        return;
+    *missed = (drag_miss){.move = index, .miss = most, .asked = vec_length(by + 3 * worst)};
+    memcpy(missed->place, xyz + 3 * worst, sizeof missed->place);
+}
+
+/* Changes the control points by what a drag asks for. numbers: room for 6 numbers for each place. */
+static ffd_status move_places(move_work *work, move_step *step, double *numbers)
+{
+    const lattice_move *const move = step->move;
+    drag_solver solver = {0};
+    const size_t places = step->plane ? 2 * move->drag_count : move->drag_count;
+    double *const by = numbers + 3 * places, *change = NULL;
+    ffd_status status;
+    find_places(work, move, step->plane, numbers);
+    if (keep_near(work, numbers, places, move->radius) == 0)
+        TRY_END(ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->pointer,
+                            "no control point that it selects rests within %s of a place",
+                            ffd_number_text(move->radius).text));
+    TRY_END(ffd_drag_prepare(
+        work->lattice, &(drag_places){numbers, places, move->drag_count, work->selected, work->file, move},
+        &solver, work->error));
+    step->drag = &solver;
+    TRY_END(work->observer ? work->observer->see(work->observer->context, step, work->error) : FFD_OK);
+    change = ffd_alloc(solver.columns, 3 * sizeof *change);
+    TRY_END(change ? FFD_OK : ffd_fail_memory(work->error));
+    ffd_drag_targets(step, move->drags, by);
+    ffd_drag_solve(&solver, by, change);
+    for (size_t i = 0; i < solver.columns; i++) {
+        for (size_t c = 0; c < 3; c++) {
+            work->points[3 * solver.point[i] + c] += change[3 * i + c];
+            work->difference[3 * solver.point[i] + c] += change[3 * i + c];
+        }
+        TRY_END(check_finite(work, move, solver.point[i]));
+    }
+    note_miss(work, step->index, &solver, numbers, by);
+end:
+    ffd_drag_free(&solver);
+    ffd_free(change);
+    return status;
+}
+
+static move_step step_of(const move_work *work, size_t index, const lattice_move *move,
+                         const ready_move *ready, const mirror_plane *plane)
+{
+    return (move_step){.move = move,
+                       .index = index,
+                       .ready = ready,
+                       .plane = plane,
+                       .selected = work->selected,
+                       .lattice = work->lattice,
+                       .region = &work->region,
+                       .inverse = work->in_region ? work->inverse : NULL};
+}
+
 static ffd_status observe(const move_work *work, size_t index, const lattice_move *move,
                           const ready_move *ready, const mirror_plane *plane)
 {
-    const move_step step = {.move = move,
-                            .index = index,
-                            .ready = ready,
-                            .plane = plane,
-                            .selected = work->selected,
-                            .lattice = work->lattice,
-                            .region = &work->region,
-                            .inverse = work->in_region ? work->inverse : NULL};
+    const move_step step = step_of(work, index, move, ready, plane);
     return work->observer ? work->observer->see(work->observer->context, &step, work->error) : FFD_OK;
 }
 
@@ -321,8 +433,8 @@ static mirror_plane plane_of(const move_work *work, const move_mirror *mirror)
     return ffd_mirror_plane(work->lattice, normal, offset);
 }
 
-/* Applies the action again, reflected: to the mirror images of the points, or, where the weight depends on the
-   position, to the same points with the mirrored weight. */
+/* Applies the action again, reflected: to the mirror images of the points, or, where the weight depends on
+   the position, to the same points with the mirrored weight. */
 static ffd_status move_images(move_work *work, size_t index, const lattice_move *move, ready_move *ready)
 {
     const size_t *const size = work->lattice->size, count = work->lattice->count;
@@ -339,6 +451,20 @@ static ffd_status move_images(move_work *work, size_t index, const lattice_move 
                        ffd_mirror_describe(&plane).text);
 }
 
+static ffd_status apply_drag(move_work *work, size_t index, const lattice_move *move)
+{
+    const bool mirrors = move->mirror.kind != MIRROR_NONE;
+    const mirror_plane plane = mirrors ? plane_of(work, &move->mirror) : (mirror_plane){0};
+    const ready_move ready = {.move = *move};
+    move_step step = step_of(work, index, move, &ready, mirrors ? &plane : NULL);
+    double *const numbers = ffd_alloc(move->drag_count, 12 * sizeof *numbers);
+    if (!numbers)
+        return ffd_fail_memory(work->error);
+    const ffd_status status = move_places(work, &step, numbers);
+    ffd_free(numbers);
+    return status;
+}
+
 static ffd_status apply_move(move_work *work, const lattice_spec *spec, size_t index)
 {
     const lattice_move *const move = &spec->moves[index];
@@ -347,6 +473,8 @@ static ffd_status apply_move(move_work *work, const lattice_spec *spec, size_t i
     if (count == 0)
         return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->pointer,
                            "selects no control point: none is within these bounds at rest");
+    if (move->action == MOVE_DRAG)
+        return apply_drag(work, index, move);
     move_to_world(work, &ready.move);
     if (!move->has_about && ffd_move_has_centre(move->action))
         find_centroid(work, count, ready.move.about);

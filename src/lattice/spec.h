@@ -17,7 +17,8 @@ typedef enum move_action {
     MOVE_TWIST,
     MOVE_TAPER,
     MOVE_BEND,
-    MOVE_PULL
+    MOVE_PULL,
+    MOVE_DRAG
 } move_action;
 
 /* Of the lengths and positions in moves: of the world, or fractions of the rest region's sides, or of the
@@ -34,8 +35,8 @@ typedef struct move_falloff {
     double center[3], radius; /* FALLOFF_BALL; radius > 0 */
 } move_falloff;
 
-/* The plane of a mirrored move: none, through the middle of the rest points, at a coordinate along its normal,
-   through a point. */
+/* The plane of a mirrored move: none, through the middle of the rest points, at a coordinate along its
+   normal, through a point. */
 typedef enum mirror_kind { MIRROR_NONE, MIRROR_MIDDLE, MIRROR_AT, MIRROR_POINT } mirror_kind;
 
 /* In the units of the file. */
@@ -44,6 +45,11 @@ typedef struct move_mirror {
     double normal[3]; /* unit length; of MIRROR_MIDDLE a coordinate axis */
     double at, point[3];
 } move_mirror;
+
+/* A place that a drag takes along, in the units of the file. */
+typedef struct spec_drag {
+    double point[3], by[3];
+} spec_drag;
 
 typedef struct lattice_move {
     move_action action;
@@ -59,8 +65,10 @@ typedef struct lattice_move {
     double raw_axis[3], raw_toward[3]; /* as the file has them */
     double amount;                     /* degrees, taper factor */
     double matrix[16];
-    double point[3], radius; /* of a pull, in the units of the file */
-    bool exact;              /* of a bend: with rational quadratic arcs */
+    double point[3], radius; /* of a pull, in the units of the file; the radius also of a drag, 0: none */
+    spec_drag *drags;        /* drag_count of the spec's */
+    size_t drag_count;
+    bool exact; /* of a bend: with rational quadratic arcs */
     move_mirror mirror;
     move_falloff falloff;
     char pointer[32]; /* "/moves/3", for messages when the moves are applied */
@@ -84,7 +92,8 @@ typedef struct spec_variable {
 
 /* A number of a move that equals a factor times a number of a variable. */
 typedef struct spec_seed {
-    size_t move, offset; /* offset of the number in the lattice_move, in bytes */
+    bool is_dragged;     /* a number of a spec_drag: then move is the index of that */
+    size_t move, offset; /* offset of the number in the lattice_move or the spec_drag, in bytes */
     size_t variable, component;
     double factor;
 } spec_seed;
@@ -125,6 +134,8 @@ typedef struct lattice_spec {
     lattice_units units;
     lattice_move *moves;
     size_t move_count;
+    spec_drag *drags; /* of all moves */
+    size_t drag_count;
     intern_table open; /* names of placeholders without a value; if there are any, there are no moves */
 } lattice_spec;
 
@@ -145,7 +156,8 @@ static inline bool ffd_spec_has_exact(const lattice_spec *spec)
     return false;
 }
 
-/* Returns whether the weight of a move depends on positions: its mirror image then acts on the same points. */
+/* Returns whether the weight of a move depends on positions: its mirror image then acts on the same points.
+ */
 static inline bool ffd_move_weighs_places(const lattice_move *move)
 {
     return move->action == MOVE_PULL || move->falloff.kind != FALLOFF_NONE;

@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "base/text/number.h"
 #include "base/vector/direction.h"
+#include "lattice/drag.h"
 #include "lattice/file/spec_values.h"
 #include <stdio.h>
 #include <string.h>
@@ -191,6 +192,27 @@ static ffd_status read_pull(json_cursor cursor, lattice_move *move)
     return ffd_spec_read_positive(cursor, "radius", &move->radius);
 }
 
+/* Sets the place of each member of the list, of which move->drags has room for all. */
+static ffd_status read_drag(json_cursor cursor, lattice_move *move)
+{
+    static const char *const keys[] = {"point", "by", SPEC_NOTES};
+    const size_t most = move->mirror.kind == MIRROR_NONE ? FFD_MAX_DRAGGED : FFD_MAX_DRAGGED / 2;
+    if (!ffd_cursor_is(cursor, JSON_ARRAY) || ffd_cursor_count(cursor) == 0)
+        return ffd_cursor_fail(cursor, "must be an array of {\"point\": [..], \"by\": [..]}, not %s",
+                               ffd_json_describe(cursor).text);
+    if (ffd_cursor_count(cursor) > most)
+        return ffd_cursor_fail_as(cursor, FFD_E_LIMIT, "drags %zu places, more than %zu",
+                                  ffd_cursor_count(cursor), most);
+    json_cursor drag = ffd_cursor_first(cursor);
+    for (; ffd_cursor_exists(drag); drag = ffd_cursor_next(drag)) {
+        spec_drag *const to = &move->drags[move->drag_count++];
+        TRY(ffd_spec_read_object(drag, keys, COUNT_OF(keys)));
+        TRY(ffd_json_member_doubles(drag, "point", 3, to->point));
+        TRY(ffd_json_member_doubles(drag, "by", 3, to->by));
+    }
+    return FFD_OK;
+}
+
 static const struct action_reader {
     const char *key;
     move_action action;
@@ -205,6 +227,7 @@ static const struct action_reader {
     {"taper", MOVE_TAPER, read_taper},
     {"bend", MOVE_BEND, read_bend},
     {"pull", MOVE_PULL, read_pull},
+    {"drag", MOVE_DRAG, read_drag},
 };
 
 static ffd_status read_action(json_cursor cursor, lattice_move *move)
@@ -222,8 +245,8 @@ static ffd_status read_action(json_cursor cursor, lattice_move *move)
         action = member;
     }
     if (!chosen)
-        return ffd_cursor_fail(cursor,
-                               "has no action: by, to, scale, rotate, matrix, twist, taper, bend or pull");
+        return ffd_cursor_fail(
+            cursor, "has no action: by, to, scale, rotate, matrix, twist, taper, bend, pull or drag");
     move->action = chosen->action;
     return chosen->read(action, move);
 }
@@ -302,7 +325,8 @@ static ffd_status read_plane(json_cursor cursor, move_mirror *mirror)
 {
     static const char *const keys[] = {"axis", "at", "point", "normal", SPEC_NOTES};
     TRY(ffd_spec_read_object(cursor, keys, COUNT_OF(keys)));
-    const char *const along = first_member(cursor, keys, 2), *const through = first_member(cursor, keys + 2, 2);
+    const char *const along = first_member(cursor, keys, 2), *const through =
+                                                                 first_member(cursor, keys + 2, 2);
     const bool is_along = ffd_cursor_exists(ffd_cursor_member(cursor, along));
     const bool is_through = ffd_cursor_exists(ffd_cursor_member(cursor, through));
     if (is_along && is_through)
@@ -326,8 +350,9 @@ static ffd_status read_mirror(json_cursor cursor, lattice_move *move)
     if (ffd_cursor_is(cursor, JSON_OBJECT))
         return read_plane(cursor, &move->mirror);
     if (!ffd_cursor_is(cursor, JSON_STRING))
-        return ffd_cursor_fail(cursor, "must be \"x\", \"y\", \"z\", or a plane by axis and at, or point and "
-                                       "normal, not %s",
+        return ffd_cursor_fail(cursor,
+                               "must be \"x\", \"y\", \"z\", or a plane by axis and at, or point and "
+                               "normal, not %s",
                                ffd_json_describe(cursor).text);
     TRY(ffd_json_read_word(cursor, names, COUNT_OF(names), &axis));
     move->mirror.kind = MIRROR_MIDDLE;
@@ -335,11 +360,32 @@ static ffd_status read_mirror(json_cursor cursor, lattice_move *move)
     return FFD_OK;
 }
 
+/* Reads what stands beside a drag: the radius, which no other move has. A drag goes as far as it says:
+   weights would contradict that. */
+static ffd_status read_reach(json_cursor cursor, lattice_move *move)
+{
+    static const char *const keys[] = {"weight", "falloff"};
+    const json_cursor radius = ffd_cursor_member(cursor, "radius");
+    if (move->action != MOVE_DRAG)
+        return !ffd_cursor_exists(radius)
+                   ? FFD_OK
+                   : ffd_cursor_fail(radius,
+                                     "a radius beside the action is one of \"drag\"; that of a pull or a "
+                                     "falloff is within it");
+    for (size_t i = 0; i < COUNT_OF(keys); i++) {
+        const json_cursor member = ffd_cursor_member(cursor, keys[i]);
+        if (ffd_cursor_exists(member))
+            return ffd_cursor_fail(member, "a drag has no \"%s\": its places move by exactly what it says",
+                                   keys[i]);
+    }
+    return ffd_cursor_exists(radius) ? ffd_spec_read_positive(cursor, "radius", &move->radius) : FFD_OK;
+}
+
 static ffd_status read_move(json_cursor cursor, const lattice_spec *spec, lattice_move *move)
 {
-    static const char *const keys[] = {"at",    "within", "weight", "falloff", "mirror",
-                                       "by",    "to",     "scale",  "rotate",  "matrix",
-                                       "twist", "taper",  "bend",   "pull",    SPEC_NOTES};
+    static const char *const keys[] = {"at",   "within", "weight", "falloff", "mirror",  "by",
+                                       "to",   "scale",  "rotate", "matrix",  "twist",   "taper",
+                                       "bend", "pull",   "drag",   "radius",  SPEC_NOTES};
     const json_cursor exact = ffd_cursor_member(cursor, "exact");
     if (ffd_cursor_exists(exact)) /* a suggestion of the most similar key would mislead */
         return ffd_cursor_fail(exact, "unknown key \"exact\" of a move; it is one of \"bend\"");
@@ -348,7 +394,21 @@ static ffd_status read_move(json_cursor cursor, const lattice_spec *spec, lattic
     TRY(read_weight(cursor, move));
     TRY(read_falloff(ffd_cursor_member(cursor, "falloff"), &move->falloff));
     TRY(read_mirror(ffd_cursor_member(cursor, "mirror"), move));
-    return read_action(cursor, move);
+    TRY(read_action(cursor, move));
+    return read_reach(cursor, move);
+}
+
+/* Allocates the places of all drags: a pointer to a number that is read must stay valid. */
+static ffd_status make_drags(json_cursor moves, lattice_spec *spec)
+{
+    json_cursor move = ffd_cursor_first(moves);
+    for (; ffd_cursor_exists(move); move = ffd_cursor_next(move)) {
+        const json_cursor drag = ffd_cursor_member(move, "drag");
+        if (ffd_cursor_is(drag, JSON_ARRAY))
+            spec->drag_count += ffd_cursor_count(drag);
+    }
+    spec->drags = ffd_alloc_zero(spec->drag_count, sizeof *spec->drags);
+    return spec->drags ? FFD_OK : ffd_fail_memory(moves.file->error);
 }
 
 ffd_status ffd_spec_parse_moves(json_cursor cursor, lattice_spec *spec)
@@ -360,10 +420,14 @@ ffd_status ffd_spec_parse_moves(json_cursor cursor, lattice_spec *spec)
     if (!spec->moves)
         return ffd_fail_memory(cursor.file->error);
     spec->move_count = count;
+    TRY(make_drags(cursor, spec));
+    spec_drag *drags = spec->drags;
     json_cursor move = ffd_cursor_first(cursor);
     for (size_t i = 0; i < count; i++, move = ffd_cursor_next(move)) {
+        spec->moves[i].drags = drags;
         snprintf(spec->moves[i].pointer, sizeof spec->moves[i].pointer, "/moves/%zu", i);
         TRY(read_move(move, spec, &spec->moves[i]));
+        drags += spec->moves[i].drag_count;
     }
     return FFD_OK;
 }

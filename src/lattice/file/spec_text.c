@@ -195,6 +195,20 @@ static void write_pull(json_text *json, const lattice_move *move)
     ffd_json_end(json, '}');
 }
 
+static void write_drag(json_text *json, const lattice_move *move)
+{
+    if (move->radius > 0)
+        ffd_json_number(json, "radius", move->radius);
+    ffd_json_array(json, "drag", true);
+    for (size_t i = 0; i < move->drag_count; i++) {
+        ffd_json_object(json, NULL, true);
+        ffd_json_vector(json, "point", move->drags[i].point, 3);
+        ffd_json_vector(json, "by", move->drags[i].by, 3);
+        ffd_json_end(json, '}');
+    }
+    ffd_json_end(json, ']');
+}
+
 /* Writes an action that is an object, with its members in the order of data/schema/lattice.md. */
 static void write_action_object(json_text *json, const char *key, const lattice_move *move)
 {
@@ -245,6 +259,9 @@ static void write_action(json_text *json, const lattice_move *move)
         break;
     case MOVE_PULL:
         write_pull(json, move);
+        break;
+    case MOVE_DRAG:
+        write_drag(json, move);
         break;
     }
 }

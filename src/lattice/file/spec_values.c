@@ -19,16 +19,40 @@ static ffd_status refuse_foreign(json_cursor cursor, const char *const *known, s
 {
     static const struct foreign {
         const char *word, *key;
-    } words[] = {
-        {"translate", "by"},     {"translation", "by"},   {"move", "by"},        {"offset", "by"},
-        {"delta", "by"},         {"displace", "by"},      {"position", "to"},    {"rotation", "rotate"},
-        {"turn", "rotate"},      {"angle", "degrees"},    {"deg", "degrees"},    {"shear", "matrix"},
-        {"skew", "matrix"},      {"transform", "matrix"}, {"center", "about"},   {"pivot", "about"},
-        {"grab", "pull"},        {"drag", "pull"},        {"reflect", "mirror"}, {"symmetry", "mirror"},
-        {"symmetric", "mirror"}, {"fade", "falloff"},     {"decay", "falloff"},  {"attenuation", "falloff"},
-        {"center", "point"},     {"about", "point"},      {"place", "point"},    {"vector", "by"},
-        {"about", "center"},     {"point", "center"},     {"start", "from"},     {"end", "to"},
-        {"direction", "axis"},   {"distance", "radius"},  {"size", "radius"}};
+    } words[] = {{"translate", "by"},
+                 {"translation", "by"},
+                 {"move", "by"},
+                 {"offset", "by"},
+                 {"delta", "by"},
+                 {"displace", "by"},
+                 {"position", "to"},
+                 {"rotation", "rotate"},
+                 {"turn", "rotate"},
+                 {"angle", "degrees"},
+                 {"deg", "degrees"},
+                 {"shear", "matrix"},
+                 {"skew", "matrix"},
+                 {"transform", "matrix"},
+                 {"center", "about"},
+                 {"pivot", "about"},
+                 {"grab", "pull"},
+                 {"reflect", "mirror"},
+                 {"symmetry", "mirror"},
+                 {"symmetric", "mirror"},
+                 {"fade", "falloff"},
+                 {"decay", "falloff"},
+                 {"attenuation", "falloff"},
+                 {"center", "point"},
+                 {"about", "point"},
+                 {"place", "point"},
+                 {"vector", "by"},
+                 {"about", "center"},
+                 {"point", "center"},
+                 {"start", "from"},
+                 {"end", "to"},
+                 {"direction", "axis"},
+                 {"distance", "radius"},
+                 {"size", "radius"}};
     for (size_t i = 0; i < COUNT_OF(words); i++) {
         json_cursor member = cursor;
         member.value = ffd_json_tree_member(cursor.tree, cursor.value, words[i].word);

@@ -304,6 +304,8 @@ static dual3 act(const dual_move *move, dual3 p, const dual *part, const dual *h
         return taper(move, p);
     case MOVE_BEND:
         return move->length.v > 0 ? bend(move, p, part ? *part : fraction(move, p), half) : p;
+    case MOVE_DRAG:
+        break;
     }
     return out;
 }
