@@ -11,10 +11,11 @@
 #include <string.h>
 
 /* Adds the JSON pointer of its cause to an error. */
-static ffd_status locate(const lattice_spec *spec, const char *pointer, ffd_status status, ffd_error *error)
+static ffd_status locate(const lattice_spec *spec, size_t line, const char *pointer, ffd_status status,
+                         ffd_error *error)
 {
     if (status == FFD_E_INVALID && error && !error->pointer[0])
-        return ffd_fail_at(error, status, spec->name, pointer, "%s", error->message);
+        return ffd_fail_at(error, status, spec->name, line, pointer, "%s", error->message);
     if (status)
         ffd_fail_name_file(error, spec->name);
     return status;
@@ -28,7 +29,7 @@ static ffd_status make_knots(const lattice_spec *spec, ffd_lattice *lattice, ffd
         lattice->size[a] = spec->size[a];
         const ffd_status status = ffd_knots_make(spec->kind[a], spec->degree[a], spec->size[a], spec->list[a],
                                                  spec->list_count[a], "uvw"[a], &lattice -> knots[a], error);
-        TRY(locate(spec, pointer, status, error));
+        TRY(locate(spec, spec->knots_line[a], pointer, status, error));
     }
     lattice->count = spec->count;
     return FFD_OK;
@@ -75,7 +76,7 @@ static ffd_status place_box(const lattice_spec *spec, ffd_lattice *lattice, cons
     const ffd_status status =
         ffd_shape_box(lattice, min, max, spec->box_axes, spec->spacing, lattice->rest, error);
     if (status)
-        return locate(spec, "/rest/box/spacing", status, error);
+        return locate(spec, spec->rest_line, "/rest/box/spacing", status, error);
     ffd_shape_box_region(min, max, spec->box_axes, region);
     if (spec->spacing == FFD_SPACING_GREVILLE && all_equal(lattice->rest_weights, lattice->count)) {
         lattice->form = REST_BOX_AFFINE;
@@ -122,12 +123,13 @@ static ffd_status place_rest(const lattice_spec *spec, const fit_extent *extent,
     case SPEC_BOX_MESH:
         status = ffd_shape_grow_box(extent->min, extent->max, spec->margin, grown_min, grown_max, error);
         if (status)
-            return locate(spec, "/rest/box", status, error);
+            return locate(spec, spec->rest_line, "/rest/box", status, error);
         TRY(place_box(spec, lattice, grown_min, grown_max, region, error));
         return spec->units == UNITS_MESH ? make_mesh_region(extent, region, error) : FFD_OK;
     case SPEC_CYLINDER:
         ffd_shape_cylinder_region(spec, region);
-        return locate(spec, "/rest/cylinder", ffd_shape_cylinder(lattice, spec, lattice->rest, error), error);
+        return locate(spec, spec->rest_line, "/rest/cylinder",
+                      ffd_shape_cylinder(lattice, spec, lattice->rest, error), error);
     case SPEC_POINTS:
         place_points(spec, lattice, region);
         break;

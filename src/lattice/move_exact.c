@@ -22,8 +22,8 @@ typedef struct arcs {
 
 static ffd_status refuse(const arcs *a, const char *reason)
 {
-    return ffd_fail_at(a->error, FFD_E_INVALID, a->bend->file, a->bend->ready->move.pointer,
-                       "the bend cannot be exact: %s", reason);
+    return ffd_fail_at(a->error, FFD_E_INVALID, a->bend->file, a->bend->ready->move.line,
+                       a->bend->ready->move.pointer, "the bend cannot be exact: %s", reason);
 }
 
 /* Returns a control point, reflected if the step is a mirror image. */

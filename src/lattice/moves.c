@@ -238,7 +238,7 @@ static ffd_status check_finite(const move_work *work, const lattice_move *move, 
     const size_t *const size = work->lattice->size;
     if (vec_is_finite(work->points + 3 * point))
         return FFD_OK;
-    return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->pointer,
+    return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->line, move->pointer,
                        "moves control point %zu,%zu,%zu to a position that is not finite", point % size[0],
                        point / size[0] % size[1], point / size[0] / size[1]);
 }
@@ -353,7 +353,7 @@ static ffd_status move_places(move_work *work, move_step *step, double *numbers)
     ffd_status status;
     find_places(work, move, step->plane, numbers);
     if (keep_near(work, numbers, places, move->radius) == 0)
-        TRY_END(ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->pointer,
+        TRY_END(ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->line, move->pointer,
                             "no control point that it selects rests within %s of a place",
                             ffd_number_text(move->radius).text));
     TRY_END(ffd_drag_prepare(
@@ -445,7 +445,7 @@ static ffd_status move_images(move_work *work, size_t index, const lattice_move 
     TRY(ffd_mirror_select(work->lattice, &plane, &work->rest, work->selected, &missing, work->error));
     if (missing == count)
         return move_points(work, index, move, ready, &plane);
-    return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->pointer,
+    return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->line, move->pointer,
                        "control point %zu,%zu,%zu has no mirror image: no other rests across the plane %s",
                        missing % size[0], missing / size[0] % size[1], missing / size[0] / size[1],
                        ffd_mirror_describe(&plane).text);
@@ -471,7 +471,7 @@ static ffd_status apply_move(move_work *work, const lattice_spec *spec, size_t i
     ready_move ready = {.move = *move, .degrees = NAN};
     const size_t count = select_points(work, move);
     if (count == 0)
-        return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->pointer,
+        return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->line, move->pointer,
                            "selects no control point: none is within these bounds at rest");
     if (move->action == MOVE_DRAG)
         return apply_drag(work, index, move);
@@ -496,7 +496,7 @@ ffd_status ffd_moves_apply(const lattice_spec *spec, const rest_region *region, 
                       .observer = observer,
                       .error = error};
     if (work.in_region && !mat_invert(region->frame, work.inverse))
-        return ffd_fail_at(error, FFD_E_INVALID, spec->name, "/units",
+        return ffd_fail_at(error, FFD_E_INVALID, spec->name, spec->units_line, "/units",
                            "the rest points lie in a plane: there is no box to take fractions of");
     find_slack(&work);
     work.selected = ffd_alloc(lattice->count, 1);

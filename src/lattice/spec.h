@@ -71,7 +71,8 @@ typedef struct lattice_move {
     bool exact; /* of a bend: with rational quadratic arcs */
     move_mirror mirror;
     move_falloff falloff;
-    char pointer[32]; /* "/moves/3", for messages when the moves are applied */
+    char pointer[32]; /* "/moves/3", for messages when the moves are applied; */
+    size_t line;      /* its line; 0: unknown */
 } lattice_move;
 
 /* The declaration of a placeholder. */
@@ -132,6 +133,8 @@ typedef struct lattice_spec {
     spec_seed *seeds;
     size_t seed_count;
     lattice_units units;
+    /* Lines of members of the file, for messages when the lattice is built; 0: unknown. */
+    size_t knots_line[3], rest_line, units_line;
     lattice_move *moves;
     size_t move_count;
     spec_drag *drags; /* of all moves */

@@ -207,12 +207,29 @@ static ffd_status read_units(json_cursor cursor, lattice_spec *spec)
     spec->units = units[index];
     if (spec->units != UNITS_MESH || spec->rest == SPEC_BOX_MESH)
         return FFD_OK;
-    return ffd_cursor_fail(cursor, "\"mesh\" needs a rest box round a mesh: {\"box\": \"mesh\"} or {\"meshes\": [..]}");
+    return ffd_cursor_fail(
+        cursor, "\"mesh\" needs a rest box round a mesh: {\"box\": \"mesh\"} or {\"meshes\": [..]}");
 }
 
 static ffd_status read_rest_weights(json_cursor cursor, lattice_spec *spec)
 {
     return read_weights(cursor, spec->count, &spec->weights);
+}
+
+static size_t line_of(json_cursor cursor)
+{
+    return ffd_cursor_exists(cursor) ? ffd_cursor_line(cursor) : 0;
+}
+
+/* Notes the lines of what is judged when the lattice is built. */
+static void note_lines(json_cursor root, lattice_spec *spec)
+{
+    json_cursor knots = ffd_cursor_first(ffd_cursor_member(root, "knots"));
+    for (int a = 0; a < 3 && ffd_cursor_exists(knots); a++, knots = ffd_cursor_next(knots))
+        spec->knots_line[a] = ffd_cursor_line(knots);
+    const json_cursor rest = ffd_cursor_member(root, "rest");
+    spec->rest_line = line_of(ffd_cursor_first(rest));
+    spec->units_line = line_of(ffd_cursor_member(root, "units"));
 }
 
 /* Reads all members except the moves, in the order of their dependencies. Only size and rest are required;
@@ -240,6 +257,7 @@ static ffd_status read_members(json_cursor root, lattice_spec *spec)
         if (ffd_cursor_exists(cursor) || member->has_default)
             TRY(member->read(cursor, spec));
     }
+    note_lines(root, spec);
     return FFD_OK;
 }
 

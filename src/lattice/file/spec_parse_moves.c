@@ -425,6 +425,7 @@ ffd_status ffd_spec_parse_moves(json_cursor cursor, lattice_spec *spec)
     json_cursor move = ffd_cursor_first(cursor);
     for (size_t i = 0; i < count; i++, move = ffd_cursor_next(move)) {
         spec->moves[i].drags = drags;
+        spec->moves[i].line = ffd_cursor_line(move);
         snprintf(spec->moves[i].pointer, sizeof spec->moves[i].pointer, "/moves/%zu", i);
         TRY(read_move(move, spec, &spec->moves[i]));
         drags += spec->moves[i].drag_count;

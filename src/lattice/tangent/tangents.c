@@ -141,7 +141,7 @@ static ffd_status see_drag(const tangent_work *work, const move_step *step, ffd_
     ffd_status status;
     TRY_END(drags && by && change ? FFD_OK : ffd_fail_memory(error));
     if (weights_vary(work->tangents, work->count))
-        TRY_END(ffd_fail_at(error, FFD_E_INVALID, work->spec->name, move->pointer,
+        TRY_END(ffd_fail_at(error, FFD_E_INVALID, work->spec->name, move->line, move->pointer,
                             "there are no derivatives of a drag after an exact bend that depends on a "
                             "placeholder"));
     for (size_t column = 0; column < work->tangents->columns; column++) {
