@@ -28,7 +28,7 @@ static ffd_status refuse(const drag_places *places, size_t place, uint8_t status
     char pointer[64];
     snprintf(pointer, sizeof pointer, "%s/drag/%zu/point", places->move->pointer,
              is_image ? place - places->own : place);
-    return ffd_fail_at(error, FFD_E_INVALID, places->file, places->move->line, pointer,
+    return ffd_fail_at(error, FFD_E_INVALID, places->file, places->move->drags[own].line, pointer,
                        "%s %s %s %s is not inside the volume at rest, but %s",
                        is_image ? "the mirror image" : "the place", ffd_number_text(p[0]).text,
                        ffd_number_text(p[1]).text, ffd_number_text(p[2]).text,

@@ -49,6 +49,7 @@ typedef struct move_mirror {
 /* A place that a drag takes along, in the units of the file. */
 typedef struct spec_drag {
     double point[3], by[3];
+    size_t line; /* of the point in the file, for messages */
 } spec_drag;
 
 typedef struct lattice_move {

@@ -106,7 +106,7 @@ def keys_of_another_kind_of_box(run):
                               ({"min": [0, 0, 0], "max": [1, 1, 1], "margin": 0.1}, "margin", ("round meshes",))):
         run.write("l.json", lattice(rest={"box": box}))
         done = run.ffd("check", "a.obj", "-l", "l.json", code=INVALID)
-        check(done.err[0].startswith(f"l.json:/rest/box/{wrong}: ") and "unknown key" not in done.err[0]
+        check(done.err[0].startswith(f"l.json:1: /rest/box/{wrong}: ") and "unknown key" not in done.err[0]
               and all(word in done.err[0] for word in words), done.err)
 
 

@@ -235,9 +235,8 @@ static void images_are_found_within_1e_9_and_rounding(void **state)
     snprintf(rest, sizeof rest, format, "1.8e-9");
     assert_int_equal(parse(rest, "{\"at\":[0,0,0],\"mirror\":\"x\",\"by\":[0,1,0]}", &l, &error),
                      FFD_E_INVALID);
-    assert_string_equal(message_of(&error),
-                        "t.json:/moves/0: control point 0,0,0 has no mirror image: no "
-                        "other rests across the plane x = 0.5");
+    assert_string_equal(message_of(&error), "t.json:1: /moves/0: control point 0,0,0 has no mirror image: no "
+                                            "other rests across the plane x = 0.5");
     /* Doubles are 1/8192 apart there. Of the two points in the middle, neither is exactly the other's mirror
        image. */
     l = make(

@@ -273,6 +273,7 @@ static ffd_status check_kind(json_cursor root)
 static ffd_status read_root(json_cursor root, bool with_moves, lattice_spec *spec)
 {
     const json_cursor moves = ffd_cursor_member(root, "moves");
+    TRY(ffd_spec_refuse_actions(root));
     TRY(ffd_spec_read_object(root, top_keys, COUNT_OF(top_keys)));
     TRY(read_members(root, spec));
     if (with_moves && ffd_cursor_exists(moves))

@@ -9,10 +9,25 @@
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
 
-/* Reads an index of control points; a negative one counts from the end. */
+/* Finds the index that a word stands for. */
+static bool find_layer(json_cursor cursor, size_t size, size_t *index)
+{
+    static const char *const firsts[] = {"first", "bottom"}, *const lasts[] = {"last", "top"};
+    for (size_t i = 0; i < COUNT_OF(firsts); i++) {
+        const bool is_last = ffd_json_tree_string_is(cursor.tree, cursor.value, lasts[i]);
+        *index = is_last ? size - 1 : 0;
+        if (is_last || ffd_json_tree_string_is(cursor.tree, cursor.value, firsts[i]))
+            return true;
+    }
+    return false;
+}
+
+/* Reads an index of control points, or a word for one; a negative one counts from the end. */
 static ffd_status read_index(json_cursor cursor, size_t size, size_t *index)
 {
     double number;
+    if (ffd_cursor_is(cursor, JSON_STRING) && find_layer(cursor, size, index))
+        return FFD_OK;
     TRY(ffd_json_read_integer(cursor, &number));
     const double resolved = number < 0 ? number + (double)size : number;
     if (resolved < 0 || resolved >= (double)size)
@@ -39,15 +54,14 @@ static ffd_status read_indices(json_cursor cursor, size_t size, size_t *first, s
 {
     if (ffd_cursor_is(cursor, JSON_ARRAY))
         return read_range(cursor, size, first, last);
-    if (ffd_cursor_is(cursor, JSON_STRING)) {
+    if (ffd_cursor_is(cursor, JSON_STRING) && !find_layer(cursor, size, first)) {
         *first = 0;
         *last = size - 1;
         if (!ffd_json_tree_string_is(cursor.tree, cursor.value, "all"))
-            return ffd_cursor_fail(
-                cursor,
-                "is %s, not an index (0 is the first layer, -1 the last), a range [lo, hi] "
-                "or \"all\"",
-                ffd_json_describe(cursor).text);
+            return ffd_cursor_fail(cursor,
+                                   "is %s, not an index (0, \"first\" or \"bottom\": the first layer; -1, "
+                                   "\"last\" or \"top\": the last), a range [lo, hi] or \"all\"",
+                                   ffd_json_describe(cursor).text);
         return FFD_OK;
     }
     const ffd_status status = read_index(cursor, size, first);
@@ -208,27 +222,57 @@ static ffd_status read_drag(json_cursor cursor, lattice_move *move)
         spec_drag *const to = &move->drags[move->drag_count++];
         TRY(ffd_spec_read_object(drag, keys, COUNT_OF(keys)));
         TRY(ffd_json_member_doubles(drag, "point", 3, to->point));
+        to->line = ffd_cursor_line(ffd_cursor_member(drag, "point"));
         TRY(ffd_json_member_doubles(drag, "by", 3, to->by));
     }
     return FFD_OK;
 }
 
+/* form: of an action that is an object, for who writes a number or an array. */
 static const struct action_reader {
     const char *key;
     move_action action;
     ffd_status (*read)(json_cursor cursor, lattice_move *move);
+    const char *form;
 } actions[] = {
-    {"by", MOVE_BY, read_by},
-    {"to", MOVE_TO, read_by},
-    {"scale", MOVE_SCALE, read_scale},
-    {"rotate", MOVE_ROTATE, read_turn},
-    {"matrix", MOVE_MATRIX, read_matrix},
-    {"twist", MOVE_TWIST, read_turn},
-    {"taper", MOVE_TAPER, read_taper},
-    {"bend", MOVE_BEND, read_bend},
-    {"pull", MOVE_PULL, read_pull},
-    {"drag", MOVE_DRAG, read_drag},
+    {"by", MOVE_BY, read_by, NULL},
+    {"to", MOVE_TO, read_by, NULL},
+    {"scale", MOVE_SCALE, read_scale, "{\"factor\": %s}"},
+    {"rotate", MOVE_ROTATE, read_turn, "{\"axis\": \"y\", \"degrees\": %s}"},
+    {"matrix", MOVE_MATRIX, read_matrix, NULL},
+    {"twist", MOVE_TWIST, read_turn, "{\"axis\": \"y\", \"degrees\": %s}"},
+    {"taper", MOVE_TAPER, read_taper, "{\"axis\": \"y\", \"factor\": %s}"},
+    {"bend", MOVE_BEND, read_bend, "{\"axis\": \"y\", \"toward\": \"x\", \"degrees\": %s}"},
+    {"pull", MOVE_PULL, read_pull, "{\"point\": [x, y, z], \"by\": %s, \"radius\": r}"},
+    {"drag", MOVE_DRAG, read_drag, NULL},
 };
+
+/* Refuses a number or an array in place of an object; shows where it belongs. */
+static ffd_status check_form(json_cursor cursor, const struct action_reader *reader)
+{
+    const json_value *const value = &cursor.tree->values[cursor.value];
+    const uint32_t length = value->end - value->begin;
+    char own[60], form[160];
+    if (!reader->form || !(ffd_cursor_is(cursor, JSON_NUMBER) || ffd_cursor_is(cursor, JSON_ARRAY)))
+        return FFD_OK;
+    snprintf(own, sizeof own, "%.*s", length < sizeof own ? (int)length : 3,
+             length < sizeof own ? cursor.tree->text + value->begin : "...");
+    const char *const place = strstr(reader->form, "%s");
+    snprintf(form, sizeof form, "%.*s%s%s", (int)(place - reader->form), reader->form, own, place + 2);
+    return ffd_cursor_fail(cursor, "must be an object, not %s; write {\"%s\": %s}",
+                           ffd_json_describe(cursor).text, reader->key, form);
+}
+
+ffd_status ffd_spec_refuse_actions(json_cursor root)
+{
+    for (size_t i = 0; i < COUNT_OF(actions); i++) {
+        const json_cursor member = ffd_cursor_member(root, actions[i].key);
+        if (ffd_cursor_exists(member))
+            return ffd_cursor_fail(member, "\"%s\" is an action of a move; write \"moves\": [{\"%s\": ..}]",
+                                   actions[i].key, actions[i].key);
+    }
+    return FFD_OK;
+}
 
 static ffd_status read_action(json_cursor cursor, lattice_move *move)
 {
@@ -248,6 +292,7 @@ static ffd_status read_action(json_cursor cursor, lattice_move *move)
         return ffd_cursor_fail(
             cursor, "has no action: by, to, scale, rotate, matrix, twist, taper, bend, pull or drag");
     move->action = chosen->action;
+    TRY(check_form(action, chosen));
     return chosen->read(action, move);
 }
 
