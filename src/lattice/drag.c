@@ -25,9 +25,9 @@ static ffd_status refuse(const drag_places *places, size_t place, uint8_t status
 {
     const double *const p = places->xyz + 3 * place;
     const bool is_image = place >= places->own;
+    const size_t own = is_image ? place - places->own : place;
     char pointer[64];
-    snprintf(pointer, sizeof pointer, "%s/drag/%zu/point", places->move->pointer,
-             is_image ? place - places->own : place);
+    snprintf(pointer, sizeof pointer, "%s/drag/%zu/point", places->move->pointer, own);
     return ffd_fail_at(error, FFD_E_INVALID, places->file, places->move->drags[own].line, pointer,
                        "%s %s %s %s is not inside the volume at rest, but %s",
                        is_image ? "the mirror image" : "the place", ffd_number_text(p[0]).text,
