@@ -112,7 +112,9 @@ mirror_text ffd_mirror_describe(const mirror_plane *plane)
     for (int c = 0; c < 3; c++)
         if (plane->normal[c] != 0)
             length += (size_t)snprintf(described.text + length, sizeof described.text - length, "%s%.6g %c",
-                                       length == 0 ? "" : plane->normal[c] < 0 ? " - " : " + ",
+                                       length == 0            ? ""
+                                       : plane->normal[c] < 0 ? " - "
+                                                              : " + ",
                                        length == 0 ? plane->normal[c] : fabs(plane->normal[c]), "xyz"[c]);
     snprintf(described.text + length, sizeof described.text - length, " = %.6g", plane->offset);
     return described;

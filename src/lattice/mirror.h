@@ -23,7 +23,8 @@ typedef struct mirror_plane {
     double tolerance; /* positions whose distance is at most this are equal */
 } mirror_plane;
 
-/* Returns the plane perpendicular to a coordinate axis, through the middle of the bounds of the rest points. */
+/* Returns the plane perpendicular to a coordinate axis, through the middle of the bounds of the rest points.
+ */
 mirror_plane ffd_mirror_middle(const ffd_lattice *lattice, int axis);
 /* Returns the plane of a unit normal. */
 mirror_plane ffd_mirror_plane(const ffd_lattice *lattice, const double normal[3], double offset);
@@ -37,10 +38,10 @@ void ffd_mirror_vector(const mirror_plane *plane, const double v[3], double imag
 void ffd_mirror_back(const mirror_plane *plane, const double p[3], const double from[3], const double to[3],
                      double moved[3]);
 
-/* The equation of a plane: "x = 1.5" or "0.6 x - 0.8 z = 2". */
 typedef struct mirror_text {
     char text[120];
 } mirror_text;
+/* Returns the equation of a plane: "x = 1.5" or "0.6 x - 0.8 z = 2". */
 mirror_text ffd_mirror_describe(const mirror_plane *plane);
 
 /* Replaces a selection (one byte for each point) by the points whose rest positions are the mirror images of

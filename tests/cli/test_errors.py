@@ -137,7 +137,7 @@ LATTICES = [
     (lattice(moves=[{"at": [[2, 1], 0, 0], "by": [0, 0, 0]}]), INVALID,
      ":1: /moves/0/at/0: the range from 2 to 1 is empty"),
     (lattice(moves=[{"at": ["al", 0, 0], "by": [0, 0, 0]}]), INVALID,
-     ':1: /moves/0/at/0: is the text "al", not an index (0 is the first layer, -1 the last), a range [lo, hi] or "all"'),
+     ':1: /moves/0/at/0: is the text "al", not an index (0, "first" or "bottom": the first layer; -1, "last" or "top": the last), a range [lo, hi] or "all"'),
     (lattice(moves=[{"at": [0, 0], "by": [0, 0, 0]}]), INVALID, ":1: /moves/0/at: must be an array of 3 selections, not an array of 2"),
     (lattice(moves=[{"at": [0, 0, 0], "within": {"min": [0, 0, 0], "max": [1, 1, 1]}, "by": [0, 0, 0]}]), INVALID,
      ':1: /moves/0: has both "at" and "within"; a move selects its points by one of them'),

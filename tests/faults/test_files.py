@@ -469,7 +469,7 @@ def artist_10_hints_name_what_is_meant(run):
     """An axis in capitals, with a sign, a word for an index: the hint is what the user meant, or all that there is."""
     run.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n")
     sign = 'the axis "{}" has a sign; write [{}] for that direction'
-    index = 'is the text "{}", not an index (0 is the first layer, -1 the last), a range [lo, hi] or "all"'
+    index = 'is the text "{}", not an index (0, "first" or "bottom": the first layer; -1, "last" or "top": the last), a range [lo, hi] or "all"'
     axes = 'unknown word "{}"; known ones are "x", "y", "z"'
     nearest = 'unknown word "{}"; the nearest known one is "{}"'
     for word, why in (("Y", nearest.format("Y", "y")), ("Z", nearest.format("Z", "z")), ("-y", sign.format("-y", "0, -1, 0")),
@@ -479,9 +479,15 @@ def artist_10_hints_name_what_is_meant(run):
                          ({"bend": {"axis": "x" if word[-1] in "Yy" else "y", "toward": word, "degrees": 9}}, "bend/toward")):
             run.write("l.json", lattice(moves=[move]))
             run.ffd("check", "m.obj", "-l", "l.json", code=INVALID, err=f"l.json:1: /moves/0/{at}: {why}")
-    for word in ("top", "al", "ALL", "last", "-1"):
+    for word in ("Top", "al", "ALL", "lst", "-1"):
         run.write("l.json", lattice(moves=[{"at": ["all", word, "all"], "by": [0, 1, 0]}]))
         run.ffd("check", "m.obj", "-l", "l.json", code=INVALID, err="l.json:1: /moves/0/at/1: " + index.format(word))
+    for word, layer in (("top", -1), ("last", -1), ("bottom", 0), ("first", 0)):
+        for at in (word, [word, word]):
+            for name, chosen in (("w.obj", at), ("i.obj", layer)):
+                run.write("l.json", lattice(moves=[{"at": ["all", chosen, "all"], "by": [0, 1, 0]}]))
+                run.ffd("deform", "m.obj", name, "-l", "l.json", "--force", err=anything)
+            check(run.read("w.obj") == run.read("i.obj") != run.read("m.obj"), word)
     for members, at, why in (({"rest": {"box": "Mesh"}}, "rest/box", nearest.format("Mesh", "mesh")), ({"units": "BOX"}, "units", nearest.format("BOX", "box")),
                              ({"knots": ["Clamped"] * 3}, "knots/0", nearest.format("Clamped", "clamped")),
                              ({"moves": [{"By": [1, 0, 0]}]}, "moves/0/By", 'unknown key "By"; the nearest known one is "by"'),

@@ -415,7 +415,8 @@ static const refusal bad_moves[] = {
     {MOVE("{\"at\":[0.5,0,0],\"by\":[0,0,0]}"), FFD_E_INVALID,
      "f.json:1: /moves/0/at/0: must be a whole number, not the number 0.5"},
     {MOVE("{\"at\":[\"any\",0,0],\"by\":[0,0,0]}"), FFD_E_INVALID,
-     "f.json:1: /moves/0/at/0: is the text \"any\", not an index (0 is the first layer, -1 the last), a "
+     "f.json:1: /moves/0/at/0: is the text \"any\", not an index (0, \"first\" or \"bottom\": the first "
+     "layer; -1, \"last\" or \"top\": the last), a "
      "range "
      "[lo, hi] or \"all\""},
     {MOVE("{\"at\":[0,0],\"by\":[0,0,0]}"), FFD_E_INVALID,

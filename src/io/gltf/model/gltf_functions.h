@@ -1,8 +1,8 @@
 /* gltf_functions.h - the functions of glTF in mesh_format's table, which gltf_format.c fills, in the order of
    folders: gltf_faces.c, gltf_select.c, gltf_instancing.c, gltf_places.c, gltf_skin.c, gltf_faults.c,
    gltf_results.c and gltf_splats.c of model; gltf_rig_follow.c of edit; gltf_save.c, gltf_container.c and
-   gltf_resources.c of write; gltf_open.c, gltf_as_morph.c, gltf_compare.c, gltf_describe.c, gltf_extract.c, gltf_names.c,
-   gltf_materials.c, gltf_skeleton.c and gltf_anchors.c. */
+   gltf_resources.c of write; gltf_open.c, gltf_as_morph.c, gltf_compare.c, gltf_describe.c, gltf_extract.c,
+   gltf_names.c, gltf_materials.c, gltf_skeleton.c and gltf_anchors.c. */
 #ifndef FFD_IO_GLTF_MODEL_GLTF_FUNCTIONS_H
 #define FFD_IO_GLTF_MODEL_GLTF_FUNCTIONS_H
 
