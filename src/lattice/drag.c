@@ -65,18 +65,6 @@ static int by_point(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* Adds the entry to a row; a closed direction of few control points repeats them. */
-static size_t add_entry(entry *row, size_t count, uint32_t point, double value)
-{
-    for (size_t i = 0; i < count; i++)
-        if (row[i].point == point) {
-            row[i].value += value;
-            return count;
-        }
-    row[count] = (entry){point, value};
-    return count + 1;
-}
-
 /* Fills a row with the basis functions R of the deformed volume at u,v,w, of the selected control points, in
    ascending order. Returns their number. */
 static size_t fill_row(const ffd_lattice *lattice, const double uvw[3], const unsigned char *selected,
@@ -87,9 +75,6 @@ static size_t fill_row(const ffd_lattice *lattice, const double uvw[3], const un
     lattice_basis basis;
     double sum = 0;
     size_t count = 0;
-    bool repeats = false;
-    for (int a = 0; a < 3; a++)
-        repeats = repeats || (size_t)knots[a].degree + 1 > lattice->size[a];
     ffd_lattice_basis(lattice, uvw, &basis);
     for (int k = 0; k <= knots[2].degree; k++)
         for (int j = 0; j <= knots[1].degree; j++)
@@ -102,11 +87,7 @@ static size_t fill_row(const ffd_lattice *lattice, const double uvw[3], const un
                 const double value = (weights ? weights[point] : 1) *
                                      (basis.value[0][i] * basis.value[1][j] * basis.value[2][k]);
                 sum += value;
-                if (!selected[point] || value == 0)
-                    continue;
-                if (repeats)
-                    count = add_entry(row, count, (uint32_t)point, value);
-                else
+                if (selected[point] && value != 0)
                     row[count++] = (entry){(uint32_t)point, value};
             }
     for (size_t i = 0; i < count; i++)
