@@ -466,7 +466,8 @@ static const refusal bad_moves[] = {
     {MOVE("{\"pull\":{\"point\":[0,0,0],\"by\":2,\"radius\":1}}"), FFD_E_INVALID,
      "f.json:1: /moves/0/pull/by: must be an array of 3 numbers, not the number 2"},
     {MOVE("{\"pull\":[0,0,0]}"), FFD_E_INVALID,
-     "f.json:1: /moves/0/pull: must be an object, not an array of 3"},
+     "f.json:1: /moves/0/pull: must be an object, not an array of 3; write "
+     "{\"pull\": {\"point\": [x, y, z], \"by\": [0,0,0], \"radius\": r}}"},
     {MOVE("{\"falloff\":{},\"by\":[0,0,0]}"), FFD_E_INVALID,
      "f.json:1: /moves/0/falloff: is empty; a falloff has axis, from and to, or center and radius"},
     {MOVE("{\"falloff\":{\"to\":1,\"radius\":1},\"by\":[0,0,0]}"), FFD_E_INVALID,
