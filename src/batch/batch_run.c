@@ -212,6 +212,7 @@ static ffd_status find_base(batch_run *run, ffd_error *error)
         run->base = ffd_text_copy("/");
     if (!run->base)
         return ffd_fail_memory(error);
+    run->files.base = run->base;
     if (run->desc->given->positions)
         run->rows.file = ffd_place_relative(&run->files.places, run->base, run->desc->given->positions);
     return FFD_OK;

@@ -52,9 +52,9 @@ static ffd_status finish(hash_list *list, ffd_status status, hash128 *hash)
     return status;
 }
 
-/* Whether images and material libraries are copied with the output. They are not in place, in the same
-   folder, or in a conversion. */
-static bool copies_images(const ffd_deform_desc *desc)
+/* Whether images and material libraries would be copied with an output in another folder. They are not in
+   place, or in a conversion. */
+static bool may_copy_images(const ffd_deform_desc *desc)
 {
     ffd_format from_format, format = desc->output_format;
     if (desc->in_place || !desc->output || desc->resources == FFD_RESOURCES_REFERENCE ||
@@ -62,17 +62,33 @@ static bool copies_images(const ffd_deform_desc *desc)
         return false;
     if (format == FFD_FORMAT_AUTO)
         format = ffd_format_from_name(desc->output);
-    return ffd_format_table(format) == ffd_format_table(from_format) &&
-           ffd_folders_differ(desc->input.path, desc->output);
+    return ffd_format_table(format) == ffd_format_table(from_format);
+}
+
+static bool copies_images(const ffd_deform_desc *desc)
+{
+    return may_copy_images(desc) && ffd_folders_differ(desc->input.path, desc->output);
+}
+
+/* Lists the images and material libraries that are copied with the output. Most meshes have none, and the
+   folders are not compared. */
+static ffd_status list_copied(hash_cache *cache, const ffd_deform_desc *desc, path_list *images,
+                              ffd_error *error)
+{
+    if (!may_copy_images(desc))
+        return FFD_OK;
+    TRY(ffd_hash_cache_images(cache, &desc->input, images, error));
+    if (images->count > 0 && !ffd_folders_differ(desc->input.path, desc->output))
+        ffd_paths_free(images);
+    return FFD_OK;
 }
 
 bool ffd_fingerprint_has_copies(const ffd_deform_desc *desc, hash_cache *cache)
 {
     path_list images = {0};
-    const bool has_none = !copies_images(desc) ||
-                          (!ffd_hash_cache_images(cache, &desc->input, &images, NULL) && images.count == 0);
+    const bool may_have = list_copied(cache, desc, &images, NULL) || images.count > 0;
     ffd_paths_free(&images);
-    return !has_none;
+    return may_have;
 }
 
 /* Adds the input's images. Those that exist become files of the job. */
@@ -81,7 +97,7 @@ static ffd_status add_images_of_input(hash_list *list, hash_cache *cache, const 
 {
     path_list images = {0};
     ffd_status status;
-    TRY_END(copies_images(desc) ? ffd_hash_cache_images(cache, &desc->input, &images, error) : FFD_OK);
+    TRY_END(list_copied(cache, desc, &images, error));
     TRY_END(add_images(list, cache, &images, error));
     for (size_t i = 0; i < images.count; i++)
         if (ffd_file_exists(images.paths[i]))

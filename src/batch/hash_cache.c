@@ -6,6 +6,33 @@
 #include "lattice/file/box_meshes.h"
 #include <string.h>
 
+void ffd_hash_cache_begin_job(hash_cache *cache)
+{
+    for (size_t i = 0; i < cache->stamps.count; i++)
+        ffd_free(cache->stamps.paths[i]);
+    cache->stamps.count = 0;
+}
+
+/* Takes the stamp of a file, once in a job. Returns false if it cannot be taken. A file that changes
+   meanwhile keeps the stamp from before, with which the next job finds it changed. */
+static bool take_stamp(hash_cache *cache, const char *path, file_stamp *stamp)
+{
+    job_stamps *const known = &cache->stamps;
+    for (size_t i = 0; i < known->count; i++)
+        if (strcmp(known->paths[i], path) == 0) {
+            *stamp = known->stamps[i];
+            return true;
+        }
+    if (!ffd_file_stamp(path, stamp))
+        return false;
+    char *const copy = known->count < JOB_STAMPS ? ffd_text_copy(path) : NULL;
+    if (copy) {
+        known->paths[known->count] = copy;
+        known->stamps[known->count++] = *stamp;
+    }
+    return true;
+}
+
 static cached_file *find(hash_cache *cache, const char *path, const file_stamp *stamp)
 {
     for (size_t i = 0; i < CACHED_FILES; i++) {
@@ -37,7 +64,7 @@ ffd_status ffd_hash_cache_hash(hash_cache *cache, const char *path, hash128 *has
 {
     /* Stamp before reading: if the file changes meanwhile, the entry is outdated. */
     file_stamp stamp;
-    const bool is_file = cache && ffd_file_stamp(path, &stamp);
+    const bool is_file = cache && take_stamp(cache, path, &stamp);
     const cached_file *const known = is_file ? find(cache, path, &stamp) : NULL;
     if (known) {
         *hash = known->hash;
@@ -139,7 +166,7 @@ static ffd_status know_mesh(hash_cache *cache, const ffd_source *source, ffd_for
                             const cached_mesh **known, ffd_error *error)
 {
     file_stamp stamp;
-    const bool is_file = ffd_file_stamp(source->path, &stamp);
+    const bool is_file = take_stamp(cache, source->path, &stamp);
     *known = is_file ? find_mesh(cache, source, format, &stamp) : NULL;
     if (*known)
         return FFD_OK;
@@ -226,7 +253,7 @@ ffd_status ffd_hash_cache_scan(hash_cache *cache, const ffd_source *source, ffd_
         TRY(ffd_hash_cache_images(cache, source, copied, error));
         return copy_list(copied, named, error);
     }
-    if (!ffd_file_stamp(source->path, &stamp))
+    if (!take_stamp(cache, source->path, &stamp))
         return FFD_OK;
     if (!is_last_scan(&cache->scan, source->path, &stamp, from, to))
         TRY(scan_bytes(cache, source->path, &stamp, from, to, error));
@@ -253,7 +280,7 @@ static ffd_status scan_lattice(hash_cache *cache, const char *path, path_list *m
 {
     file_stamp stamp;
     file_input bytes;
-    if (!ffd_file_stamp(path, &stamp) || load_and_hash(cache, path, &stamp, &bytes, NULL))
+    if (!take_stamp(cache, path, &stamp) || load_and_hash(cache, path, &stamp, &bytes, NULL))
         return FFD_OK;
     const ffd_status status = ffd_lattice_box_meshes(path, &bytes, meshes, error);
     ffd_file_unload(&bytes);
@@ -270,7 +297,7 @@ ffd_status ffd_hash_cache_box_meshes(hash_cache *cache, const char *path, path_l
 {
     file_stamp stamp;
     path_list found = {0};
-    const cached_file *const file = ffd_file_stamp(path, &stamp) ? find(cache, path, &stamp) : NULL;
+    const cached_file *const file = take_stamp(cache, path, &stamp) ? find(cache, path, &stamp) : NULL;
     if (file && file->is_scanned_through)
         return copy_list(&file->meshes, meshes, error);
     ffd_status status;
@@ -288,6 +315,7 @@ void ffd_hash_cache_free(hash_cache *cache)
     for (size_t i = 0; i < CACHED_FILES; i++)
         forget_mesh(&cache->meshes[i]);
     forget_scan(&cache->scan);
+    ffd_hash_cache_begin_job(cache);
     ffd_kept_free(&cache->kept);
     *cache = (hash_cache){0};
 }

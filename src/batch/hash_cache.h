@@ -35,15 +35,27 @@ typedef struct cached_scan {
     path_list named, copied;
 } cached_scan;
 
+/* The stamps of the job's first files. Each is taken once, before anything of its file is read. */
+enum { JOB_STAMPS = 4 };
+
+typedef struct job_stamps {
+    char *paths[JOB_STAMPS];
+    file_stamp stamps[JOB_STAMPS];
+    size_t count;
+} job_stamps;
+
 /* All zeros: empty. */
 typedef struct hash_cache {
     cached_file files[CACHED_FILES];
     cached_mesh meshes[CACHED_FILES];
     cached_scan scan;
+    job_stamps stamps;
     size_t next, next_mesh; /* entries to replace next */
     kept_file kept;         /* bytes of the current job's mesh, if it is small */
 } hash_cache;
 
+/* Begins a job: asks for the stamps of files anew. */
+void ffd_hash_cache_begin_job(hash_cache *cache);
 /* Hashes a file's bytes. cache NULL: always read the file. Errors: those of reading. */
 ffd_status ffd_hash_cache_hash(hash_cache *cache, const char *path, hash128 *hash, ffd_error *error);
 /* Adds the files that a mesh is read from. Opens the mesh only if its format can refer to files. Errors:

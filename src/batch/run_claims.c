@@ -41,8 +41,6 @@ static ffd_status claim_output(batch_run *run, pool_task *task, ffd_error *error
     const job_kind kind = ffd_job_kind(job);
     if (job->target && ffd_claims_output(&run->files, job, &task->target, error))
         return FFD_E_MEMORY;
-    if (job->target)
-        task->target = ffd_place_relative(&run->files.places, run->base, job->target);
     if (run->desc->given->positions)
         task->target = ffd_run_rows_target(&run->rows, job->row, job->target ? &task->target : NULL);
     task->order.needs = ffd_claims_need(&run->files, job, &kind);

@@ -18,6 +18,7 @@
 #include "job/chain/job_cache.h"
 #include "job/deform_job.h"
 #include "job/figures/figure_values.h"
+#include "job/input/setting_lists.h"
 #include "job/input/settings.h"
 #include "job/input/shown_box.h"
 #include "job/input/source.h"
@@ -490,6 +491,7 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const cha
     const ffd_shared_box shared = {.box = task->box};
     const unsigned losses = ffd_mapping_losses();
     ffd_error *const error = &result->error;
+    ffd_hash_cache_begin_job(&worker->hashes);
     TRY(take_row(task, row, desc, answer, error));
     if (task->order.scans)
         TRY(ffd_job_scan(&worker->hashes, task, desc, &worker->rule, answer, error));
@@ -500,8 +502,10 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const cha
     if (task->wishes.count)
         return ffd_mapping_judge(losses, count_vertices(task, desc, answer, error), error);
     /* Files that a killed run has set aside are restored before they are read. */
-    if (desc->in_place && !task->wishes.dry)
+    if (desc->in_place && !task->wishes.dry) {
         TRY(ffd_restore_output(desc->input.path, error));
+        ffd_hash_cache_begin_job(&worker->hashes);
+    }
     if (task->wishes.measure)
         return measure(worker, task, desc, answer, error);
     desc->shared_box = task->has_box ? &shared : NULL;
@@ -638,7 +642,7 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
         append_result(worker, &result);
     ffd_output_set_destroy(&worker->output_set);
     ffd_free(worker->desc.morph_results);
-    ffd_deform_desc_clear(&worker->desc);
+    ffd_setting_lists_free(&worker->desc);
 }
 
 /* For a list of the texts of the answer, in their order. */

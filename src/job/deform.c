@@ -46,6 +46,20 @@ static ffd_status check_no_output(const ffd_deform_desc *desc, ffd_error *error)
                 : FFD_OK;
 }
 
+/* Refuses an output that the job reads. Most outputs do not exist, which one question answers. */
+static ffd_status refuse_inputs(const ffd_deform_desc *desc, ffd_error *error)
+{
+    if (ffd_output_is_stream(desc->output) || !ffd_file_exists(desc->output))
+        return FFD_OK;
+    if (ffd_job_reads_mesh(&desc->input, desc->output))
+        return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the input ({in_place} overwrites it)");
+    if (ffd_job_reads_lattice(desc->lattices, desc->lattice_count, desc->output))
+        return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is a lattice of this command");
+    return ffd_job_reads_embedding(desc, desc->output)
+               ? ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the embedding that is to be reused")
+               : FFD_OK;
+}
+
 /* Determines the output's path and format, and whether it may replace a file. */
 static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options *options, ffd_error *error)
 {
@@ -81,13 +95,7 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
         return ffd_format_refuse_name(desc->output, error);
     if (desc->sink)
         return FFD_OK;
-    if (!ffd_output_is_stream(desc->output) && ffd_job_reads_mesh(&desc->input, desc->output))
-        return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the input ({in_place} overwrites it)");
-    if (!ffd_output_is_stream(desc->output) &&
-        ffd_job_reads_lattice(desc->lattices, desc->lattice_count, desc->output))
-        return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is a lattice of this command");
-    if (!ffd_output_is_stream(desc->output) && ffd_job_reads_embedding(desc, desc->output))
-        return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the embedding that is to be reused");
+    TRY(refuse_inputs(desc, error));
     return desc->make_folders ? ffd_output_check_with_folder(desc->output, options->force, error)
                               : ffd_output_check(desc->output, options->force, error);
 }

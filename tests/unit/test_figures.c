@@ -20,7 +20,7 @@ static void a_figure_has_the_type_of_its_total(void **state)
 {
     (void)state;
     for (const figure *f = ffd_figures; f < ffd_figures + ffd_figure_count; f++)
-        if (f->name && f->total.type && f->total.type != f->result.type)
+        if (*f->name && f->total.type && f->total.type != f->result.type)
             fail_msg("%s is not of the type that the pass has", f->name);
 }
 
@@ -59,7 +59,7 @@ static void a_figure_is_joined_as_its_type_can_be(void **state)
 {
     (void)state;
     for (const figure *f = ffd_figures; f < ffd_figures + ffd_figure_count; f++) {
-        const char *const name = f->name ? f->name : "a figure of the pass";
+        const char *const name = *f->name ? f->name : "a figure of the pass";
         if (!can_join(f->total.type, f->tiles))
             fail_msg("%s cannot be joined so from tiles", name);
         if (!can_join(f->result.type, f->targets))
@@ -72,7 +72,7 @@ static void fill(ffd_job_result *result)
 {
     uint64_t next = 1;
     ffd_result_clear(result);
-    for (const figure *f = ffd_figures; f < ffd_figures + ffd_figure_count && (f->name || !f->total.type);
+    for (const figure *f = ffd_figures; f < ffd_figures + ffd_figure_count && (*f->name || !f->total.type);
          f++) {
         void *const value = (char *)result + f->result.at;
         if (f->result.type == FIGURE_FLAG)
@@ -114,7 +114,7 @@ static void a_report_is_read_back(void **state)
         const size_t size = f->result.type == FIGURE_STATUSES ? sizeof result.counts
                             : f->result.type == FIGURE_COUNT || f->result.type == FIGURE_NUMBER ? 8
                                                                                                 : 0;
-        if (!f->name || f->is_held_back || strncmp(f->name, "folds.witness", 13) == 0)
+        if (!*f->name || f->is_held_back || strncmp(f->name, "folds.witness", 13) == 0)
             continue;
         compared += size > 0;
         if (memcmp((char *)&result + f->result.at, (char *)&read + f->result.at, size) != 0)

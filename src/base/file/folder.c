@@ -85,13 +85,15 @@ static char *find_existing(const char *path)
 
 ffd_status ffd_folder_check(const char *path, ffd_error *error)
 {
+    if (ffd_folder_is_there(path))
+        return FFD_OK;
     char *const there = find_existing(path);
     TRY(there ? FFD_OK : ffd_fail_memory(error));
     ffd_status status = FFD_OK;
     if (!ffd_folder_is_there(there))
         status =
             ffd_fail_file(error, FFD_E_IO, path, "the folder cannot be made: \"%s\" is not a folder", there);
-    else if (strcmp(there, path) != 0 && access(there, W_OK | X_OK) != 0)
+    else if (access(there, W_OK | X_OK) != 0)
         status = ffd_fail_file(error, FFD_E_IO, path, "the folder cannot be made: %s", strerror(errno));
     ffd_free(there);
     return status;

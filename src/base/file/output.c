@@ -617,7 +617,9 @@ void ffd_output_destroy(file_output **output)
 {
     if (!output || !*output)
         return;
-    ffd_cleanup_hold();
+    const bool is_noted = !(*output)->committed; /* a commit strikes everything from the list of leftovers */
+    if (is_noted)
+        ffd_cleanup_hold();
     for (size_t i = 0; i < (*output)->count; i++) {
         output_file *file = &(*output)->files[i];
         if (file->temporary && !file->committed)
@@ -635,7 +637,8 @@ void ffd_output_destroy(file_output **output)
         ffd_cleanup_strike(&(*output)->folders[i].noted);
         ffd_free((*output)->folders[i].path);
     }
-    ffd_cleanup_release();
+    if (is_noted)
+        ffd_cleanup_release();
     ffd_free((*output)->folders);
     ffd_free((*output)->files);
     ffd_free((*output)->block);

@@ -123,8 +123,8 @@ static hash128 hash_of(const char *folder, const char *name)
     return hash;
 }
 
-/* base: NULL, or the folder that the place is seen from. */
-static hash128 find_in(file_places *places, const char *base, const char *path)
+/* *seen: the place as seen from the folder `base`. seen: may be NULL. */
+static hash128 find_in(file_places *places, const char *path, const char *base, hash128 *seen)
 {
     char *const target = is_link(path) ? resolve(path) : NULL;
     const char *const whole = target ? target : path;
@@ -133,29 +133,33 @@ static hash128 find_in(file_places *places, const char *base, const char *path)
     while (length > 1 && ffd_is_separator(whole[length - 1]))
         length--;
     const char *const folder = find_folder(places, whole, length);
-    char *const seen = base && folder ? ffd_path_relative(base, folder) : NULL;
-    const hash128 hash = hash_of(seen ? seen : folder ? folder : "", name);
-    ffd_free(seen);
+    char *const relative = seen && folder ? ffd_path_relative(base, folder) : NULL;
+    if (seen)
+        *seen = hash_of(relative ? relative : folder ? folder : "", name);
+    const hash128 hash = hash_of(folder ? folder : "", name);
+    ffd_free(relative);
     ffd_free(target);
     return hash;
 }
 
-static hash128 find_place(file_places *places, const char *base, const char *path)
+hash128 ffd_place_both(file_places *places, const char *base, const char *path, hash128 *seen)
 {
     file_places own = {0};
-    const hash128 hash = find_in(places ? places : &own, base, path);
+    const hash128 hash = find_in(places ? places : &own, path, base, seen);
     ffd_places_free(&own);
     return hash;
 }
 
 hash128 ffd_place_of(file_places *places, const char *path)
 {
-    return find_place(places, NULL, path);
+    return ffd_place_both(places, NULL, path, NULL);
 }
 
 hash128 ffd_place_relative(file_places *places, const char *base, const char *path)
 {
-    return find_place(places, base, path);
+    hash128 seen;
+    ffd_place_both(places, base, path, &seen);
+    return seen;
 }
 
 void ffd_places_free(file_places *places)

@@ -28,6 +28,8 @@ hash128 ffd_place_of(file_places *places, const char *path);
 /* Returns a hash of the place as seen from the folder `base`, an absolute path without links: the same one
    where base has moved together with the place. places: may be NULL. */
 hash128 ffd_place_relative(file_places *places, const char *base, const char *path);
+/* Returns the hash of ffd_place_of, and with the same look at the file that of ffd_place_relative: *seen. */
+hash128 ffd_place_both(file_places *places, const char *base, const char *path, hash128 *seen);
 /* Frees the folders; leaves all zeros. */
 void ffd_places_free(file_places *places);
 

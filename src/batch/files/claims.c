@@ -12,12 +12,21 @@ static bool is_mesh(const batch_job *job)
     return job->output && strcmp(job->desc.input.path, job->target) == 0;
 }
 
-ffd_status ffd_claims_expect(run_files *files, const batch_job *job, ffd_error *error)
+/* Returns the places of the output: those of the first look, before any job began, where there was one. */
+static const output_place *place_output(run_files *files, batch_job *job)
+{
+    if (!job->place.is_known)
+        job->place.place = ffd_place_both(&files->places, files->base, job->target, &job->place.seen);
+    job->place.is_known = true;
+    return &job->place;
+}
+
+ffd_status ffd_claims_expect(run_files *files, batch_job *job, ffd_error *error)
 {
     uint64_t line;
     if (!job->target || is_mesh(job))
         return FFD_OK;
-    const hash128 place = ffd_run_place(files, job->target);
+    const hash128 place = place_output(files, job)->place;
     if (!files->has_odd_outputs) {
         const job_kind kind = ffd_job_kind(job);
         files->has_odd_outputs =
@@ -44,16 +53,17 @@ static bool is_taken(const run_files *files, const batch_job *job, const hash128
 ffd_status ffd_claims_output(run_files *files, batch_job *job, hash128 *target, ffd_error *error)
 {
     uint64_t line;
-    *target = ffd_run_place(files, job->target);
+    const hash128 *const place = &place_output(files, job)->place;
+    *target = job->place.seen;
     if (is_mesh(job))
         return FFD_OK;
-    const bool taken = is_taken(files, job, target, &line), is_own = taken && line == job->line;
+    const bool taken = is_taken(files, job, place, &line), is_own = taken && line == job->line;
     if (taken && !is_own) /* else it was expected */
         ffd_run_refuse(files, job, "", ffd_job_output_name(job), line);
-    else if (files->comes_once && is_read(files, job, target, &line))
+    else if (files->comes_once && is_read(files, job, place, &line))
         ffd_run_refuse_written(files, job, ffd_job_output_name(job), line);
     else if (!is_own)
-        return ffd_files_put(&files->writes, target, job->line, error);
+        return ffd_files_put(&files->writes, place, job->line, error);
     return FFD_OK;
 }
 

@@ -7,10 +7,10 @@
 #include "batch/files/run_files.h"
 
 /* Notes the output of a job before any job begins. Errors: FFD_E_MEMORY. */
-ffd_status ffd_claims_expect(run_files *files, const batch_job *job, ffd_error *error);
-/* Claims the output of a job; *target: its place. If an earlier job or the run itself writes that file, or
-   (where the outputs of later jobs are not known) an earlier job reads it, stores an error in the job.
-   Errors: FFD_E_MEMORY. */
+ffd_status ffd_claims_expect(run_files *files, batch_job *job, ffd_error *error);
+/* Claims the output of a job; *target: its place as the journal has it. If an earlier job or the run itself
+   writes that file, or (where the outputs of later jobs are not known) an earlier job reads it, stores an
+   error in the job. Errors: FFD_E_MEMORY. */
 ffd_status ffd_claims_output(run_files *files, batch_job *job, hash128 *target, ffd_error *error);
 /* Likewise claims the picture of a job, whose place is `file`. */
 ffd_status ffd_claims_picture(run_files *files, batch_job *job, const hash128 *file, const char *path,

@@ -81,6 +81,7 @@ typedef struct surveyed_folders {
 /* All zeros: none. */
 typedef struct run_files {
     const char *manifest; /* for messages; NULL: jobs have no lines */
+    const char *base;     /* folder that places are seen from in the journal, without links */
     bool comes_once;      /* outputs of later jobs are not known */
     bool has_odd_outputs; /* some have not the ending of a mesh, or images and libraries are copied */
     file_places places;

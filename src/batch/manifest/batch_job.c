@@ -505,7 +505,7 @@ uint64_t ffd_job_memory(const batch_job *job, bool draws)
 
 void ffd_job_free(batch_job *job)
 {
-    ffd_deform_desc_clear(&job->desc);
+    ffd_setting_lists_free(&job->desc);
     ffd_free(job->input);
     ffd_free(job->output);
     ffd_buffer_free(&job->texts);

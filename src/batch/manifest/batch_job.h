@@ -21,6 +21,12 @@ typedef struct batch_frame {
     bool positions; /* jobs need no OUT, as each has a row of positions; refuse jobs without positions */
 } batch_frame;
 
+/* The place of an output, and as seen from the folder of the jobs' file (base/file/place.h). */
+typedef struct output_place {
+    bool is_known;
+    hash128 place, seen;
+} output_place;
+
 typedef struct batch_job {
     uint64_t line;        /* of the manifest, from 1 */
     uint64_t row;         /* number among the jobs of all shards, from 0 */
@@ -28,6 +34,7 @@ typedef struct batch_job {
     char *output;         /* as in the manifest; NULL: in place, or no mesh is written */
     const char *target;   /* path of the output, also in place; NULL: no mesh is written */
     ffd_deform_desc desc; /* without what workers add: objects, log, share of the processors */
+    output_place place;   /* of target, once it was asked for */
     hash128 content;      /* of what determines the output, without the bytes of files */
     ffd_error error;      /* what is wrong with the line; FFD_OK: nothing */
     byte_buffer texts;    /* of desc, */

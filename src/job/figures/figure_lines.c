@@ -3,7 +3,7 @@
 #include <inttypes.h>
 #include <math.h>
 
-void ffd_lines_of_statuses(const figure_text *text)
+static void write_statuses(const figure_text *text)
 {
     const ffd_job_result *const result = text->result;
     ffd_buffer_format(text->out, "  vertices       %" PRIu64, result->vertices);
@@ -17,7 +17,7 @@ void ffd_lines_of_statuses(const figure_text *text)
     ffd_buffer_text(text->out, "\n");
 }
 
-void ffd_lines_of_moved(const figure_text *text)
+static void write_moved(const figure_text *text)
 {
     const ffd_job_result *const result = text->result;
     ffd_buffer_format(text->out, "  moved          %" PRIu64 ", by %g at most\n", result->moved,
@@ -37,7 +37,7 @@ static void put_witness(const figure_text *text, const ffd_fold_witness *witness
     ffd_buffer_format(text->out, " deformed, det J is %g (%s)\n", witness->det, text->lattice);
 }
 
-void ffd_lines_of_folds(const figure_text *text)
+static void write_folds(const figure_text *text)
 {
     const ffd_job_result *const result = text->result;
     static const char *const references[] = {"its mean at rest", "the bounds of the control points at rest",
@@ -86,14 +86,14 @@ static void put_tear_reason(const figure_text *text)
         ffd_buffer_format(text->out, "; %" PRIu64 " vert%s", stay, stay == 1 ? "ex stays" : "ices stay");
 }
 
-void ffd_lines_of_flipped(const figure_text *text)
+static void write_flipped(const figure_text *text)
 {
     const ffd_job_result *const result = text->result;
     ffd_buffer_format(text->out, "  flipped faces  %" PRIu64 " of %" PRIu64 "\n", result->flipped_faces,
                       result->faces);
 }
 
-void ffd_lines_of_tear(const figure_text *text)
+static void write_tear(const figure_text *text)
 {
     const ffd_job_result *const result = text->result;
     ffd_buffer_format(text->out, "  torn edges     %" PRIu64, result->tear.edges);
@@ -140,7 +140,7 @@ static const char *reason_of(const ffd_job_result *result, double area)
 }
 
 /* The area first: the volume's line refers to it. */
-void ffd_lines_of_extent(const figure_text *text)
+static void write_extent(const figure_text *text)
 {
     const ffd_job_result *const result = text->result;
     put_sizes(text, "area", &result->area, "not known", "not known");
@@ -148,14 +148,14 @@ void ffd_lines_of_extent(const figure_text *text)
               reason_of(result, result->area.after));
 }
 
-void ffd_lines_of_det(const figure_text *text)
+static void write_det(const figure_text *text)
 {
     const ffd_job_result *const result = text->result;
     ffd_buffer_format(text->out, "  det F          %g to %g at the vertices\n", result->det.min,
                       result->det.max);
 }
 
-void ffd_lines_of_edges(const figure_text *text)
+static void write_edges(const figure_text *text)
 {
     const ffd_job_result *const result = text->result;
     ffd_buffer_format(text->out,
@@ -163,7 +163,7 @@ void ffd_lines_of_edges(const figure_text *text)
                       result->edges.count, result->edges.deviation.max, result->edges.deviation.mean);
 }
 
-void ffd_lines_of_rig(const figure_text *text)
+static void write_rig(const figure_text *text)
 {
     const ffd_rig_figures *const rig = &text->result->rig;
     ffd_buffer_format(text->out, "  rig            %" PRIu64 " joint%s, ", rig->joints,
@@ -175,4 +175,16 @@ void ffd_lines_of_rig(const figure_text *text)
     if (*rig->worst)
         ffd_buffer_format(text->out, " (%s)", rig->worst);
     ffd_buffer_text(text->out, "\n");
+}
+
+void ffd_lines_write(figure_lines lines, const figure_text *text)
+{
+    static void (*const writers[])(const figure_text *text) = {
+        [LINES_OF_STATUSES] = write_statuses, [LINES_OF_MOVED] = write_moved,
+        [LINES_OF_FOLDS] = write_folds,       [LINES_OF_FLIPPED] = write_flipped,
+        [LINES_OF_TEAR] = write_tear,         [LINES_OF_EXTENT] = write_extent,
+        [LINES_OF_DET] = write_det,           [LINES_OF_EDGES] = write_edges,
+        [LINES_OF_RIG] = write_rig,
+    };
+    writers[lines](text);
 }

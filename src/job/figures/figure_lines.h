@@ -11,10 +11,21 @@ typedef struct figure_text {
     const char *lattice; /* name of the lattice of the folds' witness */
     byte_buffer *out;
 } figure_text;
-/* Writes lines such as "  torn edges     3\n"; of a single number that is not finite, none. */
-typedef void figure_lines(const figure_text *text);
+/* Which figures. */
+typedef enum figure_lines {
+    LINES_NONE = 0,
+    LINES_OF_STATUSES,
+    LINES_OF_MOVED,
+    LINES_OF_FOLDS,
+    LINES_OF_FLIPPED,
+    LINES_OF_TEAR,
+    LINES_OF_EXTENT,
+    LINES_OF_DET,
+    LINES_OF_EDGES,
+    LINES_OF_RIG
+} figure_lines;
 
-figure_lines ffd_lines_of_statuses, ffd_lines_of_moved, ffd_lines_of_folds, ffd_lines_of_flipped,
-    ffd_lines_of_tear, ffd_lines_of_extent, ffd_lines_of_det, ffd_lines_of_edges, ffd_lines_of_rig;
+/* Writes lines such as "  torn edges     3\n"; of a single number that is not finite, none. */
+void ffd_lines_write(figure_lines lines, const figure_text *text);
 
 #endif

@@ -95,7 +95,7 @@ void ffd_result_clear(ffd_job_result *result)
     memset(result, 0, sizeof *result);
     result->struct_size = sizeof *result;
     for (const figure *f = ffd_figures; f < ffd_figures + ffd_figure_count; f++)
-        if (f->name)
+        if (*f->name)
             start(f->result.type, f->targets, (char *)result + f->result.at);
 }
 
@@ -111,7 +111,7 @@ static void normalize_zeros(ffd_bounds *box)
 void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double seconds)
 {
     for (const figure *f = ffd_figures; f < ffd_figures + ffd_figure_count; f++)
-        if (f->name && f->total.type)
+        if (*f->name && f->total.type)
             memcpy((char *)result + f->result.at, (const char *)totals + f->total.at, size_of(f->total.type));
     normalize_zeros(&result->bounds.before);
     normalize_zeros(&result->bounds.after);
@@ -210,7 +210,7 @@ void ffd_results_join(const ffd_job_result *targets, size_t count, ffd_job_resul
         const ffd_job_result before = *all;
         bool taken = false;
         for (const figure *f = ffd_figures; f < ffd_figures + ffd_figure_count; f++)
-            if (f->name)
+            if (*f->name)
                 taken = join_target(f, &targets[k], k, count, &before, taken, all);
     }
 }

@@ -59,22 +59,24 @@ typedef struct figure_member {
     uint32_t at; /* its offset */
 } figure_member;
 
+enum { FIGURE_NAME = 32 };
+
 typedef struct figure {
-    const char *name;     /* path of the member of ffd_job_result and of the report: "tear.edges"; NULL: of
-                             a pass only */
-    figure_member result; /* in ffd_job_result */
-    figure_member total;  /* in pass_totals, from which it is filled; or type FIGURE_NONE */
+    char name[FIGURE_NAME]; /* path of the member of ffd_job_result and of the report: "tear.edges"; "": of
+                               a pass only, or an end */
+    figure_member result;   /* in ffd_job_result */
+    figure_member total;    /* in pass_totals, from which it is filled; or type FIGURE_NONE */
     figure_join tiles, targets;
     figure_presence presence;
     figure_member needs[2];
-    uint32_t size, by;   /* of a group: its size, and the offset of the number for JOIN_GROUP */
-    bool is_held_back;   /* it is not in the report */
-    bool is_of_job;      /* it is of a whole job, not of each morph target */
-    bool is_time;        /* it is not in a report without times */
-    figure_lines *lines; /* or NULL */
+    uint32_t size, by; /* of a group: its size, and the offset of the number for JOIN_GROUP */
+    bool is_held_back; /* it is not in the report */
+    bool is_of_job;    /* it is of a whole job, not of each morph target */
+    bool is_time;      /* it is not in a report without times */
+    figure_lines lines;
 } figure;
 
-/* In the order of the report. Small rows: the loader relocates each page of them at every start. */
+/* In the order of the report. Without pointers, so that the loader has nothing to relocate at a start. */
 extern const figure ffd_figures[];
 extern const size_t ffd_figure_count;
 

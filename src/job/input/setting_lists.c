@@ -97,23 +97,27 @@ const char *ffd_setting_list_name(const ffd_member *member, void *base, const ch
     return head->list.names[head->list.name_count++] = copy;
 }
 
-/* Sets a member to that of `defaults`, and frees a list of this file. */
-static void clear(const ffd_member *member, const ffd_deform_desc *defaults, ffd_deform_desc *base)
+/* Frees a list of this file. */
+static void free_list(const ffd_member *member, void *base)
 {
-    if (ffd_member_is_list(member)) {
-        list_head *const head = head_of(member, base);
-        for (size_t i = 0; head && i < head->list.name_count; i++)
-            ffd_free(head->list.names[i]);
-        if (head) {
-            ffd_free(head->list.names);
-            ffd_intern_free(&head->list.known);
-        }
-        ffd_free(head);
-        *items_of(member, base) = NULL;
-        *count_of(member, base) = 0;
-        return;
+    list_head *const head = head_of(member, base);
+    for (size_t i = 0; head && i < head->list.name_count; i++)
+        ffd_free(head->list.names[i]);
+    if (head) {
+        ffd_free(head->list.names);
+        ffd_intern_free(&head->list.known);
     }
-    ffd_member_copy(member, defaults, base);
+    ffd_free(head);
+    *items_of(member, base) = NULL;
+    *count_of(member, base) = 0;
+}
+
+void ffd_setting_lists_free(ffd_deform_desc *desc)
+{
+    const ffd_member *member;
+    for (size_t index = 0; (member = ffd_deform_member(index)) != NULL; index++)
+        if (ffd_member_is_list(member))
+            free_list(member, desc);
 }
 
 void ffd_deform_desc_clear(ffd_deform_desc *desc)
@@ -121,8 +125,10 @@ void ffd_deform_desc_clear(ffd_deform_desc *desc)
     const ffd_member *member;
     ffd_deform_desc defaults;
     ffd_deform_desc_init(&defaults, sizeof defaults);
+    ffd_setting_lists_free(desc);
     for (size_t index = 0; (member = ffd_deform_member(index)) != NULL; index++)
-        clear(member, &defaults, desc);
+        if (!ffd_member_is_list(member))
+            ffd_member_copy(member, &defaults, desc);
 }
 
 static const ffd_member *find(ffd_member_kind kind)

@@ -12,6 +12,8 @@ void ffd_setting_list_drop(const ffd_member *member, void *base);
    this name. NULL: memory ran out. */
 const char *ffd_setting_list_name(const ffd_member *member, void *base, const char *name, size_t length,
                                   bool *is_new);
+/* Frees all lists, which are empty then. Other members stay. */
+void ffd_setting_lists_free(ffd_deform_desc *desc);
 /* Adds a lattice, which makes no morph target. path is borrowed. Returns false if memory runs out. */
 bool ffd_setting_lattice_add(ffd_deform_desc *desc, const char *path);
 /* Adds a lattice that makes a morph target, unless another one has that name (*is_new: false). path is

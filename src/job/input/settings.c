@@ -165,31 +165,57 @@ void ffd_member_copy(const ffd_member *member, const ffd_deform_desc *from, ffd_
         memcpy((char *)to + pieces[i].offset, (const char *)from + pieces[i].offset, pieces[i].size);
 }
 
+static bool is_zero(const char *bytes, size_t size)
+{
+    char any = 0;
+    for (size_t i = 0; i < size; i++)
+        any |= bytes[i];
+    return !any;
+}
+
 bool ffd_member_is_set(const ffd_deform_desc *desc, const ffd_member *member)
 {
-    static const char zeros[sizeof(uint64_t)];
+    const char *const at = (const char *)desc + member->offset;
     if (is_number(member))
         return value_of(desc, member) > 0;
     if (ffd_member_is_list(member))
-        return choice_or_count(desc, member) > 0 &&
-               memcmp((const char *)desc + member->offset, zeros, sizeof(const void *)) != 0;
-    return memcmp((const char *)desc + member->offset, zeros, sizes[member->kind]) != 0;
+        return choice_or_count(desc, member) > 0 && !is_zero(at, sizeof(const void *));
+    return !is_zero(at, sizes[member->kind]);
 }
 
-bool ffd_setting_is_set(const ffd_deform_desc *desc, const char *setting)
+/* The members that are set: few, in which the rules look for settings. */
+typedef struct set_members {
+    const ffd_member *list[MEMBERS];
+    size_t count;
+} set_members;
+
+static void find_set(const ffd_deform_desc *desc, set_members *set)
+{
+    set->count = 0;
+    for (size_t m = 0; m < MEMBERS; m++)
+        if (ffd_member_is_set(desc, &members[m]))
+            set->list[set->count++] = &members[m];
+}
+
+static bool is_among(const set_members *set, const ffd_deform_desc *desc, const char *setting)
 {
     const size_t length = strcspn(setting, "=");
     const char *const word = setting[length] ? setting + length + 1 : NULL;
     size_t m = 0;
-    while (m < MEMBERS && (members[m].name[0] != *setting || strncmp(members[m].name, setting, length) != 0 ||
-                           members[m].name[length]))
+    while (m < set->count &&
+           (strncmp(set->list[m]->name, setting, length) != 0 || set->list[m]->name[length]))
         m++;
-    if (m == MEMBERS || !ffd_member_is_set(desc, &members[m]))
-        return false;
-    if (!word)
-        return true;
-    const size_t index = choice_or_count(desc, &members[m]);
-    return ffd_member_is_list(&members[m]) ? index > 1 : strcmp(members[m].words[index], word) == 0;
+    if (m == set->count || !word)
+        return m < set->count;
+    const size_t index = choice_or_count(desc, set->list[m]);
+    return ffd_member_is_list(set->list[m]) ? index > 1 : strcmp(set->list[m]->words[index], word) == 0;
+}
+
+bool ffd_setting_is_set(const ffd_deform_desc *desc, const char *setting)
+{
+    set_members set;
+    find_set(desc, &set);
+    return is_among(&set, desc, setting);
 }
 
 static ffd_status check_range(const ffd_deform_desc *desc, const ffd_member *member, ffd_error *error)
@@ -220,10 +246,11 @@ static ffd_status check_gates(const ffd_deform_desc *desc, ffd_error *error)
     return FFD_OK;
 }
 
-static ffd_status check_rule(const ffd_deform_desc *desc, const job_rule *rule, ffd_error *error)
+static ffd_status check_rule(const set_members *set, const ffd_deform_desc *desc, const job_rule *rule,
+                             ffd_error *error)
 {
     char text[200];
-    if (!ffd_setting_is_set(desc, rule->setting))
+    if (!is_among(set, desc, rule->setting))
         return FFD_OK;
     if (rule->relation == JOB_NEEDS_FILES) {
         if (!desc->sink && !desc->input.bytes.data)
@@ -231,7 +258,7 @@ static ffd_status check_rule(const ffd_deform_desc *desc, const job_rule *rule, 
         snprintf(text, sizeof text, "{%s} needs files: here %s in memory", rule->setting,
                  desc->sink ? "the output is" : "the mesh is");
     } else {
-        if (ffd_setting_is_set(desc, rule->other) == (rule->relation == JOB_NEEDS))
+        if (is_among(set, desc, rule->other) == (rule->relation == JOB_NEEDS))
             return FFD_OK;
         snprintf(text, sizeof text, "{%s} %s {%s}", rule->setting,
                  rule->relation == JOB_NEEDS ? "needs" : "cannot be used with", rule->other);
@@ -248,7 +275,9 @@ ffd_status ffd_deform_desc_check(const ffd_deform_desc *callers, ffd_error *erro
     for (size_t m = 0; m < MEMBERS; m++)
         TRY(check_range(&desc, &members[m], error));
     TRY(check_gates(&desc, error));
+    set_members set;
+    find_set(&desc, &set);
     for (const job_rule *rule = ffd_job_rules; rule->setting; rule++)
-        TRY(check_rule(&desc, rule, error));
+        TRY(check_rule(&set, &desc, rule, error));
     return FFD_OK;
 }

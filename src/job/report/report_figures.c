@@ -21,7 +21,7 @@ static const figure *after(const figure *f)
 /* Returns the figure after the last one of a job: those of a pass have no name. */
 static bool is_of_report(const figure *f)
 {
-    return f < ffd_figures + ffd_figure_count && f->name;
+    return f < ffd_figures + ffd_figure_count && *f->name;
 }
 
 /* A group of plain values is written on one line. */
@@ -267,7 +267,7 @@ ffd_status ffd_job_result_text(const ffd_job_result *callers, const char *lattic
         bool null;
         /* The lines of sizes say why they are not known. */
         if (f->lines && (ffd_figure_is_there(f, &result, &null) || f->presence == FIGURE_NULL_UNLESS_FINITE))
-            f->lines(&lines);
+            ffd_lines_write(f->lines, &lines);
     }
     *text = ffd_buffer_finish(&out);
     return *text ? FFD_OK : ffd_fail_memory(error);
