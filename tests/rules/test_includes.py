@@ -98,7 +98,7 @@ LAYERS = {
         "base", "base/memory", "base/system", "base/vector", "deform", "io/openmesh", "job/chain", "job/figures", "job/input",
         "lattice", "mesh",
     },
-    "job/judge": {"base", "base/text", "job/chain", "job/figures", "lattice"},
+    "job/judge": {"base", "base/memory", "base/text", "job/chain", "job/figures", "lattice"},
     "job/measure": {
         "base", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/frame", "io/openmesh",
         "job/chain", "job/figures", "job/input", "job/pass", "lattice", "mesh",
