@@ -14,6 +14,7 @@ typedef struct page_mesh {
     const view_scene *scene;
     uint32_t *triangles; /* 3 indices each, part by part */
     uint8_t *flipped;    /* one flag a triangle, or NULL */
+    float *texcoords;    /* 6 a triangle, zeros where no texture is shown; NULL: none is */
     size_t triangle_count;
     page_part *parts; /* as many as the scene has; one where it has none */
     size_t part_count;

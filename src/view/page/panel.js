@@ -150,7 +150,8 @@ function partRow(viewer, part, index) {
   const line = checkbox('', name, !viewer.hidden.has(index), (on) => viewer.showPart(index, on), extra);
   line.firstChild.dataset.part = index;
   if (viewer.tornParts.has(index)) line.insertBefore(make('b', 'badge', 'torn'), extra);
-  if (part.material && part.material !== part.name) line.title = `${part.name} \u2013 material ${part.material}`;
+  const material = scene.materials[part.material];
+  if (material && material.name && material.name !== part.name) line.title = `${part.name} \u2013 material ${material.name}`;
   return line;
 }
 

@@ -8,10 +8,12 @@ layout(location = 2) in vec3 normalBefore;
 layout(location = 3) in vec3 normalAfter;
 layout(location = 4) in vec2 value;
 layout(location = 5) in vec4 color;
+layout(location = 6) in vec2 texcoord;
 uniform mat4 camera, projection;
 uniform float blend, pointSize;
+uniform vec2 texcoordLow, texcoordSize;
 out vec3 position, normal;
-out vec2 shownValue;
+out vec2 shownValue, shownTexcoord;
 out vec4 shownColor;
 void main() {
   vec4 seen = camera * vec4(before + blend * move, 1.0);
@@ -19,31 +21,38 @@ void main() {
   normal = mat3(camera) * mix(normalBefore, normalAfter, blend);
   shownValue = value;
   shownColor = color;
+  shownTexcoord = texcoordLow + texcoordSize * texcoord;
   gl_Position = projection * seen;
   gl_PointSize = pointSize;
 }`;
 
-// mode 0: base colours; 1: the ramp by value; 2: the ramp by log2 of value, folded from 0 on; 3: the vertices' colours;
+// mode 0: materials; 1: the ramp by value; 2: the ramp by log2 of value, folded from 0 on; 3: the vertices' colours;
 // 4: stripes. value.y is 1 where value.x is known.
 const SURFACE_FRAGMENT = `#version 300 es
 precision highp float;
 precision highp int;
 in vec3 position, normal;
-in vec2 shownValue;
+in vec2 shownValue, shownTexcoord;
 in vec4 shownColor;
 uniform int mode, element;
-uniform bool isSmooth;
+uniform bool isSmooth, hasImage, isTwoSided, isBlended;
+uniform float cutoff;
 uniform vec2 range;
 uniform vec4 baseColor;
 uniform vec3 unknownColor, foldedColor;
-uniform sampler2D ramp;
+uniform sampler2D ramp, image;
 out vec4 result;
 
 vec3 toLinear(vec3 c) { return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(0.04045, c)); }
 vec3 toScreen(vec3 c) { return mix(c * 12.92, 1.055 * pow(max(c, 0.0), vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c)); }
 
-vec3 surfaceColor() {
-  if (mode == 0) return baseColor.rgb * toLinear(shownColor.rgb);
+// Linear, with the opacity. v is upwards, the rows of an image downwards.
+vec4 materialColor() {
+  vec4 own = baseColor * vec4(toLinear(shownColor.rgb), shownColor.a);
+  return hasImage ? own * texture(image, vec2(shownTexcoord.x, 1.0 - shownTexcoord.y)) : own;
+}
+
+vec3 markColor() {
   if (mode == 3) return toLinear(shownColor.rgb);
   if (mode == 4) {
     float stripe = fract((gl_FragCoord.x + gl_FragCoord.y) / 10.0);
@@ -62,6 +71,9 @@ vec3 surfaceColor() {
   return toLinear(texture(ramp, vec2((at * 255.0 + 0.5) / 256.0, 0.5)).rgb);
 }
 
+// A surface that is cut by its opacity, or has none, is solid where it is.
+float opacity(float alpha) { return isBlended ? alpha : 1.0; }
+
 vec3 facing() {
   vec3 flat_ = cross(dFdx(position), dFdy(position));
   vec3 n = isSmooth ? normal : flat_;
@@ -72,7 +84,9 @@ vec3 facing() {
 }
 
 void main() {
-  vec3 base = surfaceColor();
+  vec4 own = mode == 0 ? materialColor() : vec4(markColor(), 1.0);
+  if (mode == 0 && own.a < cutoff) discard;
+  vec3 base = own.rgb;
   if (element == 1) {
     vec2 at = 2.0 * gl_PointCoord - 1.0;
     if (dot(at, at) > 1.0) discard;
@@ -93,8 +107,9 @@ void main() {
   float edge = 1.0 - 0.22 * pow(1.0 - max(dot(n, toEye), 0.0), 3.0);
   vec3 lit = base * light * edge + shine;
   // The inner side of a surface is darker and cooler.
-  if (!gl_FrontFacing && mode != 4) lit *= vec3(0.58, 0.62, 0.72);
-  result = vec4(toScreen(lit), 1.0);
+  if (!gl_FrontFacing && mode != 4 && !(mode == 0 && isTwoSided)) lit *= vec3(0.58, 0.62, 0.72);
+  float alpha = mode == 0 ? opacity(own.a) : 1.0;
+  result = vec4(toScreen(lit) * alpha, alpha);
 }`;
 
 // An instance is a line; its two triangles are as wide as `width` pixels.
