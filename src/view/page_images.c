@@ -30,21 +30,29 @@ static const char *type_of(const mesh_image *file)
     return NULL;
 }
 
+static void list_one(page_images *images, uint32_t used)
+{
+    if (used >= images->from->image_count || ffd_page_image_of(images, used) != VIEW_NONE)
+        return;
+    const mesh_image *const file = &images->from->images[used];
+    const char *const type = type_of(file);
+    images->unknown_count += !type;
+    if (!type)
+        return;
+    images->list[images->count++] = (page_image){.image = used, .type = type};
+    images->all_bytes += file->size;
+}
+
 static void list_used(const page_mesh *mesh, page_images *images)
 {
     const view_scene *const scene = mesh->scene;
     for (size_t p = 0; p < scene->part_count; p++) {
-        const uint32_t material = scene->parts[p].material;
-        const uint32_t used =
-            material < images->from->count ? images->from->list[material].image : MATERIAL_NONE;
-        if (used >= images->from->image_count || ffd_page_image_of(images, used) != VIEW_NONE)
+        if (scene->parts[p].material >= images->from->count)
             continue;
-        const char *const type = type_of(&images->from->images[used]);
-        images->unknown_count += !type;
-        if (!type)
-            continue;
-        images->list[images->count++] = (page_image){.image = used, .type = type};
-        images->all_bytes += images->from->images[used].size;
+        const mesh_material *const material = &images->from->list[scene->parts[p].material];
+        list_one(images, material->base.image);
+        list_one(images, material->glow.image);
+        list_one(images, material->opacity.image);
     }
     images->bytes = images->all_bytes;
 }

@@ -74,8 +74,11 @@ static size_t take_elements(const page_mesh *mesh, const uint32_t *from, size_t 
 static bool is_textured(const view_scene *scene, const view_part *part)
 {
     const mesh_materials *const materials = &scene->materials;
-    return scene->texcoords && part->material < materials->count &&
-           materials->list[part->material].image < materials->image_count;
+    if (!scene->texcoords || part->material >= materials->count)
+        return false;
+    const mesh_material *const m = &materials->list[part->material];
+    return m->base.image < materials->image_count || m->glow.image < materials->image_count ||
+           m->opacity.image < materials->image_count;
 }
 
 static bool has_textures(const view_scene *scene)
@@ -84,6 +87,16 @@ static bool has_textures(const view_scene *scene)
     while (i < scene->part_count && !is_textured(scene, &scene->parts[i]))
         i++;
     return i < scene->part_count;
+}
+
+static void take_texcoords(const view_scene *scene, size_t triangle, float *to)
+{
+    for (size_t corner = 3 * triangle; corner < 3 * triangle + 3; corner++) {
+        memcpy(to, scene->texcoords + 2 * corner, 2 * sizeof *to);
+        if (scene->glow_texcoords)
+            memcpy(to + 2, scene->glow_texcoords + 2 * corner, 2 * sizeof *to);
+        to += scene->glow_texcoords ? 4 : 2;
+    }
 }
 
 static void take_part(page_mesh *mesh, size_t first, size_t count, bool has_texture, page_part *part)
@@ -99,8 +112,7 @@ static void take_part(page_mesh *mesh, size_t first, size_t count, bool has_text
         if (mesh->flipped)
             mesh->flipped[mesh->triangle_count] = scene->flipped[t] != 0;
         if (has_texture)
-            memcpy(mesh->texcoords + 6 * mesh->triangle_count, scene->texcoords + 6 * t,
-                   6 * sizeof *mesh->texcoords);
+            take_texcoords(scene, t, mesh->texcoords + 3 * mesh->texcoord_width * mesh->triangle_count);
         memcpy(mesh->triangles + 3 * mesh->triangle_count++, corners, 3 * sizeof *corners);
     }
     part->triangle_count = mesh->triangle_count - part->first_triangle;
@@ -119,13 +131,14 @@ static bool allocate(page_mesh *mesh, size_t triangles, size_t points)
     const view_scene *const scene = mesh->scene;
     mesh->triangles = ffd_alloc(triangles, 3 * sizeof *mesh->triangles);
     mesh->flipped = scene->flipped ? ffd_alloc(triangles, 1) : NULL;
-    const bool textured = has_textures(scene);
-    mesh->texcoords = textured ? ffd_alloc_zero(triangles, 6 * sizeof *mesh->texcoords) : NULL;
+    mesh->texcoord_width = !has_textures(scene) ? 0 : scene->glow_texcoords ? 4 : 2;
+    const size_t texcoords = 3 * mesh->texcoord_width;
+    mesh->texcoords = texcoords ? ffd_alloc_zero(triangles, texcoords * sizeof *mesh->texcoords) : NULL;
     mesh->parts = ffd_alloc_zero(mesh->part_count, sizeof *mesh->parts);
     mesh->segments = ffd_alloc(scene->segment_count, 2 * sizeof *mesh->segments);
     mesh->points = ffd_alloc(points, sizeof *mesh->points);
     mesh->places = ffd_alloc(scene->vertex_count, sizeof *mesh->places);
-    return mesh->triangles && (mesh->flipped || !scene->flipped) && (mesh->texcoords || !textured) &&
+    return mesh->triangles && (mesh->flipped || !scene->flipped) && (mesh->texcoords || !texcoords) &&
            mesh->parts && mesh->segments && mesh->points && mesh->places;
 }
 

@@ -25,7 +25,7 @@ typedef struct reducer {
     uint32_t *global; /* of each vertex of the run: its index in the scene */
     uint32_t
         *next; /* and another with the same one and other texture coordinates; VIEW_NONE: there is none */
-    float *texcoords; /* of each vertex of the run, 2 numbers */
+    float *texcoords; /* of each vertex of the run, as many as a corner of the mesh has */
     float *positions;
     uint32_t *indices, *result; /* of the run: before and after simplification */
     uint32_t *kept;             /* copy of a part's triangles, sorted by class, */
@@ -59,7 +59,7 @@ static bool allocate(reducer *r)
     r->local = ffd_alloc(vertices, sizeof *r->local);
     r->global = ffd_alloc(run, 3 * sizeof *r->global);
     r->next = ffd_alloc(run, 3 * sizeof *r->next);
-    r->texcoords = ffd_alloc(run, 6 * sizeof *r->texcoords);
+    r->texcoords = ffd_alloc(run, 3 * r->mesh->texcoord_width * sizeof *r->texcoords);
     r->positions = ffd_alloc(run, 9 * sizeof *r->positions);
     r->indices = ffd_alloc(run, 3 * sizeof *r->indices);
     r->result = ffd_alloc(run, 3 * sizeof *r->result);
@@ -103,8 +103,8 @@ static void enter_vertex(reducer *r, uint32_t v, const float *uv, uint32_t at)
     for (size_t a = 0; a < 3; a++)
         r->positions[3 * (size_t)at + a] =
             (float)((r->mesh->scene->before[3 * (size_t)v + a] - r->low[a]) * r->scale);
-    for (size_t a = 0; a < 2; a++)
-        r->texcoords[2 * (size_t)at + a] = uv ? uv[a] : 0;
+    if (uv)
+        memcpy(r->texcoords + r->mesh->texcoord_width * at, uv, r->mesh->texcoord_width * sizeof *uv);
     r->global[at] = v;
     r->next[at] = r->local[v];
     r->local[v] = at;
@@ -114,8 +114,9 @@ static void enter_vertex(reducer *r, uint32_t v, const float *uv, uint32_t at)
    none. */
 static uint32_t find_vertex(const reducer *r, uint32_t v, const float *uv)
 {
+    const size_t width = r->mesh->texcoord_width;
     uint32_t at = r->local[v];
-    while (uv && at != VIEW_NONE && memcmp(r->texcoords + 2 * (size_t)at, uv, 2 * sizeof *uv) != 0)
+    while (uv && at != VIEW_NONE && memcmp(r->texcoords + width * at, uv, width * sizeof *uv) != 0)
         at = r->next[at];
     return at;
 }
@@ -127,7 +128,7 @@ static size_t enter_run(reducer *r, const uint32_t *corners, const float *texcoo
 {
     size_t vertices = 0;
     for (size_t i = 0; i < count; i++) {
-        const float *const uv = texcoords ? texcoords + 2 * i : NULL;
+        const float *const uv = texcoords ? texcoords + r->mesh->texcoord_width * i : NULL;
         uint32_t at = find_vertex(r, corners[i], uv);
         if (at == VIEW_NONE) {
             at = (uint32_t)vertices++;
@@ -156,8 +157,9 @@ static ffd_status reduce_run(reducer *r, double ratio, bool is_rough, uint32_t *
         return status;
     for (size_t i = 0; i < left; i++)
         corners[i] = r->global[r->result[i]];
+    const size_t width = r->mesh->texcoord_width;
     for (size_t i = 0; texcoords && i < left; i++)
-        memcpy(texcoords + 2 * i, r->texcoords + 2 * (size_t)r->result[i], 2 * sizeof *texcoords);
+        memcpy(texcoords + width * i, r->texcoords + width * r->result[i], width * sizeof *texcoords);
     *count = left / 3;
     return FFD_OK;
 }
@@ -165,6 +167,7 @@ static ffd_status reduce_run(reducer *r, double ratio, bool is_rough, uint32_t *
 /* Copies a part's triangles into kept, sorted by class. */
 static void sort_part(reducer *r, const page_part *part, size_t counts[CLASSES])
 {
+    const size_t wide = 3 * r->mesh->texcoord_width;
     size_t at = 0;
     for (int kind = 0; kind < CLASSES; kind++) {
         const size_t first = at;
@@ -172,8 +175,8 @@ static void sort_part(reducer *r, const page_part *part, size_t counts[CLASSES])
             if (class_of(r, t) == kind) {
                 memcpy(r->kept + 3 * at, r->mesh->triangles + 3 * t, 3 * sizeof *r->kept);
                 if (r->kept_texcoords)
-                    memcpy(r->kept_texcoords + 6 * at, r->mesh->texcoords + 6 * t,
-                           6 * sizeof *r->kept_texcoords);
+                    memcpy(r->kept_texcoords + wide * at, r->mesh->texcoords + wide * t,
+                           wide * sizeof *r->kept_texcoords);
                 at++;
             }
         counts[kind] = at - first;
@@ -183,10 +186,11 @@ static void sort_part(reducer *r, const page_part *part, size_t counts[CLASSES])
 /* Appends triangles to the mesh. texcoords: NULL if it has none. */
 static void put_back(page_mesh *mesh, const uint32_t *corners, const float *texcoords, size_t count, int kind)
 {
+    const size_t wide = 3 * mesh->texcoord_width;
     if (count)
         memcpy(mesh->triangles + 3 * mesh->triangle_count, corners, 3 * count * sizeof *corners);
     if (count && texcoords)
-        memcpy(mesh->texcoords + 6 * mesh->triangle_count, texcoords, 6 * count * sizeof *texcoords);
+        memcpy(mesh->texcoords + wide * mesh->triangle_count, texcoords, wide * count * sizeof *texcoords);
     if (mesh->flipped)
         memset(mesh->flipped + mesh->triangle_count, kind == FLIPPED, count);
     mesh->triangle_count += count;
@@ -209,7 +213,8 @@ static ffd_status reduce_class(reducer *r, double ratio, bool is_rough, int kind
     for (size_t done = 0; done < count;) {
         size_t run = count - done < RUN_TRIANGLES ? count - done : RUN_TRIANGLES;
         uint32_t *const corners = r->kept + 3 * (start + done);
-        float *const texcoords = r->kept_texcoords ? r->kept_texcoords + 6 * (start + done) : NULL;
+        float *const texcoords =
+            r->kept_texcoords ? r->kept_texcoords + 3 * r->mesh->texcoord_width * (start + done) : NULL;
         done += run;
         TRY(reduce_run(r, ratio, is_rough, corners, texcoords, &run, error));
         put_back(r->mesh, corners, texcoords, run, kind);
@@ -241,8 +246,8 @@ static ffd_status reduce_part(reducer *r, double ratio, bool is_rough, page_part
         at += counts[kind];
     }
 end:
-    put_torn(r->mesh, marks, r->kept + 3 * at, r->kept_texcoords ? r->kept_texcoords + 6 * at : NULL,
-             counts[TORN]);
+    put_torn(r->mesh, marks, r->kept + 3 * at,
+             r->kept_texcoords ? r->kept_texcoords + 3 * r->mesh->texcoord_width * at : NULL, counts[TORN]);
     part->triangle_count = r->mesh->triangle_count - part->first_triangle;
     ffd_free(marks);
     return status;
@@ -269,7 +274,8 @@ static ffd_status reduce_once(reducer *r, double ratio, bool is_rough, ffd_error
     for (size_t i = 0; i < mesh->part_count; i++)
         largest = mesh->parts[i].triangle_count > largest ? mesh->parts[i].triangle_count : largest;
     r->kept = ffd_alloc(largest, 3 * sizeof *r->kept);
-    r->kept_texcoords = mesh->texcoords ? ffd_alloc(largest, 6 * sizeof *r->kept_texcoords) : NULL;
+    r->kept_texcoords =
+        mesh->texcoords ? ffd_alloc(largest, 3 * mesh->texcoord_width * sizeof *r->kept_texcoords) : NULL;
     if (!r->kept || (mesh->texcoords && !r->kept_texcoords))
         return ffd_fail_memory(error);
     /* Triangles are written back in place: no part grows, so none is overwritten before it is read. */
@@ -283,6 +289,7 @@ static ffd_status reduce_once(reducer *r, double ratio, bool is_rough, ffd_error
    triangles evenly. */
 static void drop_triangles(page_mesh *mesh, double ratio)
 {
+    const size_t wide = 3 * mesh->texcoord_width;
     size_t left = 0;
     for (size_t i = 0; i < mesh->part_count; i++) {
         page_part *const part = &mesh->parts[i];
@@ -293,7 +300,8 @@ static void drop_triangles(page_mesh *mesh, double ratio)
                 if (mesh->flipped)
                     mesh->flipped[left] = mesh->flipped[t];
                 if (mesh->texcoords)
-                    memmove(mesh->texcoords + 6 * left, mesh->texcoords + 6 * t, 6 * sizeof *mesh->texcoords);
+                    memmove(mesh->texcoords + wide * left, mesh->texcoords + wide * t,
+                            wide * sizeof *mesh->texcoords);
                 left++;
             }
         *part = (page_part){first, left - first};

@@ -41,25 +41,42 @@ static void put_mesh(json_text *json, const page_data *data)
     ffd_json_number(json, "displacementMax", scene->displacement_max);
 }
 
-static void put_material(json_text *json, const mesh_material *material, const page_images *images)
+/* Adds a texture that the page has; nothing if there is none. */
+static void put_texture(json_text *json, const char *key, const mesh_texture *texture,
+                        const page_images *images)
 {
     static const char *const wraps[] = {
         [TEXTURE_REPEAT] = "repeat", [TEXTURE_MIRROR] = "mirror", [TEXTURE_CLAMP] = "clamp"};
-    const uint32_t image = ffd_page_image_of(images, material->image);
+    const uint32_t at = ffd_page_image_of(images, texture->image);
+    if (at == VIEW_NONE)
+        return;
+    ffd_json_object(json, key, true);
+    ffd_json_count(json, "image", at);
+    ffd_json_array(json, "wrap", true);
+    for (int a = 0; a < 2; a++)
+        ffd_json_string(json, NULL, wraps[texture->wrap[a]]);
+    ffd_json_end(json, ']');
+    ffd_json_end(json, '}');
+}
+
+static void put_material(json_text *json, const mesh_material *material, const page_images *images)
+{
+    static const char *const alphas[] = {
+        [MATERIAL_OPAQUE] = "opaque", [MATERIAL_MASK] = "mask", [MATERIAL_BLEND] = "blend"};
     ffd_json_object(json, NULL, true);
     put_name(json, "name", material->name);
     ffd_json_vector(json, "color", material->color, 4);
+    ffd_json_string(json, "alpha", alphas[material->alpha]);
     ffd_json_number(json, "cutoff", material->alpha_cutoff);
+    ffd_json_vector(json, "emission", material->emission, 3);
     ffd_json_bool(json, "twoSided", material->is_double_sided);
-    if (image != VIEW_NONE) {
-        ffd_json_count(json, "image", image);
-        ffd_json_array(json, "wrap", true);
-        for (int a = 0; a < 2; a++)
-            ffd_json_string(json, NULL, wraps[material->wrap[a]]);
-        ffd_json_end(json, ']');
-    } else {
-        ffd_json_bool(json, "lost", material->image != MATERIAL_NONE);
-    }
+    ffd_json_bool(json, "unlit", material->is_unlit);
+    ffd_json_bool(json, "lost",
+                  material->base.image != MATERIAL_NONE &&
+                      ffd_page_image_of(images, material->base.image) == VIEW_NONE);
+    put_texture(json, "base", &material->base, images);
+    put_texture(json, "glow", &material->glow, images);
+    put_texture(json, "opacity", &material->opacity, images);
     ffd_json_end(json, '}');
 }
 

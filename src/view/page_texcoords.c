@@ -17,18 +17,18 @@ static float fit(float x)
     return fabsf(x) <= (float)FARTHEST ? x : 0;
 }
 
-static uint32_t find(const page_texcoords *t, const wedge_table *table, uint32_t vertex, const float uv[2])
+static uint32_t find(const page_texcoords *t, const wedge_table *table, uint32_t vertex, const float *uv)
 {
     uint32_t at = table->first[vertex];
-    while (at != VIEW_NONE && memcmp(t->values + 2 * (size_t)at, uv, 2 * sizeof *uv) != 0)
+    while (at != VIEW_NONE && memcmp(t->values + t->width * at, uv, t->width * sizeof *uv) != 0)
         at = table->next[at];
     return at;
 }
 
-static uint32_t add(page_texcoords *t, wedge_table *table, uint32_t vertex, const float uv[2])
+static uint32_t add(page_texcoords *t, wedge_table *table, uint32_t vertex, const float *uv)
 {
     const uint32_t at = (uint32_t)t->count++;
-    memcpy(t->values + 2 * (size_t)at, uv, 2 * sizeof *uv);
+    memcpy(t->values + t->width * at, uv, t->width * sizeof *uv);
     t->vertices[at] = vertex;
     table->next[at] = table->first[vertex];
     table->first[vertex] = at;
@@ -40,7 +40,9 @@ static void collect(const page_mesh *mesh, wedge_table *table, page_texcoords *t
     for (size_t v = 0; v < mesh->vertex_count; v++)
         table->first[v] = VIEW_NONE;
     for (size_t i = 0; i < t->corner_count; i++) {
-        const float *const from = mesh->texcoords + 2 * i, uv[2] = {fit(from[0]), fit(from[1])};
+        float uv[4];
+        for (size_t a = 0; a < t->width; a++)
+            uv[a] = fit(mesh->texcoords[t->width * i + a]);
         const uint32_t vertex = mesh->triangles[i], known = find(t, table, vertex, uv);
         t->corners[i] = known == VIEW_NONE ? add(t, table, vertex, uv) : known;
     }
@@ -48,12 +50,12 @@ static void collect(const page_mesh *mesh, wedge_table *table, page_texcoords *t
 
 static void measure(page_texcoords *t)
 {
-    for (size_t a = 0; a < 2; a++) {
+    for (size_t a = 0; a < t->width; a++) {
         double high = t->count ? t->values[a] : 0;
         t->low[a] = high;
         for (size_t i = 0; i < t->count; i++) {
-            t->low[a] = fmin(t->low[a], t->values[2 * i + a]);
-            high = fmax(high, t->values[2 * i + a]);
+            t->low[a] = fmin(t->low[a], t->values[t->width * i + a]);
+            high = fmax(high, t->values[t->width * i + a]);
         }
         t->step[a] = (high - t->low[a]) / STEPS;
     }
@@ -64,10 +66,11 @@ ffd_status ffd_page_texcoords_make(const page_mesh *mesh, page_texcoords *t, ffd
     *t = (page_texcoords){0};
     if (!mesh->texcoords)
         return FFD_OK;
+    t->width = mesh->texcoord_width;
     t->corner_count = 3 * mesh->triangle_count;
     t->corners = ffd_alloc(t->corner_count, sizeof *t->corners);
     t->vertices = ffd_alloc(t->corner_count, sizeof *t->vertices);
-    t->values = ffd_alloc(t->corner_count, 2 * sizeof *t->values);
+    t->values = ffd_alloc(t->corner_count, t->width * sizeof *t->values);
     wedge_table table = {ffd_alloc(mesh->vertex_count, sizeof *table.first),
                          ffd_alloc(t->corner_count, sizeof *table.next)};
     const bool made = t->corners && t->vertices && t->values && table.first && table.next;
@@ -98,8 +101,9 @@ static void fill_values(const void *of, size_t first, size_t count, unsigned cha
 {
     const page_texcoords *const t = of;
     for (size_t i = first; i < first + count; i++)
-        for (size_t a = 0; a < 2; a++, bytes += 2) {
-            const double q = t->step[a] > 0 ? nearbyint((t->values[2 * i + a] - t->low[a]) / t->step[a]) : 0;
+        for (size_t a = 0; a < t->width; a++, bytes += 2) {
+            const double q =
+                t->step[a] > 0 ? nearbyint((t->values[t->width * i + a] - t->low[a]) / t->step[a]) : 0;
             store_u16(bytes, (uint16_t)(q > STEPS ? STEPS : q));
         }
 }
@@ -109,7 +113,7 @@ void ffd_page_texcoords_write(const page_texcoords *t, page_writer *w)
     if (!t->corners)
         return;
     ffd_page_write_block(w, "data-wedge", t->count, 4, fill_vertices, t);
-    ffd_page_write_block(w, "data-texcoord", t->count, 4, fill_values, t);
+    ffd_page_write_block(w, "data-texcoord", t->count, 2 * t->width, fill_values, t);
     ffd_page_write_block(w, "data-corner", t->corner_count / 3, 12, fill_corners, t);
 }
 
@@ -118,8 +122,8 @@ void ffd_page_texcoords_describe(const page_texcoords *t, json_text *json)
     if (!t->corners)
         return;
     ffd_json_count(json, "wedges", t->count);
-    ffd_json_vector(json, "texcoordLow", t->low, 2);
-    ffd_json_vector(json, "texcoordStep", t->step, 2);
+    ffd_json_vector(json, "texcoordLow", t->low, t->width);
+    ffd_json_vector(json, "texcoordStep", t->step, t->width);
 }
 
 void ffd_page_texcoords_free(page_texcoords *t)

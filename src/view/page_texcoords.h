@@ -11,10 +11,11 @@
 typedef struct page_texcoords {
     uint32_t *corners;  /* wedge of each corner of the triangles */
     uint32_t *vertices; /* vertex of each wedge */
-    float *values;      /* 2 of each wedge, v upwards */
+    float *values;      /* of each wedge, as many as a corner of the mesh has, v upwards */
     size_t count;
     size_t corner_count;
-    double low[2], step[2]; /* u = low + step q, q from 0 to 65535 */
+    size_t width;
+    double low[4], step[4]; /* u = low + step q, q from 0 to 65535 */
 } page_texcoords;
 
 /* Collects the wedges of an indexed mesh (ffd_page_mesh_index); none if it has no texture coordinates.
