@@ -37,14 +37,14 @@ function baseColor(material) {
   if (!material) return GREY;
   if (material.lost) return [0.47, 0.49, 0.52, 1];
   const [r, g, b, a] = material.color.map((x) => Math.min(Math.max(x || 0, 0), 1));
-  return Math.min(r, g, b) > 0.9 && material.image === undefined ? [0.72, 0.72, 0.73, a] : [r, g, b, a];
+  return Math.min(r, g, b) > 0.9 && !material.base ? [0.72, 0.72, 0.73, a] : [r, g, b, a];
 }
 
 // Whether the mesh has colours to be looked at: textures, colours of vertices, or of materials that are not all white.
 function hasOwnColors(scene) {
   const isColored = ({material}) => {
     const of = scene.materials[material];
-    return of && (of.image !== undefined || of.color.slice(0, 3).some((x) => x < 0.9));
+    return of && (of.base || of.color.slice(0, 3).some((x) => x < 0.9));
   };
   return Boolean(scene.colors) || scene.parts.some(isColored);
 }
@@ -135,7 +135,7 @@ function detLegend(scene, paint) {
 function plainLegend(scene) {
   const used = scene.parts.map(({material}) => scene.materials[material]).filter((of) => of);
   const what = [];
-  if (used.some((of) => of.image !== undefined)) what.push('textures');
+  if (used.some((of) => of.base || of.glow)) what.push('textures');
   if (scene.colors) what.push('colours of the vertices');
   if (!what.length) what.push('colours of the materials');
   const isLost = used.some((of) => of.lost);

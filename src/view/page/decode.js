@@ -87,7 +87,7 @@ function readWedges(scene) {
 }
 
 function areWedgesWhole(wedges, scene) {
-  return [[wedges.vertices, wedges.count], [wedges.texcoords, 2 * wedges.count], [wedges.corners, 3 * scene.triangles]]
+  return [[wedges.vertices, wedges.count], [wedges.texcoords, scene.texcoordLow.length * wedges.count], [wedges.corners, 3 * scene.triangles]]
     .every(([array, size]) => array && array.length === size);
 }
 

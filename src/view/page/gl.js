@@ -57,6 +57,17 @@ function fillTexture(gl, texture, bitmap) {
   if (sharp) gl.texParameterf(gl.TEXTURE_2D, sharp.TEXTURE_MAX_ANISOTROPY_EXT, 4);
 }
 
+function keyOf(use) {
+  return use.image + ' ' + use.wrap;
+}
+
+// Whether an image is opaque everywhere, as far as a small copy shows.
+function isOpaque(bitmap) {
+  const canvas = new OffscreenCanvas(64, 64), context = canvas.getContext('2d');
+  context.drawImage(bitmap, 0, 0, 64, 64);
+  return context.getImageData(0, 0, 64, 64).data.every((value, i) => i % 4 < 3 || value === 255);
+}
+
 function makeBuffer(gl, kind, data) {
   const buffer = gl.createBuffer();
   gl.bindBuffer(kind, buffer);
@@ -81,10 +92,10 @@ function gather(values, sources) {
 }
 
 // Coordinates of the drawn vertices in their textures, as the page has them.
-function gatherTexcoords(scene, wedges) {
-  const result = new Uint16Array(2 * wedges.length);
+function gatherTexcoords(scene, wedges, width) {
+  const result = new Uint16Array(width * wedges.length);
   wedges.forEach((wedge, i) => {
-    if (wedge >= 0) result.set(scene.wedges.texcoords.subarray(2 * wedge, 2 * wedge + 2), 2 * i);
+    if (wedge >= 0) result.set(scene.wedges.texcoords.subarray(width * wedge, width * (wedge + 1)), width * i);
   });
   return result;
 }
@@ -107,7 +118,8 @@ function makeSurface(gl, scene) {
   const colors = makeBuffer(gl, gl.ARRAY_BUFFER, new Uint8Array(4 * sources.length).fill(255));
   bindAttribute(gl, 5, colors, 4, gl.UNSIGNED_BYTE, true, 0, 0);
   if (scene.wedges) {
-    bindAttribute(gl, 6, makeBuffer(gl, gl.ARRAY_BUFFER, gatherTexcoords(scene, split.wedges)), 2, gl.UNSIGNED_SHORT, true, 0, 0);
+    const width = scene.texcoordLow.length;
+    bindAttribute(gl, 6, makeBuffer(gl, gl.ARRAY_BUFFER, gatherTexcoords(scene, split.wedges, width)), width, gl.UNSIGNED_SHORT, true, 0, 0);
   }
   gl.bindVertexArray(null);
   const list = (from) => makeBuffer(gl, gl.ELEMENT_ARRAY_BUFFER, from.map((v) => drawn[v]));
@@ -141,7 +153,7 @@ function freeMarks(gl, marks) {
 
 // Whether a material lets through what is behind it.
 function isBlended(material) {
-  return Boolean(material && material.blend);
+  return Boolean(material) && material.alpha === 'blend' && !material.lost;
 }
 
 // Edges of the triangles that are shown: once each, but for borders that run the wrong way.
@@ -185,25 +197,26 @@ class Renderer {
 
   // Decodes the textures, and calls `redraw` after each.
   loadTextures(redraw) {
-    const {gl, scene} = this;
-    scene.materials.forEach(async ({image, wrap}) => {
-      const key = image + ' ' + wrap;
-      if (image === undefined || !scene.images[image] || this.textures.has(key)) return;
-      const texture = makeTexture(gl, wrap);
-      this.textures.set(key, texture);
-      try {
-        const bitmap = await decodeImage(gl, scene.images[image]);
-        fillTexture(gl, texture, bitmap);
-        bitmap.close();
-      } catch (problem) {
-        tellProblem('A texture of this page cannot be decoded.');
-      }
-      redraw();
-    });
+    for (const material of this.scene.materials) {
+      for (const use of [material.base, material.glow, material.opacity]) this.loadTexture(use, redraw);
+    }
   }
 
-  textureOf(material) {
-    return material && material.image !== undefined ? this.textures.get(material.image + ' ' + material.wrap) : undefined;
+  async loadTexture(use, redraw) {
+    const {gl, scene, textures} = this;
+    const blob = use ? scene.images[use.image] : null;
+    if (!blob || textures.has(keyOf(use))) return;
+    const texture = {of: makeTexture(gl, use.wrap), isOpaque: true};
+    textures.set(keyOf(use), texture);
+    try {
+      const bitmap = await decodeImage(gl, blob);
+      fillTexture(gl, texture.of, bitmap);
+      texture.isOpaque = isOpaque(bitmap);
+      bitmap.close();
+    } catch (problem) {
+      tellProblem('A texture of this page cannot be decoded.');
+    }
+    redraw();
   }
 
   // Values, colours and the ramp of a colouring (colors.js).
@@ -356,19 +369,35 @@ class Renderer {
 
   setMaterial(places, of) {
     const {gl, scene, paint} = this;
-    const isPlain = paint.mode === 0, texture = isPlain ? this.textureOf(of) : undefined;
-    gl.uniform4f(places.baseColor, ...(isPlain ? baseColor(of) : [1, 1, 1, 1]));
-    gl.uniform1f(places.cutoff, isPlain && of && !of.lost ? of.cutoff : 0);
-    gl.uniform1i(places.isTwoSided, of && of.twoSided ? 1 : 0);
-    gl.uniform1i(places.isBlended, isBlended(of) ? 1 : 0);
-    gl.uniform1i(places.hasImage, texture ? 1 : 0);
-    gl.uniform1i(places.image, 1);
-    if (!texture) return;
-    gl.uniform2f(places.texcoordLow, ...scene.texcoordLow);
-    gl.uniform2f(places.texcoordSize, ...scene.texcoordStep.map((x) => 65535 * x));
-    gl.activeTexture(gl.TEXTURE1);
-    gl.bindTexture(gl.TEXTURE_2D, texture);
+    const shown = paint.mode === 0 && of ? of : null;
+    gl.uniform4f(places.baseColor, ...(paint.mode === 0 ? baseColor(of) : [1, 1, 1, 1]));
+    gl.uniform1f(places.cutoff, shown && shown.alpha === 'mask' && !shown.lost ? shown.cutoff : 0);
+    gl.uniform3f(places.emission, ...(shown ? shown.emission : [0, 0, 0]));
+    gl.uniform1i(places.isTwoSided, shown && shown.twoSided ? 1 : 0);
+    gl.uniform1i(places.isBlended, isBlended(shown) ? 1 : 0);
+    gl.uniform1i(places.isUnlit, shown && shown.unlit ? 1 : 0);
+    if (scene.wedges) {
+      const four = (list, factor) => [0, 1, 2, 3].map((a) => factor * (list[a] || 0));
+      gl.uniform4f(places.texcoordLow, ...four(scene.texcoordLow, 1));
+      gl.uniform4f(places.texcoordSize, ...four(scene.texcoordStep, 65535));
+    }
+    const base = this.bindTexture(1, places.base, shown && shown.base), glow = this.bindTexture(2, places.glow, shown && shown.glow);
+    const opacity = this.bindTexture(3, places.opacity, shown && shown.opacity);
+    gl.uniform1i(places.hasBase, base ? 1 : 0);
+    gl.uniform1i(places.hasGlow, glow ? scene.texcoordLow.length / 2 : 0);
+    gl.uniform1i(places.hasOpacity, opacity ? (opacity.isOpaque ? 2 : 1) : 0);
     gl.activeTexture(gl.TEXTURE0);
+  }
+
+  // Binds the texture of a use, if it has one.
+  bindTexture(unit, place, use) {
+    const {gl} = this;
+    const texture = use ? this.textures.get(keyOf(use)) : undefined;
+    gl.uniform1i(place, unit);
+    if (!texture) return undefined;
+    gl.activeTexture(gl.TEXTURE0 + unit);
+    gl.bindTexture(gl.TEXTURE_2D, texture.of);
+    return texture;
   }
 
   drawRun(places, run) {
