@@ -30,10 +30,11 @@ static const char *type_of(const mesh_image *file)
     return NULL;
 }
 
-static void list_one(page_images *images, uint32_t used)
+static void list_one(page_images *images, uint32_t used, uint8_t *seen)
 {
-    if (used >= images->from->image_count || ffd_page_image_of(images, used) != VIEW_NONE)
+    if (used >= images->from->image_count || seen[used])
         return;
+    seen[used] = 1;
     const mesh_image *const file = &images->from->images[used];
     const char *const type = type_of(file);
     images->unknown_count += !type;
@@ -43,16 +44,16 @@ static void list_one(page_images *images, uint32_t used)
     images->all_bytes += file->size;
 }
 
-static void list_used(const page_mesh *mesh, page_images *images)
+static void list_used(const page_mesh *mesh, uint8_t *seen, page_images *images)
 {
     const view_scene *const scene = mesh->scene;
     for (size_t p = 0; p < scene->part_count; p++) {
         if (scene->parts[p].material >= images->from->count)
             continue;
         const mesh_material *const material = &images->from->list[scene->parts[p].material];
-        list_one(images, material->base.image);
-        list_one(images, material->glow.image);
-        list_one(images, material->opacity.image);
+        list_one(images, material->base.image, seen);
+        list_one(images, material->glow.image, seen);
+        list_one(images, material->opacity.image, seen);
     }
     images->bytes = images->all_bytes;
 }
@@ -139,9 +140,12 @@ ffd_status ffd_page_images_take(const page_mesh *mesh, bool full, const memory_b
     if (!mesh->texcoords)
         return FFD_OK;
     images->list = ffd_alloc_zero(images->from->image_count, sizeof *images->list);
-    if (!images->list)
+    uint8_t *const seen = ffd_alloc_zero(images->from->image_count, 1);
+    if (images->list && seen)
+        list_used(mesh, seen, images);
+    ffd_free(seen);
+    if (!images->list || !seen)
         return ffd_fail_memory(error);
-    list_used(mesh, images);
     return full ? FFD_OK : shrink_all(images, budget, error);
 }
 

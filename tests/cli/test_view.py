@@ -10,7 +10,8 @@ from gltf_build import Scene
 from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, NO, SANITIZED, UNSUPPORTED, USAGE, case, check, equal, glb,
                      glb_split, gltf_json, lattice, main, near)
 from page import read_page
-from png import make_png, read_png
+from png import read_png
+from png_make import make_png
 from messages import anything
 
 SHIFT = [{"by": [1, 0, 0]}]
@@ -263,7 +264,7 @@ def mistakes_are_refused_before_any_work(run):
 @case
 def how_a_page_opens(run):
     work = start(run)
-    equal(view(run, *work).scene["view"], {"color": "displacement", "camera": [0, 0, 0]}, "by default")
+    equal(view(run, *work).scene["view"], {"color": "auto", "camera": [0, 0, 0]}, "by default")
     for name, camera in (("front", [0, 0, 1]), ("back", [0, 0, -1]), ("left", [-1, 0, 0]), ("right", [1, 0, 0]),
                          ("top", [0, 1, 0]), ("iso", [0, 0, 0]), ("-1,0.5,2", [-1, 0.5, 2])):
         equal(view(run, *work, f"--camera={name}").scene["view"]["camera"], camera, name)
