@@ -167,7 +167,7 @@ async function aRealFoldIsPicked() {
   const {page, end} = await open('real_fold');
   const job = await page.evaluate(() => JSON.parse(document.getElementById('report').textContent).jobs[0]);
   assert.ok(job.folds.verdict === 'some' && job.flipped_faces > 1000, 'the report');
-  assert.match(await text(page, '#verdicts'), /The volume folds[^]*flipped faces/);
+  assert.match(await text(page, '#verdicts'), /The volume folds[^]*faces\s+turned over/);
   const pin = await page.locator('#witness').boundingBox();
   await changes(page, 'the witness', () => page.mouse.click(pin.x + pin.width / 2, pin.y + pin.height / 2));
   const said = await text(page, '#said');

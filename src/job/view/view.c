@@ -116,8 +116,7 @@ static ffd_status read_model(view_work *work, ffd_error *error)
 static ffd_status make_report(view_work *work, const ffd_job_result *result, ffd_error *error)
 {
     byte_buffer text = {0};
-    const report_entry entry = {
-        .input = ffd_source_name(&work->desc->job->input), .result = result, .stable = true};
+    const report_entry entry = {.input = work->scene.name, .result = result, .stable = true};
     ffd_buffer_text(&text, "{\"format\": \"ffd-report\", \"version\": 1, \"jobs\": [");
     ffd_report_entry_text(&entry, &text);
     ffd_buffer_text(&text, "]}");
@@ -125,11 +124,13 @@ static ffd_status make_report(view_work *work, const ffd_job_result *result, ffd
     return work->scene.report ? FFD_OK : ffd_fail_memory(error);
 }
 
+/* Names of files without their folders: a page is sent to people who need not know where its maker keeps
+   things. */
 static ffd_status name_scene(view_work *work, ffd_error *error)
 {
     const ffd_source *const deformed = work->desc->deformed;
-    work->scene.name = ffd_text_copy(ffd_source_name(&work->desc->job->input));
-    work->scene.output = deformed ? ffd_text_copy(ffd_source_name(deformed)) : NULL;
+    work->scene.name = ffd_text_copy(ffd_path_name(ffd_source_name(&work->desc->job->input)));
+    work->scene.output = deformed ? ffd_text_copy(ffd_path_name(ffd_source_name(deformed))) : NULL;
     return work->scene.name && (work->scene.output || !deformed) ? FFD_OK : ffd_fail_memory(error);
 }
 

@@ -178,7 +178,7 @@ function makeEdges(gl, surface, runs) {
 
 class Renderer {
   constructor(canvas, scene) {
-    const gl = canvas.getContext('webgl2', {antialias: true, alpha: true, premultipliedAlpha: true});
+    const gl = canvas.getContext('webgl2', {antialias: true, alpha: true, premultipliedAlpha: true, preserveDrawingBuffer: true});  // for paper
     if (!gl) throw new Error('WebGL2 is not there');
     this.gl = gl;
     this.canvas = canvas;
