@@ -112,9 +112,6 @@ static ffd_status make_textures(page_work *work, ffd_error *error)
             work, "%zu of %zu textures are smaller than in the model: %.1f in place of %.1f MB (see {full})",
             images->smaller_count, images->count, (double)images->bytes / 1e6,
             (double)images->all_bytes / 1e6);
-    if (images->unknown_count)
-        give_notice(work, "%zu %s not shown: browsers show PNG, JPEG and WebP", images->unknown_count,
-                    ffd_plural(images->unknown_count, "texture is", "textures are"));
     return FFD_OK;
 }
 

@@ -37,9 +37,8 @@ static void list_one(page_images *images, uint32_t used, uint8_t *seen)
     seen[used] = 1;
     const mesh_image *const file = &images->from->images[used];
     const char *const type = type_of(file);
-    images->unknown_count += !type;
     if (!type)
-        return;
+        return; /* the readers of materials let no other in */
     images->list[images->count++] = (page_image){.image = used, .type = type};
     images->all_bytes += file->size;
 }

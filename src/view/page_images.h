@@ -22,8 +22,8 @@ typedef struct page_images {
     const mesh_materials *from;
     page_image *list;
     size_t count;
-    size_t smaller_count, unknown_count; /* unknown: of a format that browsers do not show; left out */
-    uint64_t bytes, all_bytes;           /* of the list, and as the files have them */
+    size_t smaller_count;
+    uint64_t bytes, all_bytes; /* of the list, and as the files have them */
 } page_images;
 
 /* Lists the images of the parts of a mesh that has texture coordinates. Without `full` the largest are made

@@ -741,7 +741,7 @@ def a_page_holds_the_textures_of_its_model(run):
     equal(images_of(run), [("image/png", png)], "the file as it is")
     # What is no image stays out, and its material says so.
     textured(run, b"no image")
-    scene = view(run, "t.obj", err=re.compile("the page: 1 texture is not shown")).scene
+    scene = view(run, "t.obj", err=re.compile("1 image of a material cannot be shown")).scene
     check(scene["images"] == [] and scene["materials"][0]["lost"] and "base" not in scene["materials"][0], scene)
 
 
