@@ -1,11 +1,12 @@
 #!/bin/sh
 # Makes what is delivered, from what is committed; nothing is fetched, and nothing is uploaded.
-#     sh data/packaging/release.sh OUT [NAME...]     without a name all
+#     sh data/packaging/release.sh OUT [NAME...]     without a name all but macos
 # `sh .ci/setup release` gets the tools and the sources of the libraries before. The same commit gives the same bytes, in
 # whatever folder. In OUT each artefact has its SBOM beside it (FILE.spdx.json), and SHA256SUMS lists them.
 set -eu
 
 names='wheel wheel-arm64 wheel-musl wheel-windows static static-arm64 windows npm source deb'
+known="$names macos"
 
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -34,6 +35,7 @@ tools_of() {
         ;;
     static) echo 'meson ninja pkg-config gcc g++ strip' ;;
     static-arm64) echo 'meson ninja qemu-aarch64 aarch64-linux-gnu-g++ aarch64-linux-gnu-strip' ;;
+    macos) echo 'meson ninja @mesonpy @pycparser @ziglang' ;;
     windows) echo 'meson ninja x86_64-w64-mingw32-gcc-posix x86_64-w64-mingw32-g++-posix x86_64-w64-mingw32-strip' ;;
     npm) echo 'meson ninja emcc node' ;;
     source) ;;
@@ -86,11 +88,11 @@ pack() {
         --mtime="@$SOURCE_DATE_EPOCH" -cf - "$2" | xz -9 -T1 >"$made/$3"
 }
 
-[ $# -ge 1 ] && [ -n "$1" ] || { echo "usage: sh data/packaging/release.sh OUT [NAME...], NAME one of: $names" >&2 && exit 2; }
+[ $# -ge 1 ] && [ -n "$1" ] || { echo "usage: sh data/packaging/release.sh OUT [NAME...], NAME one of: $known" >&2 && exit 2; }
 out=$1
 shift
 for name; do
-    is_one_of "$name" "$names" || { echo "release: unknown name '$name' (known: $names)" >&2 && exit 2; }
+    is_one_of "$name" "$known" || { echo "release: unknown name '$name' (known: $known)" >&2 && exit 2; }
 done
 # shellcheck disable=SC2086 # words
 [ $# -gt 0 ] || set -- $names
@@ -123,7 +125,7 @@ fi
 
 # Debian's package is built before the libraries are added.
 begun=
-for name in deb $names; do
+for name in deb $known; do
     is_one_of "$name" "$*" && ! is_one_of "$name" "$begun" || continue
     begun="$begun $name"
     [ "$name" = deb ] || [ -n "${added-}" ] || { add_libraries "$source" && added=1; }

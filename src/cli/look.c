@@ -119,7 +119,8 @@ void cli_look_describe(const cli_look *look, ffd_view_desc *view)
 {
     view->up = (ffd_up)look->up;
     view->no_cage = look->no_cage;
-    view->color = (ffd_view_color)look->color;
+    if (look->has_color)
+        view->color = (ffd_view_color)look->color;
     view->width = look->size[0];
     view->height = look->size[1];
     view->frames = look->frames;

@@ -69,8 +69,8 @@ extern const char *const cli_side_names[], *const cli_up_names[], *const cli_col
          NULL},                                                                                              \
     {                                                                                                        \
         "color", 0, "displacement|status|det|plain",                                                         \
-            "colour by displacement, status, det F, or the mesh's own; default displacement", cli_set_color, \
-            at, cli_color_names                                                                              \
+            "by displacement, status, det F, or its own; default displacement, of a page its own",           \
+            cli_set_color, at, cli_color_names                                                               \
     }
 
 /* Fills the members of a description. */

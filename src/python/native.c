@@ -3,7 +3,7 @@
 
    The callbacks are in C because a KeyboardInterrupt inside a Python callback of ctypes could not be caught
    by the caller. Each callback acquires the GIL and stores its results, or an exception, in a list. */
-#ifndef _WIN32
+#ifndef FFD_STABLE_ABI
 #define PY_SSIZE_T_CLEAN
 #include <Python.h>
 #endif

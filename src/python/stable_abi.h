@@ -1,6 +1,7 @@
-/* stable_abi.h - what native.c uses of Python's stable ABI, for Windows, whose headers of Python no other
-   system has. Elsewhere Python.h comes first, and the compiler compares both. The build makes the import
-   library of python3.dll from the lines that begin with PYTHON. */
+/* stable_abi.h - what native.c uses of Python's stable ABI, for Windows and macOS (FFD_STABLE_ABI), whose
+   headers of Python the system that compiles for them does not have. Elsewhere Python.h comes first, and the
+   compiler compares both. The build makes the import library of python3.dll from the lines that begin with
+   PYTHON. */
 #ifndef FFD_PYTHON_STABLE_ABI_H
 #define FFD_PYTHON_STABLE_ABI_H
 
@@ -8,6 +9,13 @@
 
 #ifdef _WIN32
 #define PYTHON __declspec(dllimport)
+#define SHOWN __declspec(dllexport)
+#else
+#define PYTHON extern
+#define SHOWN __attribute__((visibility("default")))
+#endif
+
+#ifdef FFD_STABLE_ABI
 typedef ptrdiff_t Py_ssize_t;
 typedef struct stable_object PyObject;
 typedef struct stable_method PyMethodDef;
@@ -23,15 +31,13 @@ typedef enum { PyGILState_LOCKED, PyGILState_UNLOCKED } PyGILState_STATE;
 #define PyArg_ParseTuple _PyArg_ParseTuple_SizeT
 #define PyObject_CallFunction _PyObject_CallFunction_SizeT
 #define Py_BuildValue _Py_BuildValue_SizeT
-#define PyMODINIT_FUNC __declspec(dllexport) PyObject *
+#define PyMODINIT_FUNC SHOWN PyObject *
 #define PyModuleDef_HEAD_INIT                                                                                \
     {                                                                                                        \
         .ob_base = {.ob_refcnt = 1 }                                                                         \
     }
 #define PyModule_Create(definition) PyModule_Create2(definition, PYTHON_ABI_VERSION)
 #define PYTHON_ABI_VERSION 3
-#else
-#define PYTHON extern
 #endif
 
 struct stable_object {
@@ -59,7 +65,7 @@ struct stable_module {
     void *m_slots, *m_traverse, *m_clear, *m_free;
 };
 
-#ifndef _WIN32
+#ifndef FFD_STABLE_ABI
 #define HAS_MEMBER(type, other, member)                                                                      \
     _Static_assert(offsetof(struct type, member) == offsetof(other, member), #member)
 _Static_assert(sizeof(struct stable_object) == sizeof(PyObject), "PyObject");

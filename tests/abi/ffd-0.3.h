@@ -496,7 +496,8 @@ typedef enum ffd_view_color {
     FFD_VIEW_DISPLACEMENT = 0,
     FFD_VIEW_STATUS,
     FFD_VIEW_DET,
-    FFD_VIEW_PLAIN
+    FFD_VIEW_PLAIN,
+    FFD_VIEW_AUTO
 } ffd_view_color;
 const char *ffd_view_color_name(ffd_view_color color);
 typedef enum ffd_up { FFD_UP_Y = 0, FFD_UP_Z, FFD_UP_X } ffd_up;

@@ -33,6 +33,7 @@ NAMES = {
     "static": f"ffd-{VERSION}-linux-x86_64.tar.xz",
     "static-arm64": f"ffd-{VERSION}-linux-arm64.tar.xz",
     "windows": f"ffd-{VERSION}-windows-x86_64.zip",
+    "macos": f"ffd-{VERSION}-macos-arm64.tar.xz",
     "source": f"ffd-{VERSION}.tar.xz",
     "npm": f"ffd-mesh-{VERSION}.tgz",
     "deb": f"ffd_{VERSION}-1_amd64.deb",
@@ -40,6 +41,8 @@ NAMES = {
 MEGABYTE = 1_000_000
 # What every Windows has.
 WINDOWS = {"ADVAPI32.dll", "KERNEL32.dll", "msvcrt.dll"}
+# What every macOS has.
+MACOS = {"/usr/lib/libSystem.B.dylib"}
 # Debian's cross compiler brings this system of arm64.
 SYSTEM = "/usr/aarch64-linux-gnu"
 findings = []
@@ -75,8 +78,8 @@ def shown(path):
     return {line.split()[-1].split("@")[0] for line in lines}
 
 
-def unpack(out, name, folder):
-    with tarfile.open(os.path.join(out, NAMES[name])) as archive:
+def unpack(out, file, folder):
+    with tarfile.open(os.path.join(out, file)) as archive:
         archive.extractall(folder, filter="data")
     return os.path.join(folder, f"ffd-{VERSION}")
 
@@ -104,7 +107,7 @@ def test_sbom(out):
 def check_static(out, name, emulator, *options):
     """emulator: what runs it, or none."""
     with tempfile.TemporaryDirectory() as folder:
-        tree = unpack(out, name, folder)
+        tree = unpack(out, NAMES[name], folder)
         for page in ("share/man/man1/ffd.1", "share/bash-completion/completions/ffd", "share/zsh/site-functions/_ffd",
                      "share/doc/ffd/LICENSE", "share/doc/ffd/THIRD-PARTY.md", "share/doc/ffd/licenses/glibc.txt"):
             check(os.path.isfile(os.path.join(tree, page)), f"{name}: lacks {page}")
@@ -142,7 +145,10 @@ def imported(path):
 
 def do_jobs_in_wine(what, program, folder, options=()):
     os.environ |= {"WINEPREFIX": os.path.join(folder, "wine"), "WINEDEBUG": "-all"}
-    do_jobs(what, shutil.which("wine64") or "/usr/lib/wine/wine64", program, options=options)
+    wine = shutil.which("wine64") or "/usr/lib/wine/wine64"
+    # While one program runs, wine need not begin anew for each: this one waits for its input, which ends with the block.
+    with subprocess.Popen([wine, "cmd"], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL):
+        do_jobs(what, wine, program, options=options)
 
 
 def test_wheel_windows(out):
@@ -160,6 +166,75 @@ def test_wheel_windows(out):
             check(others <= needs <= WINDOWS | others, f"wheel-windows: {name} needs {sorted(needs)}")
         do_jobs_in_wine("wheel-windows", os.path.join(folder, "ffd_mesh/ffd.exe"), folder, ["--every", "10"])
     check_notices(names, "wheel-windows", ("gcc", "mingw"))
+
+
+def test_macos(out):
+    """Nothing runs them here: for which system and processor they are, what they need and show, and that this is said."""
+    shows = {"libffd.dylib": declared(), "_native.abi3.so": {"PyInit__native"}}
+    for processor in ("arm64", "x86_64"):
+        with tempfile.TemporaryDirectory() as folder:
+            tree = unpack(out, f"ffd-{VERSION}-macos-{processor}.tar.xz", folder)
+            check(sorted(os.listdir(tree)) == ["LICENSE", "NOT-RUN", "THIRD-PARTY.md", "bin", "licenses"], f"macos: holds {os.listdir(tree)}")
+            check_macos(os.path.join(tree, "bin/ffd"), processor)
+        wheel = f"ffd_mesh-{VERSION}-cp311-abi3-macosx_11_0_{processor}.whl"
+        with tempfile.TemporaryDirectory() as folder:
+            with zipfile.ZipFile(os.path.join(out, wheel)) as archive:
+                archive.extractall(folder)
+                names = archive.namelist()
+                (tag,) = [name for name in names if name.endswith(".dist-info/WHEEL")]
+                check(f"Tag: cp311-abi3-macosx_11_0_{processor}\n".encode() in archive.read(tag) + b"\n", f"{wheel}: another tag")
+            package = os.path.join(folder, "ffd_mesh")
+            check(os.path.isfile(os.path.join(package, "NOT-RUN")), f"{wheel}: does not say that it was not run")
+            check_notices(names, wheel, ("llvm", "zig"))
+            modules = glob.glob(os.path.join(package, f"ffd-{ABI}/*.so"))
+            check(len(modules) == 5, f"{wheel}: {len(modules)} modules")
+            for library, wanted in shows.items():
+                path = os.path.join(package, library)
+                check_macos(path, processor)
+                found = shown_by_macos(path)
+                check(found == wanted, f"{wheel}: {library} shows others: {sorted(found ^ wanted)[:5]}")
+            for path in modules:
+                check_macos(path, processor)
+                # Operators of C++ stand in for those of the system in the whole process, if a program has others.
+                others = {name for name in shown_by_macos(path) if not re.match(r"ffd_|_Z(n[wa]|d[la])", name)}
+                check(not others, f"{wheel}: {path} shows {sorted(others)[:5]}")
+            asked = set(re.findall(r"^PYTHON .*?\b(_?Py\w+)\)?[(;]", read("src/python/stable_abi.h"), re.M))
+            needs = {name for name in shown_by_macos(os.path.join(package, "_native.abi3.so"), "--undefined-only") if "Py" in name}
+            check(needs and needs <= asked, f"{wheel}: needs of Python {sorted(needs - asked)}")
+            program = os.path.join(package, "ffd")
+            check_macos(program, processor, {"@rpath/libffd.dylib"})
+            check("path @loader_path " in headers_of(program), f"{wheel}: the program does not look beside itself")
+
+
+def headers_of(path):
+    return run("llvm-objdump", "--macho", "--private-headers", path)
+
+
+def shown_by_macos(path, which="--defined-only"):
+    return {line.split()[-1].removeprefix("_") for line in run("llvm-nm", "--extern-only", which, path).splitlines()}
+
+
+def check_macos(path, processor, others=frozenset()):
+    headers, name = headers_of(path), f"macos {processor}: {os.path.basename(path)}"
+    check(re.search(rf"MH_MAGIC_64 +{processor} ", headers, re.I), f"{name}: is for another processor")
+    check(re.search(r"^ *minos 11\.0$", headers, re.M), f"{name}: is for another version of the system")
+    check(processor != "arm64" or "LC_CODE_SIGNATURE" in headers, f"{name}: has no signature, without which the system starts nothing")
+    needs = set(re.findall(r"cmd LC_LOAD_DYLIB\n.*\n +name (\S+)", headers))
+    check(MACOS <= needs == MACOS | others, f"{name}: needs {sorted(needs)}")
+
+
+def read(path):
+    with open(os.path.join(ROOT, path), encoding="utf-8") as file:
+        return file.read()
+
+
+def declared():
+    """The functions of the public headers."""
+    names = set()
+    for path in glob.glob("include/ffd/*.h", root_dir=ROOT):
+        if not path.endswith("export.h"):
+            names |= set(re.findall(r"\bFFD_API\b[^;(]*?\b(\w+)\s*\(", re.sub(r"/\*.*?\*/", "", read(path), flags=re.S)))
+    return names
 
 
 def in_empty_root(program, emulator, folder):
@@ -263,7 +338,7 @@ def test_wheel_arm64(out):
 def test_source(out):
     """It builds without a network, and without the system's libraries."""
     with tempfile.TemporaryDirectory() as folder:
-        tree = unpack(out, "source", folder)
+        tree = unpack(out, NAMES["source"], folder)
         build = os.path.join(folder, "build")
         environment = dict(os.environ)
         if shutil.which("ccache"):

@@ -112,10 +112,10 @@ def circles(edges, what):
 
 
 def main():
-    # src/python is in no build but that of the wheel, src/wasm in none but that of the package for npm, and what is for Windows in
-    # its own.
+    # src/python is in no build but that of the wheel, src/wasm in none but that of the package for npm, and what is for Windows and
+    # macOS in their own.
     paths = [path for path in tree.files() if path.startswith("src/")
-             and not path.startswith(("src/python/", "src/wasm/", "src/base/windows/")) and not path.endswith("_windows.c")
+             and not path.startswith(("src/python/", "src/wasm/", "src/base/macos/", "src/base/windows/")) and not path.endswith("_windows.c")
              and path.endswith((".c", ".cpp", ".h"))]
     edges = includes(paths)
     called, seen = calls(sys.argv[1], paths)

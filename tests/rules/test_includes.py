@@ -9,8 +9,9 @@ import tree
 
 # Folder under src/ -> the folders under src/ that its files may include from.
 LAYERS = {
+    "base/macos": set(),
     "base/windows": set(),
-    "base": {"base/windows"},
+    "base": {"base/macos", "base/windows"},
     "base/memory": {"base"},
     "base/file": {"base", "base/memory", "base/system", "base/text", "base/windows"},
     "base/vector": {"base"},
@@ -97,7 +98,7 @@ LAYERS = {
         "base", "base/memory", "base/system", "base/vector", "deform", "io/openmesh", "job/chain", "job/figures", "job/input",
         "lattice", "mesh",
     },
-    "job/judge": {"base", "base/text", "job/chain", "job/figures", "lattice"},
+    "job/judge": {"base", "base/memory", "base/text", "job/chain", "job/figures", "lattice"},
     "job/measure": {
         "base", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/frame", "io/openmesh",
         "job/chain", "job/figures", "job/input", "job/pass", "lattice", "mesh",
@@ -141,7 +142,7 @@ OUTSIDE = [
     (r"xxhash\.h|xxh3\.h", {"base/memory"}),
     (r"sys/platform/", {"base/vector"}),
     (r"unistd\.h|fcntl\.h|pthread\.h|sys/(?!platform/)|dirent\.h|dlfcn\.h|sched\.h|spawn\.h|glob\.h|poll\.h|windows\.h",
-     {"base", "base/file", "base/memory", "base/system", "base/windows"}),
+     {"base", "base/file", "base/macos", "base/memory", "base/system", "base/windows"}),
 ]
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.M)

@@ -70,9 +70,9 @@ def main():
             if path.endswith((".c", ".h")) and not path.startswith(("src/base/memory/memory.", "src/base/windows/", "src/cli/")):
                 for match in ALLOCATION.finditer(without_comments(tree.read(path))):
                     findings.append(f"{path}: {match.group(1)} instead of base/memory/memory.h")
-        # src/python is built by the option python only, src/wasm by emscripten only, others for Windows only. The runner compiles what it links every program with.
+        # src/python is built by the option python only, src/wasm by emscripten only, others for Windows or macOS only. The runner compiles what it links every program with.
         if path.endswith((".c", ".cpp")) and path.startswith(("src/", "tests/")) and path not in listed and \
-                not path.startswith(("src/python/", "src/wasm/", "src/base/windows/", "tests/windows/")) and not path.endswith("_windows.c") and path not in runner:
+                not path.startswith(("src/python/", "src/wasm/", "src/base/macos/", "src/base/windows/", "tests/windows/")) and not path.endswith("_windows.c") and path not in runner:
             findings.append(f"{path}: part of no target")
     tree.finish(len(paths), "files", findings)
 

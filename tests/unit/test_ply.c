@@ -67,7 +67,7 @@ static void every_type_is_loaded_and_stored(void **state)
         assert_true(ffd_ply_type_of(word_of(cases[i].name, strlen(cases[i].name)), &type));
         assert_int_equal(type, cases[i].type);
         assert_int_equal(ffd_ply_type_size(type), size);
-        for (size_t k = 0; k < size; k++)
+        for (size_t k = 0; k < size && k < sizeof turned; k++)
             turned[k] = cases[i].bytes[size - 1 - k];
         assert_true(ffd_ply_load(PLY_BIG_ENDIAN, type, word_of(cases[i].bytes, size), &value));
         assert_true(value == cases[i].value);

@@ -20,7 +20,7 @@ if [ "$name" = wheel-windows ]; then
     return
 fi
 
-is_crossed=
+cross=
 case $name in
 wheel)
     target=x86_64-linux-gnu.2.28
@@ -29,44 +29,41 @@ wheel)
 wheel-arm64)
     target=aarch64-linux-gnu.2.28
     platform=manylinux_2_28_aarch64
-    is_crossed=1
+    cross=arm64
     ;;
 wheel-musl)
     target=x86_64-linux-musl
     platform=musllinux_1_2_x86_64
     ;;
+wheel-macos-*)
+    target=${name#wheel-macos-}-macos.11.0
+    platform=macosx-11.0-$processor
+    cross=macos
+    export MACOSX_DEPLOYMENT_TARGET=11.0
+    ;;
 esac
 zig=$("$tools/bin/python3" -c 'import os, ziglang; print(os.path.join(os.path.dirname(ziglang.__file__), "zig"))')
-mkdir -p "$work/zig/$target"
-# Meson asks by --fatal-warnings what the linker knows; zig refuses what it does not know, and that word too.
-for language in cc c++; do
-    cat >"$work/zig/$target/$language" <<EOF
-#!/bin/sh
-for argument; do
-    shift
-    [ "\$argument" = -Wl,--fatal-warnings ] || set -- "\$@" "\$argument"
-done
-exec '$zig' $language -target $target "\$@"
-EOF
-    chmod +x "$work/zig/$target/$language"
-done
+sh "$source/data/packaging/zig.sh" "$zig" "$target" "$work/zig/$target"
 export CCACHE_COMPILERTYPE=clang CCACHE_COMPILERCHECK="string:$("$zig" version) $target"
 export ZIG_GLOBAL_CACHE_DIR="$root/.build-release/zig" ZIG_LOCAL_CACHE_DIR="$root/.build-release/zig"
-# Debian's Python.h includes a header of the processor's folder, which zig does not search. Those of the systems that wheels are made
-# for say the same.
+# Debian's Python.h includes a header of the processor's folder, which zig does not search. Those of the systems of Linux that wheels
+# are made for say the same; for macOS it is not read.
 mkdir -p "$work/python"
 for machine in x86_64 aarch64; do
     ln -sfn /usr/include/x86_64-linux-gnu "$work/python/$machine-linux-gnu"
 done
-options="'--wrap-mode=forcefallback', '-Dc_args=-I$work/python', '-Dc_link_args=-s', '-Dcpp_link_args=-s'"
-if [ -n "$is_crossed" ]; then
-    cat >"$work/zig.ini" <<EOF
+options="'--wrap-mode=forcefallback', '-Dc_link_args=-s', '-Dcpp_link_args=-s'"
+[ "$cross" = macos ] || options="$options, '-Dc_args=-I$work/python'"
+if [ -n "$cross" ]; then
+    cat >"$work/$name.ini" <<EOF
 [constants]
 cache = [${ccache:+'ccache'}]
+zig = '$work/zig/$target'
+machine = '${target%%-*}'
 [binaries]
-c = cache + ['$work/zig/$target/cc']
-cpp = cache + ['$work/zig/$target/c++']
+c = cache + [zig / 'cc']
+cpp = cache + [zig / 'c++']
 EOF
-    options="$options, '--cross-file=$source/data/packaging/arm64.ini', '--cross-file=$work/zig.ini'"
+    options="$options, '--cross-file=$source/data/packaging/$cross.ini', '--cross-file=$work/$name.ini'"
 fi
 CC="$ccache$work/zig/$target/cc" CXX="$ccache$work/zig/$target/c++" make_wheel "$platform" "$options"

@@ -20,13 +20,20 @@ static bool patch(uintptr_t address)
                             MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0) != MAP_FAILED;
 }
 
+/* Whether a process has sent the signal: it does not recur when the handler returns. The codes are not
+   positive, but on macOS they are these two. */
+static bool is_sent(const siginfo_t *info)
+{
+    return info->si_code <= 0 || info->si_code == SI_USER || info->si_code == SI_QUEUE;
+}
+
 /* Passes a signal that does not concern an input to the previous handler. */
 static void pass_on(int number, siginfo_t *info, void *context)
 {
     const bool is_default = other_handler.sa_handler == SIG_DFL || other_handler.sa_handler == SIG_IGN;
     if (is_default || other_handler.sa_flags & (int)SA_RESETHAND) {
         sigaction(number, &other_handler, NULL);
-        if (info->si_code <= 0) /* sent by a process: it does not recur when the handler returns */
+        if (is_sent(info))
             raise(number);
     } else if (other_handler.sa_flags & SA_SIGINFO) {
         other_handler.sa_sigaction(number, info, context);
@@ -38,7 +45,7 @@ static void pass_on(int number, siginfo_t *info, void *context)
 static void on_bus_error(int number, siginfo_t *info, void *context)
 {
     const int before = errno;
-    if (info->si_code <= 0 || !patch((uintptr_t)info->si_addr))
+    if (is_sent(info) || !patch((uintptr_t)info->si_addr))
         pass_on(number, info, context);
     errno = before;
 }

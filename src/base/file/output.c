@@ -179,6 +179,9 @@ static bool is_fixed(const char *path)
     struct statx info;
     return statx(AT_FDCWD, path, 0, 0, &info) == 0 &&
            info.stx_attributes & (STATX_ATTR_MOUNT_ROOT | STATX_ATTR_IMMUTABLE | STATX_ATTR_APPEND);
+#elif defined(UF_IMMUTABLE)
+    struct stat info;
+    return stat(path, &info) == 0 && info.st_flags & (UF_IMMUTABLE | UF_APPEND | SF_IMMUTABLE | SF_APPEND);
 #else
     (void)path;
     return false;

@@ -44,10 +44,17 @@ char *ffd_temporary_name(const char *target)
 /* Whether a file could not be locked because its file system has no locks. */
 static atomic_bool lacks_locks;
 
+/* Whether the last call failed because the system or the file system does not have it. The last two are one
+   on most systems. */
+static bool is_not_there(void)
+{
+    return errno == ENOSYS || errno == ENOTSUP || errno == EOPNOTSUPP;
+}
+
 /* Whether the last call failed for this reason. */
 static bool has_no_locks(void)
 {
-    if (errno != ENOLCK && errno != ENOSYS && errno != EOPNOTSUPP)
+    if (errno != ENOLCK && !is_not_there())
         return false;
     atomic_store(&lacks_locks, true);
     return true;
@@ -157,7 +164,7 @@ static int place_by_link(const char *from, const char *to)
         errno = reason;
         return -1;
     }
-    if (errno != EPERM && errno != ENOSYS && errno != EOPNOTSUPP && errno != EMLINK)
+    if (errno != EPERM && errno != EMLINK && !is_not_there())
         return -1;
     if (lstat(to, &info) == 0) {
         errno = EEXIST;
@@ -173,7 +180,7 @@ int ffd_place(const char *from, const char *to, bool replace)
 #ifdef RENAME_NOREPLACE
     if (renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE) == 0)
         return 0;
-    if (errno != EINVAL && errno != ENOSYS && errno != EOPNOTSUPP)
+    if (errno != EINVAL && !is_not_there())
         return -1;
 #endif
     return place_by_link(from, to);

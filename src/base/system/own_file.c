@@ -11,6 +11,8 @@
 #include <unistd.h>
 #ifdef __linux__
 #include <sys/auxv.h>
+#elif defined(__APPLE__)
+#include <mach-o/dyld.h>
 #endif
 
 /* What the system writes behind the path of a file that was deleted, or replaced by another. */
@@ -55,20 +57,35 @@ static bool find_mapped(const void *inside, char path[LONGEST_PATH])
     return found;
 }
 
+/* The name by which the system started the program that begins at `base`; NULL: unknown, or none does. */
+static const char *find_program_name(const void *base, char room[LONGEST_PATH])
+{
+#ifdef __linux__
+    /* The program is the object with the program headers that the system passed. */
+    Dl_info program;
+    (void)room;
+    if (dladdr((const void *)getauxval(AT_PHDR), &program) && program.dli_fbase == base)
+        return (const char *)getauxval(AT_EXECFN);
+#elif defined(__APPLE__)
+    uint32_t size = LONGEST_PATH;
+    if (base == _dyld_get_image_header(0) && _NSGetExecutablePath(room, &size) == 0)
+        return room;
+#else
+    (void)base;
+    (void)room;
+#endif
+    return NULL;
+}
+
 /* The name by which the system started the program, or the loader found the library. A relative name of a
    library is not used: the process may have changed its folder since. NULL: unknown. */
-static const char *find_name(const void *inside)
+static const char *find_name(const void *inside, char room[LONGEST_PATH])
 {
     Dl_info object;
     if (!dladdr(inside, &object))
         return NULL;
-#ifdef __linux__
-    /* The program is the object with the program headers that the system passed. */
-    Dl_info program;
-    if (dladdr((const void *)getauxval(AT_PHDR), &program) && program.dli_fbase == object.dli_fbase)
-        return (const char *)getauxval(AT_EXECFN);
-#endif
-    return object.dli_fname && object.dli_fname[0] == '/' ? object.dli_fname : NULL;
+    const char *const program = find_program_name(object.dli_fbase, room);
+    return program ? program : object.dli_fname && object.dli_fname[0] == '/' ? object.dli_fname : NULL;
 }
 
 /* In a folder whose path is too long only a relative name would do, for which the loader of glibc 2.41 waits
@@ -76,7 +93,8 @@ static const char *find_name(const void *inside)
 static bool find_named(const void *inside, char path[LONGEST_PATH])
 {
     _Static_assert(LONGEST_PATH >= PATH_MAX, "realpath writes that much");
-    const char *const name = find_name(inside);
+    char room[LONGEST_PATH];
+    const char *const name = find_name(inside, room);
     return name && realpath(name, path);
 }
 

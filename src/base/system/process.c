@@ -1,11 +1,11 @@
 #define _DEFAULT_SOURCE /* environ, strsignal */
 #include "base/system/process.h"
 #include "base/memory/memory.h"
+#include "base/posix.h"
 #include "base/system/interrupt.h"
 #include "base/system/null_device.h"
+#include "base/system/own_file.h"
 #include <errno.h>
-#include <fcntl.h>
-#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdint.h>
@@ -13,10 +13,14 @@
 #include <string.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
-#include <unistd.h>
 #ifdef __linux__
 #include <sys/auxv.h>
 #include <sys/prctl.h>
+#endif
+
+/* macOS, where older systems do not know the flag of send: there the option of a socket says it. */
+#ifndef MSG_NOSIGNAL
+#define MSG_NOSIGNAL 0
 #endif
 
 extern char **environ;
@@ -36,6 +40,18 @@ static ffd_status fail_start(ffd_error *error, int reason)
                     strerror(reason));
 }
 
+/* Of a socket, for both processes: sending to a worker or a parent that has ended raises no SIGPIPE. */
+static bool keep_quiet(int socket)
+{
+#ifdef SO_NOSIGPIPE
+    const int on = 1;
+    return setsockopt(socket, SOL_SOCKET, SO_NOSIGPIPE, &on, sizeof on) == 0;
+#else
+    (void)socket;
+    return true; /* by MSG_NOSIGNAL */
+#endif
+}
+
 /* Makes a pair of sockets that other workers do not inherit, with descriptors other than CHANNEL. A pipe
    would raise SIGPIPE if its worker has ended. */
 static bool make_channel(int ends[2])
@@ -44,7 +60,7 @@ static bool make_channel(int ends[2])
     if (socketpair(AF_UNIX, SOCK_STREAM, 0, low) != 0)
         return false;
     for (int i = 0; i < 2; i++)
-        ends[i] = fcntl(low[i], F_DUPFD_CLOEXEC, CHANNEL + 1);
+        ends[i] = keep_quiet(low[i]) ? fcntl(low[i], F_DUPFD_CLOEXEC, CHANNEL + 1) : -1;
     const int reason = errno;
     close(low[0]);
     close(low[1]);
@@ -55,6 +71,29 @@ static bool make_channel(int ends[2])
             close(ends[i]);
     errno = reason;
     return false;
+}
+
+/* Finds the file of this program by its name, where there is no /proc. Returns NULL if it is unknown. */
+static const char *find_self(char path[LONGEST_PATH])
+{
+#ifdef __linux__
+    (void)path;
+    return (const char *)getauxval(AT_EXECFN); /* also in a static program, and of any length */
+#else
+    static const char here;
+    return ffd_find_own_file(&here, path) ? path : NULL;
+#endif
+}
+
+/* program: NULL for this one. */
+static int spawn_program(const char *program, const posix_spawn_file_actions_t *actions,
+                         const posix_spawnattr_t *attributes, char *const arguments[], pid_t *id)
+{
+    char path[LONGEST_PATH];
+    const int failed =
+        posix_spawn(id, program ? program : "/proc/self/exe", actions, attributes, arguments, environ);
+    const char *const self = failed == ENOENT && !program ? find_self(path) : NULL;
+    return self ? posix_spawn(id, self, actions, attributes, arguments, environ) : failed;
 }
 
 /* null: what the worker has in place of standard input and output. */
@@ -86,14 +125,7 @@ static int spawn(const char *program, const char *name, const char *build, int c
         if (!failed)
             failed = posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
         if (!failed)
-            failed = posix_spawn(id, program ? program : "/proc/self/exe", &actions, &attributes, arguments,
-                                 environ);
-#ifdef __linux__
-        /* Without /proc: the name by which the system started this program. */
-        if (failed == ENOENT && !program)
-            failed = posix_spawn(id, (const char *)getauxval(AT_EXECFN), &actions, &attributes, arguments,
-                                 environ);
-#endif
+            failed = spawn_program(program, &actions, &attributes, arguments, id);
         posix_spawnattr_destroy(&attributes);
     }
     posix_spawn_file_actions_destroy(&actions);

@@ -9,4 +9,5 @@ const image_module ffd_module = {
     ffd_jpeg_decode,
     ffd_webp_decode,
     ffd_png_write,
+    ffd_jpeg_write,
 };

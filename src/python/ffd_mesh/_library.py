@@ -8,6 +8,7 @@ import itertools
 import logging
 import operator
 import os
+import sys
 from typing import Any, Callable, Iterator, NamedTuple
 
 import numpy as np
@@ -21,7 +22,8 @@ Progress = Callable[[float], "bool | None"]
 LOG = logging.getLogger("ffd_mesh")
 LOG.addHandler(logging.NullHandler())
 
-_LIBRARY = ctypes.CDLL(os.path.join(os.path.dirname(os.path.abspath(__file__)), "libffd.dll" if os.name == "nt" else "libffd.so"))
+_ENDING = {"win32": "dll", "darwin": "dylib"}.get(sys.platform, "so")
+_LIBRARY = ctypes.CDLL(os.path.join(os.path.dirname(os.path.abspath(__file__)), f"libffd.{_ENDING}"))
 for _name, (_result, _arguments) in declared.FUNCTIONS.items():
     _function = getattr(_LIBRARY, _name)
     _function.restype, _function.argtypes = _result, _arguments
