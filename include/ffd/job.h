@@ -365,7 +365,9 @@ typedef enum ffd_view_color {
     FFD_VIEW_DISPLACEMENT = 0, /* the distance by which a vertex moves */
     FFD_VIEW_STATUS,           /* the ffd_vertex_status of a vertex */
     FFD_VIEW_DET,              /* det F at a vertex, the factor by which volumes grow */
-    FFD_VIEW_PLAIN             /* base colours and vertex colours of the mesh */
+    FFD_VIEW_PLAIN,            /* materials and vertex colours of the mesh */
+    FFD_VIEW_AUTO /* a picture: displacement; a page: as FFD_VIEW_PLAIN where the mesh has textures, vertex
+                        colours or materials that are not white, else displacement */
 } ffd_view_color;
 
 /* Returns "displacement", "status", "det" or "plain"; NULL for another value. The string is static.
@@ -385,7 +387,7 @@ typedef struct ffd_view_desc {
     bool force;         /* overwrite an existing output */
     /* Direction from the mesh to the camera, y upwards; zeros: from the right, above and in front. */
     double camera[3];
-    ffd_view_color color; /* default FFD_VIEW_DISPLACEMENT */
+    ffd_view_color color; /* default FFD_VIEW_AUTO */
     bool full; /* page: show all vertices; else a mesh of more than 200,000 is simplified, and the page says
                   so */
     /* Of a picture, or of each picture in a row, in pixels; 0: 1600 and 900. A page fills its window. */

@@ -117,8 +117,9 @@ static const cli_option options[] = {
     {"camera", 0, "front|back|left|right|top|iso|x,y,z",
      "the side to look from, y upwards; default iso: right, above, front", set_camera, 0, camera_names},
     {"color", 0, "displacement|status|det|plain",
-     "colour by displacement, status, det F, or the mesh's own; default displacement", cli_set_choice,
-     AT(color), color_names},
+     "colour by displacement, status, det F, or the mesh's own; default displacement, of a page the mesh's "
+     "own",
+     cli_set_choice, AT(color), color_names},
     {"full", 0, NULL, "a page shows all vertices; else a mesh of more than 200,000 is simplified",
      cli_set_flag, AT(full), NULL},
     {"force", 0, NULL, "overwrite an existing output", cli_set_flag, AT(force), NULL},
@@ -224,7 +225,7 @@ static int act(const cli_command *command, void *context, const cli_words *words
 
 static int run(const cli_command *command, int count, char **arguments)
 {
-    settings s = {0};
+    settings s = {.color = FFD_VIEW_AUTO};
     return cli_job_run(command, &s.job, count, arguments, act);
 }
 

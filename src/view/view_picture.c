@@ -415,7 +415,7 @@ static ffd_status draw(picture_work *w, file_output *output)
     ffd_status status = ffd_picture_draw(&of, &w->budget, &pixels, w->error);
     free_step(w);
     TRY(status);
-    status = ffd_png_write(pixels, of.width, of.height, append, output, w->error);
+    status = ffd_png_write(pixels, of.width, of.height, 3, append, output, w->error);
     ffd_free(pixels);
     return status;
 }

@@ -54,9 +54,9 @@ static ffd_status decode_all(const mesh_materials *from, memory_budget *budget, 
 
 static void fill_material(const view_surface *s, const mesh_material *from, picture_material *to)
 {
-    const texture *const of = from->image < s->texture_count ? &s->textures[from->image] : NULL;
-    const bool is_lost = from->image == MATERIAL_LOST || (of && of->level_count == 0);
-    *to = (picture_material){.wrap = {from->wrap[0], from->wrap[1]},
+    const texture *const of = from->base.image < s->texture_count ? &s->textures[from->base.image] : NULL;
+    const bool is_lost = from->base.image == MATERIAL_LOST || (of && of->level_count == 0);
+    *to = (picture_material){.wrap = {from->base.wrap[0], from->base.wrap[1]},
                              .alpha_cutoff = from->alpha_cutoff,
                              .is_double_sided = from->is_double_sided};
     memcpy(to->color, from->color, sizeof to->color);

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """ffd view: the page has the mesh before and after, the lattice, the figures of check and what went wrong; exit codes are
 those of check, and a page is complete or absent."""
+import base64
 import json
+import os
 import re
 import struct
 
@@ -10,7 +12,8 @@ from gltf_build import Scene
 from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, NO, SANITIZED, UNSUPPORTED, USAGE, case, check, equal, glb,
                      glb_split, gltf_json, lattice, main, near)
 from page import read_page
-from png import make_png, read_png
+from png import read_png
+from png_make import make_png
 from messages import anything
 
 SHIFT = [{"by": [1, 0, 0]}]
@@ -263,7 +266,7 @@ def mistakes_are_refused_before_any_work(run):
 @case
 def how_a_page_opens(run):
     work = start(run)
-    equal(view(run, *work).scene["view"], {"color": "displacement", "camera": [0, 0, 0]}, "by default")
+    equal(view(run, *work).scene["view"], {"color": "auto", "camera": [0, 0, 0]}, "by default")
     for name, camera in (("front", [0, 0, 1]), ("back", [0, 0, -1]), ("left", [-1, 0, 0]), ("right", [1, 0, 0]),
                          ("top", [0, 1, 0]), ("iso", [0, 0, 0]), ("-1,0.5,2", [-1, 0.5, 2])):
         equal(view(run, *work, f"--camera={name}").scene["view"]["camera"], camera, name)
@@ -721,6 +724,50 @@ def what_a_mesh_names_is_not_overwritten(run):
     run.ffd("view", "t.gltf", "-o", "poster.html", "--force", code=IO, err="poster.html: is named by an input of this command")
     equal(run.text("poster.html"), "<p>")
     run.ffd("check", "t.obj", "-l", "l.json", "--picture", "t.png", "--force", code=IO, lines=1)
+
+
+def images_of(run, name="p.html"):
+    """(type, bytes) of the images in a page."""
+    html = run.text(name)
+    return [(kind, base64.b64decode(re.search(rf'id="data-image-{i}">([^<]*)<', html)[1]))
+            for i, kind in enumerate(read_page(run, name).scene["images"])]
+
+
+@case
+def a_page_holds_the_textures_of_its_model(run):
+    png = make_png([[(220, 20, 20)] * 8 + [(20, 200, 20)] * 8] * 16)
+    textured(run, png)
+    equal(view(run, "t.obj").scene["materials"][0]["base"], {"image": 0, "wrap": ["repeat", "repeat"]})
+    equal(images_of(run), [("image/png", png)], "the file as it is")
+    # What is no image stays out, and its material says so.
+    textured(run, b"no image")
+    scene = view(run, "t.obj", err=re.compile("1 image of a material cannot be shown")).scene
+    check(scene["images"] == [] and scene["materials"][0]["lost"] and "base" not in scene["materials"][0], scene)
+
+
+@case
+def large_textures_are_made_smaller(run):
+    """Noise, which no format packs: 27 MB."""
+    noise = os.urandom(3 * 3000)
+    png = make_png([list(zip(*[iter(bytes(x ^ y % 256 for x in noise))] * 3)) for y in range(3000)], level=0)
+    textured(run, png)
+    view(run, "t.obj", err=re.compile(r"the page: 1 of 1 textures are smaller than in the model: \d\.\d in place of 27\.\d MB"))
+    (kind, content), = images_of(run)
+    check(kind == "image/jpeg" and content[:3] == b"\xff\xd8\xff" and len(content) < 24 << 20, kind, len(content))
+    view(run, "t.obj", "--full")
+    equal(images_of(run), [("image/png", png)], "the file as it is")
+
+
+@case
+def a_page_keeps_folders_to_itself(run):
+    os.mkdir(run.path("secret"))
+    start(run)
+    for name in ("a.obj", "l.json"):
+        run.write("secret/" + name, run.read(name))
+    place = run.path("secret")
+    page = view(run, place + "/a.obj", "-l", place + "/l.json")
+    equal([page.scene["name"], page.scene["cages"][0]["name"]], ["a.obj", "l.json"])
+    check("<title>a.obj" in run.text("p.html") and "secret" not in run.text("p.html"), "the folder is in the page")
 
 
 @case

@@ -416,7 +416,7 @@ static void save(const picture *p, const char *path)
     uint8_t *const pixels = draw_all(p);
     FILE *const file = fopen(path, "wb");
     assert_non_null(file);
-    assert_int_equal(ffd_png_write(pixels, p->width, p->height, append, file, NULL), FFD_OK);
+    assert_int_equal(ffd_png_write(pixels, p->width, p->height, 3, append, file, NULL), FFD_OK);
     assert_int_equal(fclose(file), 0);
     ffd_free(pixels);
 }

@@ -255,22 +255,22 @@ static void what_is_written_reads_back(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof pixels; i++)
         pixels[i] = (uint8_t)(i * i / 7);
-    assert_int_equal(ffd_png_write(pixels, 40, 30, keep, &f, &error), FFD_OK);
-    assert_int_equal(ffd_png_write(pixels, 40, 30, keep, &again, &error), FFD_OK);
+    assert_int_equal(ffd_png_write(pixels, 40, 30, 3, keep, &f, &error), FFD_OK);
+    assert_int_equal(ffd_png_write(pixels, 40, 30, 3, keep, &again, &error), FFD_OK);
     assert_true(f.size == again.size && memcmp(f.bytes, again.bytes, f.size) == 0);
     assert_int_equal(ffd_image_decode(f.bytes, f.size, NULL, &found, &error), FFD_OK);
     for (size_t i = 0; i < 40 * 30; i++)
         assert_memory_equal(found.pixels + 4 * i, pixels + 3 * i, 3);
     ffd_free(found.pixels);
     f.size = MOST_BYTES - 100;
-    assert_int_equal(ffd_png_write(pixels, 40, 30, keep, &f, &error), FFD_E_IO);
+    assert_int_equal(ffd_png_write(pixels, 40, 30, 3, keep, &f, &error), FFD_E_IO);
     assert_string_equal(error.message, "it is full");
     long successes = 0;
     ffd_status status;
     do {
         f.size = 0;
         ffd_alloc_fail_after(successes++);
-        status = ffd_png_write(pixels, 40, 30, keep, &f, &error);
+        status = ffd_png_write(pixels, 40, 30, 3, keep, &f, &error);
         ffd_alloc_fail_after(-1);
         assert_true(status == FFD_OK || status == FFD_E_MEMORY);
     } while (status);

@@ -165,7 +165,7 @@ static void no_text_of_a_file_is_markup(void **state)
     hand_part(&scene, evil, 0, 8);
     hand_cage(&scene, evil, 2, 2, 2, box[0], box[1], wave);
     scene.materials.list = hand_array(1, sizeof *scene.materials.list);
-    scene.materials.list[0] = (mesh_material){.name = hand_text(evil), .image = MATERIAL_NONE};
+    scene.materials.list[0] = (mesh_material){.name = hand_text(evil), .base = ffd_texture_none()};
     scene.materials.count = 1;
     scene.parts[0].material = 0;
     char *const page = page_of(&scene, false), *const report = block_of(page, "report"),

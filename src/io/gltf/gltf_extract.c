@@ -42,7 +42,8 @@ typedef struct drawn {
     size_t part; /* the part of its positions */
     uint32_t *corners;
     size_t count;
-    size_t position, normal, texcoord; /* index in the model of its first one; GLTF_NONE: none */
+    /* Index in the model of its first one; GLTF_NONE: none. glow: the texture coordinates of the emission. */
+    size_t position, normal, texcoord, glow;
     /* The node's transform mirrors, so that its triangles would face inward. */
     bool mirrored;
 } drawn;
@@ -82,15 +83,21 @@ static void name_set(unsigned long long set, char name[SET_NAME])
     snprintf(name, SET_NAME, "TEXCOORD_%llu", set);
 }
 
+/* Which of a material's textures is meant. */
+typedef enum texcoord_use { BASE_TEXCOORDS, GLOW_TEXCOORDS } texcoord_use;
+
 /* Finds the texture coordinates of a primitive under a node. */
-static shown_texcoords texcoords_of(const extractor *e, const gltf_instance *instance)
+static shown_texcoords texcoords_of(const extractor *e, const gltf_instance *instance, texcoord_use use)
 {
     const gltf_document *const d = e->document;
     const gltf_primitive *const primitive = instance->primitive;
     shown_texcoords found = {.primitive = GLTF_NONE, .node = GLTF_NONE, .set = GLTF_NONE};
     char name[SET_NAME];
     bool stands_in;
-    const size_t set = ffd_gltf_texcoords(d, primitive, &found.taken, &stands_in);
+    const size_t set = use == BASE_TEXCOORDS ? ffd_gltf_texcoords(d, primitive, &found.taken, &stands_in)
+                                             : ffd_gltf_glow_texcoords(d, primitive, &found.taken);
+    if (set == GLTF_NONE)
+        found.taken.accessor = GLTF_NONE;
     name_set(set, name);
     if (found.taken.accessor == GLTF_NONE || e->state == MESH_STORED ||
         !ffd_gltf_add_shapes(d, primitive, instance->node, name,
@@ -102,11 +109,11 @@ static shown_texcoords texcoords_of(const extractor *e, const gltf_instance *ins
     return found;
 }
 
-/* Interns the texture coordinates of a primitive under a node, and counts new ones. */
-static ffd_status add_texcoords(extractor *e, const gltf_instance *instance)
+/* Interns texture coordinates of a primitive under a node, and counts new ones. */
+static ffd_status add_used_texcoords(extractor *e, const gltf_instance *instance, texcoord_use use)
 {
     const gltf_document *d = e->document;
-    const shown_texcoords texcoords = texcoords_of(e, instance);
+    const shown_texcoords texcoords = texcoords_of(e, instance, use);
     size_t *const count = &e->texcoord_count;
     uint32_t index;
     if (texcoords.taken.accessor == GLTF_NONE || *count > MODEL_VALUES_MAX)
@@ -124,10 +131,16 @@ static ffd_status add_texcoords(extractor *e, const gltf_instance *instance)
     return FFD_OK;
 }
 
-/* Returns the index of a primitive's first texture coordinate, GLTF_NONE if it has none. */
-static size_t find_texcoords(const extractor *e, const gltf_instance *instance)
+static ffd_status add_texcoords(extractor *e, const gltf_instance *instance)
 {
-    const shown_texcoords texcoords = texcoords_of(e, instance);
+    TRY(add_used_texcoords(e, instance, BASE_TEXCOORDS));
+    return e->model->wants_details ? add_used_texcoords(e, instance, GLOW_TEXCOORDS) : FFD_OK;
+}
+
+/* Returns the index of a primitive's first texture coordinate, GLTF_NONE if it has none. */
+static size_t find_texcoords(const extractor *e, const gltf_instance *instance, texcoord_use use)
+{
+    const shown_texcoords texcoords = texcoords_of(e, instance, use);
     uint32_t index;
     return ffd_intern_find(&e->texcoords, &texcoords, sizeof texcoords, &index) ? e->first_texcoord[index]
                                                                                 : GLTF_NONE;
@@ -345,8 +358,11 @@ static char *object_name(const gltf_document *d, size_t mesh, size_t node)
     return by_mesh ? name_of(d, &d->mesh_values, mesh, "mesh") : name_of(d, &d->node_values, node, "node");
 }
 
-static ffd_status begin_run(extractor *e, const gltf_primitive *primitive, size_t node)
+static ffd_status begin_run(extractor *e, const drawn *drawing, size_t node)
 {
+    const gltf_primitive *const primitive = drawing->primitive;
+    const int64_t glow_step =
+        drawing->glow == GLTF_NONE ? 0 : (int64_t)drawing->glow - (int64_t)drawing->texcoord;
     const gltf_document *d = e->document;
     double number;
     const bool has_material =
@@ -358,7 +374,7 @@ static ffd_status begin_run(extractor *e, const gltf_primitive *primitive, size_
                 ? ffd_model_begin_run(e->model, object, NULL, material, e->error)
                 : ffd_fail_memory(e->error));
     if (e->model->wants_details && has_material && number >= 0 && number < MODEL_NONE)
-        TRY_END(ffd_model_set_material(e->model, (uint32_t)number, e->error));
+        TRY_END(ffd_model_set_material(e->model, (uint32_t)number, glow_step, e->error));
 end:
     ffd_free(object);
     ffd_free(material);
@@ -390,11 +406,15 @@ static ffd_status add_instance(extractor *e, const gltf_instance *instance)
                      .part = part,
                      .position = e->first_position[part],
                      .normal = normals == GLTF_NONE ? GLTF_NONE : e->first_normal[normals],
-                     .texcoord = find_texcoords(e, instance),
+                     .texcoord = find_texcoords(e, instance, BASE_TEXCOORDS),
+                     .glow =
+                         e->model->wants_details ? find_texcoords(e, instance, GLOW_TEXCOORDS) : GLTF_NONE,
                      .mirrored = is_mirrored(d, part)};
+    if (drawing.texcoord == GLTF_NONE)
+        drawing.texcoord = drawing.glow;
     ffd_status status;
     TRY_END(ffd_gltf_read_corners(d, primitive, &drawing.corners, &drawing.count, e->error));
-    TRY_END(begin_run(e, primitive, instance->node));
+    TRY_END(begin_run(e, &drawing, instance->node));
     TRY_END(take_colours(e, instance, &drawing));
     TRY_END(drawing.primitive->mode == MODE_POINTS     ? add_points(e, &drawing)
             : drawing.primitive->mode < MODE_TRIANGLES ? add_lines(e, &drawing)

@@ -38,9 +38,13 @@ ffd_status ffd_png_decode(const unsigned char *bytes, size_t size, const memory_
 /* As ffd_image_decode, for bytes with the signature of JPEG. */
 ffd_status ffd_jpeg_decode(const unsigned char *bytes, size_t size, const memory_budget *budget,
                            image *result, ffd_error *error);
-/* Encodes RGB pixels (3 bytes each) as a PNG file, and passes its bytes to sink. Errors: FFD_E_MEMORY, and
-   those of the sink. */
-ffd_status ffd_png_write(const uint8_t *pixels, uint32_t width, uint32_t height, image_sink sink,
-                         void *context, ffd_error *error);
+/* Encodes pixels as a PNG file, and passes its bytes to sink. channels: bytes of a pixel, 3 (RGB) or 4
+   (RGBA). Errors: FFD_E_MEMORY, and those of the sink. */
+ffd_status ffd_png_write(const uint8_t *pixels, uint32_t width, uint32_t height, int channels,
+                         image_sink sink, void *context, ffd_error *error);
+/* Encodes RGBA pixels, whose alpha is lost, as a JPEG file of good quality, and passes its bytes to sink.
+   Errors: FFD_E_MEMORY, FFD_E_UNSUPPORTED (the library fails), and those of the sink. */
+ffd_status ffd_jpeg_write(const uint8_t *pixels, uint32_t width, uint32_t height, image_sink sink,
+                          void *context, ffd_error *error);
 
 #endif

@@ -8,4 +8,5 @@ const image_module ffd_module = {
     ffd_png_decode,
     ffd_jpeg_decode,
     ffd_png_write,
+    ffd_jpeg_write,
 };

@@ -9,7 +9,7 @@
 
 #define IMAGE_IDENTITY                                                                                       \
     {                                                                                                        \
-        "ffd-image.so", FFD_VERSION, 3                                                                       \
+        "ffd-image.so", FFD_VERSION, 4                                                                       \
     }
 
 typedef struct image_module {
@@ -18,8 +18,10 @@ typedef struct image_module {
                              image *result, ffd_error *error);
     ffd_status (*jpeg_decode)(const unsigned char *bytes, size_t size, const memory_budget *budget,
                               image *result, ffd_error *error);
-    ffd_status (*png_write)(const uint8_t *pixels, uint32_t width, uint32_t height, image_sink sink,
-                            void *context, ffd_error *error);
+    ffd_status (*png_write)(const uint8_t *pixels, uint32_t width, uint32_t height, int channels,
+                            image_sink sink, void *context, ffd_error *error);
+    ffd_status (*jpeg_write)(const uint8_t *pixels, uint32_t width, uint32_t height, image_sink sink,
+                             void *context, ffd_error *error);
 } image_module;
 
 #endif

@@ -61,7 +61,7 @@ def _view(desc: Any, source: Any, output: Any, lattices: Any, deformed: Any, loo
 
 
 def view_file(source: Path, output: Path, lattices: AnyLattice | Sequence[AnyLattice] | None = None, *,
-              deformed: Path | None = None, color: str = "displacement", camera: str | Sequence[float] = "iso",
+              deformed: Path | None = None, color: str = "auto", camera: str | Sequence[float] = "iso",
               size: tuple[int, int] | None = None, frames: int | None = None, full: bool = False, animation: str | None = None,
               force: bool = False, **options: Any) -> Result:
     """Draws a mesh before and after its deformation, as `ffd view` does. The output is complete or absent.
@@ -69,7 +69,7 @@ def view_file(source: Path, output: Path, lattices: AnyLattice | Sequence[AnyLat
     output: path of a page (.html, needs no network) or a picture (.png)
     lattices: as in `deform_file`; None: show the mesh as it is
     deformed: path of the deformed mesh, with as many vertices; lattices are then drawn, but deform nothing
-    color: "displacement" | "status" | "det" | "plain"
+    color: "auto" | "displacement" | "status" | "det" | "plain"
     camera: "front" | "back" | "left" | "right" | "top" | "iso", or (x, y, z), the direction from the mesh to the camera; y is up
     animation: name of the animation that a picture shows in poses, or that a page shows first
     size=(width, height): of a frame of a picture, in pixels; None: 1600 x 900
@@ -95,7 +95,7 @@ class ViewBytes(NamedTuple):
 
 def view_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | None = None, *, name: str, output: str = "view.html",
                files: Files | None = None, deformed: Any = None, deformed_name: str | None = None,
-               deformed_files: Files | None = None, color: str = "displacement", camera: str | Sequence[float] = "iso",
+               deformed_files: Files | None = None, color: str = "auto", camera: str | Sequence[float] = "iso",
                size: tuple[int, int] | None = None, frames: int | None = None, full: bool = False, animation: str | None = None,
                **options: Any) -> ViewBytes:
     """Like `view_file`, for a mesh in memory; reads and writes no files.
