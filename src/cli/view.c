@@ -117,8 +117,7 @@ static const cli_option options[] = {
     {"camera", 0, "front|back|left|right|top|iso|x,y,z",
      "the side to look from, y upwards; default iso: right, above, front", set_camera, 0, camera_names},
     {"color", 0, "displacement|status|det|plain",
-     "colour by displacement, status, det F, or the mesh's own; default displacement, of a page the mesh's "
-     "own",
+     "colour by displacement, status, det F, or its own; default displacement, a page: its own",
      cli_set_choice, AT(color), color_names},
     {"full", 0, NULL, "a page shows all vertices; else a mesh of more than 200,000 is simplified",
      cli_set_flag, AT(full), NULL},
