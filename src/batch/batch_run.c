@@ -341,6 +341,7 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
     pool.wishes.report = run->report || run->view || run->rows.report;
     pool.wishes.quality = pool.wishes.quality || run->report || run->view;
     pool.draws = run->view != NULL;
+    pool.look = desc->given->look;
     pool.rows = desc->given->positions ? &run->rows.array : NULL;
     pool.wishes.depfile = run->depfile != NULL;
     pool.wishes.records = run->journal != NULL;

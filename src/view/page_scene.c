@@ -177,6 +177,7 @@ static void put_view(json_text *json, const view_page_options *options)
     ffd_json_object(json, "view", true);
     ffd_json_string(json, "color", ffd_view_color_name(options->color));
     ffd_json_vector(json, "camera", options->camera, 3);
+    ffd_json_string(json, "up", options->up == FFD_UP_Z ? "z" : options->up == FFD_UP_X ? "x" : "y");
     ffd_json_end(json, '}');
 }
 

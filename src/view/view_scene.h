@@ -68,7 +68,11 @@ typedef struct view_scene {
     uint8_t *flipped;      /* one flag a triangle: its face is flipped; NULL: no face is */
     uint64_t flipped_faces;
     size_t segment_count, point_count;
-    uint32_t *segments, *points; /* of the mesh: 2 vertices and 1 vertex each */
+    uint32_t *segments, *points;                   /* of the mesh: 2 vertices and 1 vertex each */
+    uint32_t *segment_materials, *point_materials; /* of each one: a material, or VIEW_NONE */
+    /* Covariances of Gaussian splats before and after, for each vertex xx, xy, xz, yy, yz, zz; all 0: the
+       vertex is none. NULL: the mesh has none. The alpha of a splat's colour is its opacity. */
+    float *splats[2];
     view_part *parts;
     size_t part_count;
     mesh_materials materials;

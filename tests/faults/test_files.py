@@ -503,7 +503,7 @@ def artist_10_hints_name_what_is_meant(run):
                        (["--widgets"], "unknown option --widgets (--help lists the known ones)")):
         run.ffd("check", "m.obj", "-l", "l.json", *words, code=USAGE, err=why)
     run.ffd("view", "m.obj", "-o", "v.png", "--camera", "Front", code=USAGE,
-            err='--camera: "Front" is not front, back, left, right, top, iso or a direction like 1,0.5,2 (nearest: front)')
+            err='--camera: "Front" is not front, back, left, right, top, bottom, iso or a direction like 1,0.5,2 (nearest: front)')
     for words, why in ((["--axis", "Y"], "x, y, z or a direction like 0,1,1 (nearest: y)"), (["--axis", "up"], "x, y, z or a direction like 0,1,1"),
                        (["--axis", "-Y"], "x, y, z or a direction like 0,1,1 (that direction is 0,-1,0)"),
                        (["--knots", "open,Closed,open"], "three of clamped, open, uniform, closed (nearest: closed)")):

@@ -427,10 +427,10 @@ static void a_page_opens_as_it_is_told(void **state)
 {
     (void)state;
     view_scene scene = hand_grid(1);
-    const view_page_options options = {.color = FFD_VIEW_DET, .camera = {0, -2, 0.5}};
+    const view_page_options options = {.color = FFD_VIEW_DET, .camera = {0, -2, 0.5}, .up = FFD_UP_Z};
     assert_int_equal(write_page(&scene, &options), FFD_OK);
     char *const page = read_page();
-    assert_non_null(strstr(page, "\"view\": {\"color\": \"det\", \"camera\": [0, -2, 0.5]}"));
+    assert_non_null(strstr(page, "\"view\": {\"color\": \"det\", \"camera\": [0, -2, 0.5], \"up\": \"z\"}"));
     ffd_free(page);
     ffd_view_scene_free(&scene);
 }

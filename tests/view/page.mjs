@@ -221,6 +221,25 @@ async function aMeshAloneHasNoSlider() {
   await end();
 }
 
+// A body whose z points upwards looks from each side as the same one whose y does.
+async function whatPointsUpwardsStandsUpright() {
+  const [upright, turned, lying] = await Promise.all(['real_upright', 'real_turned', 'real_lying'].map((kind) => open(kind)));
+  const drawn = async ({page}) => {
+    await settled(page);
+    return (await pixels(page)).evaluate((all) => Array.from(all));
+  };
+  const differ = (a, b) => a.filter((pixel, i) => pixel !== b[i]).length / a.length;
+  for (const side of [null, 'left', 'top']) {
+    for (const {page} of [upright, turned, lying]) {
+      if (side) await page.locator(`[data-view=${side}]`).click();
+    }
+    const all = [await drawn(upright), await drawn(turned), await drawn(lying)];
+    assert.ok(differ(all[0], all[1]) < 0.002, `${side}: ${differ(all[0], all[1])} of the pixels differ`);
+    assert.ok(differ(all[0], all[2]) > 0.02, `${side}: without --up it lies`);
+  }
+  for (const {end} of [upright, turned, lying]) await end();
+}
+
 async function farControlPointsLeaveTheMeshItsSize() {
   const {page, end} = await open('real_far');
   await page.locator('[data-view=front]').click();
@@ -399,6 +418,6 @@ const tests = {
     hostileNamesAreText, largeAndEmptyMeshesOpen, aCutPageSaysSo, withoutWebGLThereAreFigures, phonesAndDarkAreServed,
     thePolicyForbidsRequests],
   real: [aRealFoldIsPicked, realTearsAreListed, filesAreColouredByDisplacement, aMeshAloneHasNoSlider,
-    farControlPointsLeaveTheMeshItsSize, materialsLookAsTheyAre, realHostileNamesAreText, animationsArePlayed],
+    farControlPointsLeaveTheMeshItsSize, materialsLookAsTheyAre, whatPointsUpwardsStandsUpright, realHostileNamesAreText, animationsArePlayed],
 };
 await runAll(browser, tests[process.argv[5]]);

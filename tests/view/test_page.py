@@ -114,6 +114,13 @@ def make_real(ffd, model, folder):
             file.write(f"v 0 0 0\nv 1 0 0\nv 0 {height} 0\nf 1 2 3\n")
     subprocess.run([ffd, "view", "low.obj", "high.obj", "--color", "det", "-o", "real_pair.html", "-q"], cwd=folder, check=True)
     subprocess.run([ffd, "view", "high.obj", "-o", "real_alone.html", "-q"], cwd=folder, check=True)
+    body = [(x * 0.5, y + 0.25 * x, z * (1 + y / 4)) for x in (0, 1) for y in (0, 3) for z in (0, 2)]
+    for name, turn in (("y.obj", lambda x, y, z: (x, y, z)), ("z.obj", lambda x, y, z: (x, -z, y))):
+        with open(os.path.join(folder, name), "w", encoding="ascii") as file:
+            file.write("".join("v {} {} {}\n".format(*turn(*point)) for point in body) +
+                       "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n")
+    for page, mesh, up in (("real_upright", "y.obj", "y"), ("real_turned", "z.obj", "z"), ("real_lying", "z.obj", "y")):
+        subprocess.run([ffd, "view", mesh, "--up", up, "-o", page + ".html", "-q"], cwd=folder, check=True)
     write("looks.gltf", looks_gltf())
     up = write("up.json", {"format": "ffd-lattice", "version": 1, "size": [2, 2, 2], "degree": [1, 1, 1],
                            "rest": {"box": {"min": [-1, -1, -1], "max": [7, 2, 1]}}, "moves": [{"at": ["all", "all", "all"], "by": [0, 0.25, 0]}]})

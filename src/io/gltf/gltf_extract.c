@@ -11,6 +11,7 @@
 #include "io/gltf/read/gltf_elements.h"
 #include "io/gltf/read/gltf_textures.h"
 #include "mesh/srgb.h"
+#include "splat/splat_color.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -250,13 +251,11 @@ static void fill_values(const extractor *e)
 
 /* Reads the colours of a primitive, which are linear, and clamps them to 0 to 1 as viewers do (glTF 2.0,
    3.9.2 and 3.7.2.1). */
-static ffd_status take_colours(extractor *e, const gltf_instance *instance, const drawn *drawing)
+static ffd_status take_vertex_colours(extractor *e, const gltf_instance *instance, const drawn *drawing,
+                                      size_t a)
 {
     const gltf_document *d = e->document;
     const gltf_primitive *const primitive = instance->primitive;
-    const size_t a = ffd_gltf_attribute(d, primitive, "COLOR_0", 3, 4);
-    if (a == GLTF_NONE || a == e->colours[drawing->part])
-        return FFD_OK;
     e->colours[drawing->part] = a;
     const size_t count = (size_t)d->model.accessors[primitive->accessor[GLTF_POSITION]].count;
     const size_t components = (size_t)d->model.accessors[a].rows, node = instance->node;
@@ -281,6 +280,55 @@ static ffd_status take_colours(extractor *e, const gltf_instance *instance, cons
             colour[c] = ffd_srgb_from_linear(colour[c]);
     }
     return FFD_OK;
+}
+
+/* Whether the colours of splats are linear, not sRGB. */
+static bool has_linear_splats(const gltf_document *d, const gltf_primitive *primitive)
+{
+    const uint32_t splatting = ffd_gltf_extension(d, primitive->value, "KHR_gaussian_splatting");
+    const uint32_t space = ffd_json_tree_member(&d->tree, splatting, "colorSpace");
+    return space != JSON_NONE && d->tree.values[space].kind == JSON_STRING &&
+           ffd_json_tree_string_is(&d->tree, space, "lin_rec709_display");
+}
+
+/* Reads the colours and opacities of Gaussian splats. a: the accessor of the harmonics of degree 0. */
+static ffd_status take_splat_colours(extractor *e, const gltf_primitive *primitive, const drawn *drawing,
+                                     size_t a)
+{
+    const gltf_document *d = e->document;
+    e->colours[drawing->part] = a;
+    const size_t opacity = ffd_gltf_attribute(d, primitive, "KHR_gaussian_splatting:OPACITY", 1, 1);
+    const size_t count = (size_t)d->model.accessors[primitive->accessor[GLTF_POSITION]].count;
+    const bool is_linear = has_linear_splats(d, primitive);
+    TRY(ffd_model_make_colours(e->model, e->error));
+    double *const colours = e->model->colours + 4 * drawing->position;
+    for (size_t i = 0; i < count; i++) {
+        double *const colour = colours + 4 * i;
+        ffd_gltf_read(d, a, i, 1, 3, colour);
+        for (int c = 0; c < 3; c++) {
+            const double shown = splat_color(colour[c]);
+            colour[c] = is_linear ? ffd_srgb_from_linear(shown) : shown;
+        }
+        if (opacity != GLTF_NONE)
+            ffd_gltf_read(d, opacity, i, 1, 1, &colour[3]);
+        colour[3] = colour[3] > 0 ? lesser_of(colour[3], 1) : 0;
+    }
+    return FFD_OK;
+}
+
+static ffd_status take_colours(extractor *e, const gltf_instance *instance, const drawn *drawing)
+{
+    const gltf_document *d = e->document;
+    const gltf_primitive *const primitive = instance->primitive;
+    const size_t splats =
+        e->model->wants_details
+            ? ffd_gltf_attribute(d, primitive, "KHR_gaussian_splatting:SH_DEGREE_0_COEF_0", 3, 3)
+            : GLTF_NONE;
+    const size_t a = splats == GLTF_NONE ? ffd_gltf_attribute(d, primitive, "COLOR_0", 3, 4) : splats;
+    if (a == GLTF_NONE || a == e->colours[drawing->part])
+        return FFD_OK;
+    return splats == GLTF_NONE ? take_vertex_colours(e, instance, drawing, a)
+                               : take_splat_colours(e, primitive, drawing, a);
 }
 
 static model_corner corner_at(const drawn *drawing, uint32_t vertex)

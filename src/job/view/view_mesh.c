@@ -76,18 +76,21 @@ static ffd_status make_arrays(mesh_taker *t)
         return ffd_fail(t->error, FFD_E_LIMIT, "%zu triangles are more than can be shown", count);
     memory_budget *const budget = t->model->budget;
     if (budget && (ffd_budget_take(budget, count, TRIANGLE_BYTES, t->error) ||
-                   ffd_budget_take(budget, ends, 2 * sizeof *scene->segments, t->error) ||
-                   ffd_budget_take(budget, points, sizeof *scene->points, t->error)))
+                   ffd_budget_take(budget, ends, 3 * sizeof *scene->segments, t->error) ||
+                   ffd_budget_take(budget, points, 2 * sizeof *scene->points, t->error)))
         return FFD_E_LIMIT;
     scene->triangle_count = count;
     scene->triangles = ffd_alloc(count, 3 * sizeof *scene->triangles);
     scene->texcoords = t->model->texcoord_count ? ffd_alloc_zero(count, 6 * sizeof *scene->texcoords) : NULL;
     scene->segments = ffd_alloc(ends, 2 * sizeof *scene->segments);
     scene->points = ffd_alloc(points, sizeof *scene->points);
+    scene->segment_materials = ffd_alloc(ends, sizeof *scene->segment_materials);
+    scene->point_materials = ffd_alloc(points, sizeof *scene->point_materials);
     scene->parts = ffd_alloc_zero(t->model->run_count, sizeof *scene->parts);
     t->faces = ffd_alloc(count, sizeof *t->faces);
     const bool made = scene->triangles && (scene->texcoords || !t->model->texcoord_count) &&
-                      scene->segments && scene->points && scene->parts && t->faces;
+                      scene->segments && scene->points && scene->segment_materials &&
+                      scene->point_materials && scene->parts && t->faces;
     return made ? make_glow(t) : ffd_fail_memory(t->error);
 }
 
@@ -130,6 +133,31 @@ static const char *name_of_run(const mesh_model *model, const model_run *run)
     return "";
 }
 
+/* Takes the lines and points of a run, which has no part of its own. */
+static void take_lines(mesh_taker *t, size_t r, uint32_t material)
+{
+    view_scene *const scene = t->scene;
+    const mesh_model *const model = t->model;
+    const model_run *const run = &model->runs[r];
+    size_t count;
+    for (size_t l = run->first[MODEL_LINES]; l < model_run_end(model, r, MODEL_LINES); l++) {
+        const model_corner *const corners = model_element(&model->lists[MODEL_LINES], l, &count);
+        for (size_t c = 1; c < count; c++) {
+            uint32_t *const segment = scene->segments + 2 * scene->segment_count;
+            segment[0] = corners[c - 1].position;
+            segment[1] = corners[c].position;
+            scene->segment_materials[scene->segment_count++] = material;
+        }
+    }
+    for (size_t p = run->first[MODEL_POINTS]; p < model_run_end(model, r, MODEL_POINTS); p++) {
+        const model_corner *const corners = model_element(&model->lists[MODEL_POINTS], p, &count);
+        for (size_t c = 0; c < count; c++) {
+            scene->points[scene->point_count] = corners[c].position;
+            scene->point_materials[scene->point_count++] = material;
+        }
+    }
+}
+
 static ffd_status take_run(mesh_taker *t, size_t r)
 {
     const model_run *const run = &t->model->runs[r];
@@ -142,6 +170,7 @@ static ffd_status take_run(mesh_taker *t, size_t r)
     t->glow = m ? m->glow : ffd_texture_none();
     for (size_t f = run->first[MODEL_FACES]; f < end; f++)
         TRY(take_face(t, f));
+    take_lines(t, r, material);
     if (t->triangles == first)
         return FFD_OK;
     *part = (view_part){.name = ffd_text_copy(name_of_run(t->model, run)),
@@ -150,23 +179,6 @@ static ffd_status take_run(mesh_taker *t, size_t r)
                         .triangle_count = t->triangles - first};
     t->scene->part_count++;
     return part->name ? FFD_OK : ffd_fail_memory(t->error);
-}
-
-static void take_lines(mesh_taker *t)
-{
-    const model_list *const lines = &t->model->lists[MODEL_LINES], *const points =
-                                                                       &t->model->lists[MODEL_POINTS];
-    size_t count;
-    for (size_t l = 0; l < lines->count; l++) {
-        const model_corner *const corners = model_element(lines, l, &count);
-        for (size_t c = 1; c < count; c++) {
-            uint32_t *const segment = t->scene->segments + 2 * t->scene->segment_count++;
-            segment[0] = corners[c - 1].position;
-            segment[1] = corners[c].position;
-        }
-    }
-    for (size_t p = 0; p < points->corner_count; p++)
-        t->scene->points[t->scene->point_count++] = points->corners[p].position;
 }
 
 /* Moves positions, colours and numbers from the model to the scene. */
@@ -189,7 +201,6 @@ ffd_status ffd_view_take_mesh(mesh_model *model, view_scene *scene, uint32_t **f
     TRY_END(make_arrays(&t));
     for (size_t r = 0; r < model->run_count; r++)
         TRY_END(take_run(&t, r));
-    take_lines(&t);
     take_vertices(model, scene);
     ffd_polygon_cut_warn(t.scratch.cutter.hurried, log);
     if (model->features & MODEL_HAS_TEXTURES && scene->materials.count == 0)

@@ -54,8 +54,8 @@ class Viewer {
     this.paint = own || named(scene.view.color) || named('displacement') || named('plain');
     this.settings = {blend: 1, showCage: true, showRest: false, showTears: true, showFlipped: true, showEdges: false, isSmooth: true,
       showJoints: false, isPosed: false};
-    this.camera = new Camera(listFitPoints(scene));
-    if (scene.view.camera.some((x) => x !== 0)) [this.camera.yaw, this.camera.pitch] = anglesOf(scene.view.camera);
+    this.camera = new Camera(listFitPoints(scene), scene.view.up);
+    if (scene.view.camera.some((x) => x !== 0)) [this.camera.yaw, this.camera.pitch] = anglesOf(scene.view.camera, scene.view.up);
     this.renderer = null;
     this.waiting = false;
     this.motion = 0;
@@ -239,7 +239,7 @@ class Viewer {
   }
 
   look(name) {
-    const camera = new Camera(this.camera.points);
+    const camera = new Camera(this.camera.points, this.camera.upwards);
     [camera.yaw, camera.pitch] = VIEWS[name] || [this.camera.yaw, this.camera.pitch];
     camera.aspect = this.camera.aspect;
     this.moveCamera({yaw: camera.yaw, pitch: camera.pitch, ...camera.fit()});
