@@ -155,8 +155,9 @@ def against_pages(rows):
     if tuple(re.findall(r"'(\w+)'", listed)) != names_of("ffd_vertex_status"):
         yield "src/view/page/decode.js: STATUS_NAMES are not those of src/base/names.c"
     listed = re.search(r"color_names\[\] = \{(.*), NULL\}", tree.read("src/cli/look.c"))[1]
-    if tuple(re.findall(r'"(\w+)"', listed)) != names_of("ffd_view_color"):
-        yield "src/cli/view.c: color_names are not those of src/base/names.c"
+    # No --color at all is the last one.
+    if (*re.findall(r'"(\w+)"', listed), "auto") != names_of("ffd_view_color"):
+        yield "src/cli/look.c: color_names are not those of src/base/names.c"
 
 
 def names_of(enumeration):
