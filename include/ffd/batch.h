@@ -98,6 +98,9 @@ typedef struct ffd_batch_desc {
     /* When *cancel is not 0 the batch ends as by progress. Another thread or the handler of a signal may set
        it, by an atomic store; NULL: nobody does. */
     const int *cancel;
+    /* How pictures are drawn: camera, up, color, width, height, frames, animation and no_cage; its other
+       members do not count. Only with view; NULL: as by default. */
+    const ffd_view_desc *look;
 } ffd_batch_desc;
 
 /* Sets desc to defaults: all members 0, NULL or false. size: sizeof(ffd_batch_desc) in the caller's header.

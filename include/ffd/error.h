@@ -33,11 +33,12 @@ typedef struct ffd_error {
     ffd_status status; /* the status that the function returned */
     char file[1024];   /* path or name of the file; "": none */
     size_t line;       /* line in the file, from 1; 0: none */
-    char pointer[256]; /* JSON pointer (RFC 6901) into the file; "": none */
+    char pointer[256]; /* JSON pointer (RFC 6901) into the file, at that line if there is one; "": none */
     char message[512]; /* what is wrong, with the value, in English */
 } ffd_error;
 
-/* Formats an error as "FILE[:LINE|:POINTER]: MESSAGE", or "MESSAGE" if it names no file. Writes at most
+/* Formats an error as "FILE: MESSAGE", "FILE:LINE: MESSAGE", "FILE:LINE: POINTER: MESSAGE" or
+   "FILE:POINTER: MESSAGE", or "MESSAGE" if it names no file. Writes at most
    capacity bytes to text, including a final 0; text may be NULL if capacity is 0. Returns the length of the
    whole line without the 0, as snprintf does. Thread-safe. */
 FFD_API size_t ffd_error_format(const ffd_error *error, char *text, size_t capacity);

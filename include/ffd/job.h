@@ -365,12 +365,22 @@ typedef enum ffd_view_color {
     FFD_VIEW_DISPLACEMENT = 0, /* the distance by which a vertex moves */
     FFD_VIEW_STATUS,           /* the ffd_vertex_status of a vertex */
     FFD_VIEW_DET,              /* det F at a vertex, the factor by which volumes grow */
-    FFD_VIEW_PLAIN             /* base colours and vertex colours of the mesh */
+    FFD_VIEW_PLAIN,            /* materials and vertex colours of the mesh */
+    FFD_VIEW_AUTO /* a picture: displacement; a page: as FFD_VIEW_PLAIN where the mesh has textures, vertex
+                        colours or materials that are not white, else displacement */
 } ffd_view_color;
 
 /* Returns "displacement", "status", "det" or "plain"; NULL for another value. The string is static.
    Thread-safe. */
 FFD_API const char *ffd_view_color_name(ffd_view_color color);
+
+/* The axis that points upwards in a view. */
+typedef enum ffd_up { FFD_UP_Y = 0, FFD_UP_Z, FFD_UP_X } ffd_up;
+
+/* Fills direction with that of a named side, as ffd_view_desc.camera has it: "front", "back", "left",
+   "right", "top", "bottom", or "iso", which gives zeros. Errors: FFD_E_ARGUMENT (another name or value;
+   direction stays). Thread-safe. */
+FFD_API ffd_status ffd_view_camera(const char *name, ffd_up up, double direction[3]);
 
 /* A job of `ffd view`: a web page or a picture that shows a mesh before and after. */
 typedef struct ffd_view_desc {
@@ -383,9 +393,10 @@ typedef struct ffd_view_desc {
     const ffd_source *deformed;
     const char *output; /* .html or .htm: a page; .png: a picture */
     bool force;         /* overwrite an existing output */
-    /* Direction from the mesh to the camera, y upwards; zeros: from the right, above and in front. */
+    /* Direction from the mesh to the camera, in the axes of the mesh; zeros: from the right, above and in
+       front. */
     double camera[3];
-    ffd_view_color color; /* default FFD_VIEW_DISPLACEMENT */
+    ffd_view_color color; /* default FFD_VIEW_AUTO */
     bool full; /* page: show all vertices; else a mesh of more than 200,000 is simplified, and the page says
                   so */
     /* Of a picture, or of each picture in a row, in pixels; 0: 1600 and 900. A page fills its window. */
@@ -402,6 +413,8 @@ typedef struct ffd_view_desc {
     bool as_stored;
     ffd_sink_function sink; /* as ffd_deform_desc.sink; job->sink is ignored */
     void *sink_user;
+    ffd_up up;    /* the axis that points upwards; the mesh stays as it is. Default FFD_UP_Y */
+    bool no_cage; /* lattices are not drawn */
 } ffd_view_desc;
 
 /* Sets desc to defaults. size: sizeof(ffd_view_desc) in the caller's header. */

@@ -76,13 +76,13 @@ ffd_status ffd_fail_line(ffd_error *error, ffd_status status, const char *file, 
     return status;
 }
 
-ffd_status ffd_fail_at(ffd_error *error, ffd_status status, const char *file, const char *pointer,
-                       const char *format, ...)
+ffd_status ffd_fail_at(ffd_error *error, ffd_status status, const char *file, size_t line,
+                       const char *pointer, const char *format, ...)
 {
     if (error) {
         va_list arguments;
         va_start(arguments, format);
-        fill(error, status, file, 0, pointer, format, arguments);
+        fill(error, status, file, line, pointer, format, arguments);
         va_end(arguments);
     }
     return status;
@@ -106,6 +106,9 @@ size_t ffd_error_format(const ffd_error *error, char *text, size_t capacity)
     int length;
     if (!error->file[0] && !error->pointer[0])
         length = snprintf(text, capacity, "%s", error->message);
+    else if (error->line > 0 && error->pointer[0])
+        length = snprintf(text, capacity, "%s:%zu: %s: %s", error->file, error->line, error->pointer,
+                          error->message);
     else if (error->line > 0)
         length = snprintf(text, capacity, "%s:%zu: %s", error->file, error->line, error->message);
     else if (error->pointer[0])

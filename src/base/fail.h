@@ -45,9 +45,9 @@ ffd_status ffd_fail_errno(ffd_error *error, const char *file, const char *what);
 /* A failure at a line (from 1) of a file. */
 ffd_status ffd_fail_line(ffd_error *error, ffd_status status, const char *file, size_t line,
                          const char *format, ...) FFD_PRINTF(5, 6);
-/* A failure at a JSON pointer into a file. */
-ffd_status ffd_fail_at(ffd_error *error, ffd_status status, const char *file, const char *pointer,
-                       const char *format, ...) FFD_PRINTF(5, 6);
+/* A failure at a JSON pointer into a file. line: of the value, from 1; 0: the file has no lines. */
+ffd_status ffd_fail_at(ffd_error *error, ffd_status status, const char *file, size_t line,
+                       const char *pointer, const char *format, ...) FFD_PRINTF(6, 7);
 /* "out of memory", FFD_E_MEMORY. */
 ffd_status ffd_fail_memory(ffd_error *error);
 /* Returns the status that a callback of the user's has returned, or FFD_E_IO if it is not an ffd_status. */

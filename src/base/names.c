@@ -42,6 +42,7 @@ const char *ffd_view_color_name(ffd_view_color color)
     static const char *const names[] = {[FFD_VIEW_DISPLACEMENT] = "displacement",
                                         [FFD_VIEW_STATUS] = "status",
                                         [FFD_VIEW_DET] = "det",
-                                        [FFD_VIEW_PLAIN] = "plain"};
+                                        [FFD_VIEW_PLAIN] = "plain",
+                                        [FFD_VIEW_AUTO] = "auto"};
     return NAME_OF(names, color);
 }

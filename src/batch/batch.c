@@ -63,6 +63,7 @@ static const char *find_misfit(const ffd_batch_desc *d, const ffd_deform_desc *j
         {d->resume && in_place,
          "{in_place} cannot be used with {resume}: a finished mesh would be deformed again"},
         {d->view && in_place, "{in_place} cannot be used with {view}: a picture is named after {output}"},
+        {d->look && !d->view, "{look} needs {view}"},
         {d->depfile && in_place, "{depfile} cannot be used with {in_place}: a file cannot depend on itself"},
         {d->is_program && d->dry_run && is_stream(d->report),
          "{dry_run} and the report cannot both write to standard output"},
@@ -86,16 +87,21 @@ static const char *find_misfit(const ffd_batch_desc *d, const ffd_deform_desc *j
     return i < sizeof rules / sizeof *rules ? rules[i].why : NULL;
 }
 
-/* Takes the descriptions of the caller. jobs: the defaults, which desc then has. */
+/* Takes the descriptions of the caller. jobs: the defaults, and look: how pictures are drawn, which desc then
+   has. */
 static ffd_status take(const ffd_batch_desc *callers, ffd_batch_desc *desc, ffd_deform_desc *jobs,
-                       ffd_error *error)
+                       ffd_view_desc *look, ffd_error *error)
 {
+    ffd_view_desc_init(look, sizeof *look);
     ffd_batch_desc_init(desc, sizeof *desc);
     ffd_deform_desc_init(jobs, sizeof *jobs);
     TRY(ffd_struct_take(desc, sizeof *desc, callers, "ffd_batch_desc", error));
     if (desc->defaults)
         TRY(ffd_struct_take(jobs, sizeof *jobs, desc->defaults, "ffd_deform_desc", error));
     desc->defaults = jobs;
+    if (desc->look)
+        TRY(ffd_struct_take(look, sizeof *look, desc->look, "ffd_view_desc", error));
+    desc->look = desc->look ? look : NULL;
     const char *const why = find_misfit(desc, jobs);
     return why ? ffd_fail(error, FFD_E_ARGUMENT, "%s", SPELLED(why)) : FFD_OK;
 }
@@ -104,7 +110,8 @@ ffd_status ffd_batch_desc_check(const ffd_batch_desc *callers, ffd_error *error)
 {
     ffd_batch_desc desc;
     ffd_deform_desc jobs;
-    return take(callers, &desc, &jobs, error);
+    ffd_view_desc look;
+    return take(callers, &desc, &jobs, &look, error);
 }
 
 static job_source_desc describe_jobs(const ffd_batch_desc *desc)
@@ -133,11 +140,12 @@ ffd_status ffd_batch_run(const ffd_batch_desc *callers, ffd_batch_result *result
 {
     ffd_batch_desc given;
     ffd_deform_desc jobs;
+    ffd_view_desc look;
     ffd_batch_result found = {.struct_size = sizeof found};
     char program[LONGEST_PATH];
     TRY(ffd_struct_check(sizeof found, result, "ffd_batch_result", error));
     ffd_status status;
-    TRY_END(take(callers, &given, &jobs, error));
+    TRY_END(take(callers, &given, &jobs, &look, error));
     if (!given.is_program)
         TRY_END(ffd_worker_program_find(program, error));
     const batch_desc desc = {.given = &given,

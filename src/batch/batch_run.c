@@ -182,18 +182,6 @@ static ffd_status run_jobs(batch_run *run, ffd_error *error)
     return first ? first : status;
 }
 
-static ffd_status open_default_journal(const char *path, job_journal **journal, ffd_error *error)
-{
-    size_t made;
-    char *const folder = ffd_path_folder(path);
-    ffd_status status;
-    TRY_END(folder ? ffd_folder_make(folder, &made, error) : ffd_fail_memory(error));
-    TRY_END(ffd_journal_open(path, journal, error));
-end:
-    ffd_free(folder);
-    return status;
-}
-
 /* Returns the path of the file that the jobs come from; NULL: they come from elsewhere. */
 static const char *file_of_jobs(const job_source_desc *jobs)
 {
@@ -247,7 +235,7 @@ static ffd_status open_journal(batch_run *run, ffd_error *error)
     else if (desc->given->journal)
         status = ffd_journal_open(path, &run->journal, &reason);
     else
-        status = open_default_journal(path, &run->journal, &reason);
+        status = ffd_journal_open_default(path, &run->journal, &reason);
     if (!status)
         return FFD_OK;
     if (!desc->given->journal) { /* the default journal is optional: it only saves time */
@@ -353,6 +341,7 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
     pool.wishes.report = run->report || run->view || run->rows.report;
     pool.wishes.quality = pool.wishes.quality || run->report || run->view;
     pool.draws = run->view != NULL;
+    pool.look = desc->given->look;
     pool.rows = desc->given->positions ? &run->rows.array : NULL;
     pool.wishes.depfile = run->depfile != NULL;
     pool.wishes.records = run->journal != NULL;

@@ -129,9 +129,10 @@ end:
     ffd_paths_free(&read);
     if (status || !desc->shared_box)
         return status;
-    const ffd_bounds box = ffd_shown_box_bounds(&desc->shared_box->box);
-    const double sides[] = {box.min[0], box.min[1], box.min[2], box.max[0], box.max[1], box.max[2]};
-    const hash128 hash = ffd_hash_doubles(sides, 6);
+    const fit_extent box = ffd_shown_box_extent(&desc->shared_box->box);
+    const hash128 sides[] = {ffd_hash_doubles(box.min, 3), ffd_hash_doubles(box.max, 3),
+                             ffd_hash_doubles(box.shown_min, 3), ffd_hash_doubles(box.shown_max, 3)};
+    const hash128 hash = ffd_hash(sides, sizeof sides);
     return add_hash(list, &hash, error);
 }
 

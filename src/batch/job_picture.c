@@ -45,16 +45,15 @@ static ffd_status make_folder(const char *path, char **folder, size_t *made, ffd
     return *folder ? ffd_folder_make(*folder, made, error) : ffd_fail_memory(error);
 }
 
-ffd_status ffd_job_picture_write(const char *path, const ffd_deform_desc *desc, bool force,
-                                 ffd_job_result *result)
+ffd_status ffd_job_picture_write(const char *path, const ffd_deform_desc *desc, const ffd_view_desc *look,
+                                 bool force, ffd_job_result *result)
 {
     ffd_deform_desc job = *desc;
-    ffd_view_desc view;
+    ffd_view_desc view = *look;
     char *folder;
     size_t made;
     job.output_list = NULL; /* the outputs are those of the job itself */
     job.cache = NULL;       /* draw the mesh at rest; a mesh of the cache may have results */
-    ffd_view_desc_init(&view, sizeof view);
     view.job = &job;
     view.output = path;
     view.force = force;

@@ -1,7 +1,7 @@
 /* journal.h - remembers on disk, for each output, what it was made from and the job's figures: a hash table
    of records by output; only the records in use are in memory. If the program is killed at any moment, the
    table stays valid, and an incomplete record is recognized by its check sum. Without the journal, jobs are
-   only done again. */
+   only done again. default_journal.c has those that no option names. */
 #ifndef FFD_BATCH_JOURNAL_H
 #define FFD_BATCH_JOURNAL_H
 
@@ -26,12 +26,17 @@ bool ffd_journal_put(job_journal *journal, const hash128 *target, const job_reco
 /* Returns the key of the note of a copy beside an output: its content's hash is in both parts of the record.
  */
 hash128 ffd_journal_copy_key(const char *base, const char *copy);
+/* Writes its head anew, so that the file's time tells when it was last used. */
+void ffd_journal_mark_used(job_journal *journal);
 /* Closes a journal and sets *journal to NULL, which it may be already. */
 void ffd_journal_close(job_journal **journal);
 
 /* Returns the default path of a batch's journal, named by the manifest and the shard, in the user's cache
    folder (XDG_CACHE_HOME or ~/.cache; LOCALAPPDATA). Freed with ffd_free; NULL: no such folder, or out of
-   memory. ffd_folder_make makes its folder. */
+   memory. */
 char *ffd_journal_default_path(const char *jobs, uint64_t shard, uint64_t shards);
+/* Opens the journal with this path, and makes its folder. A new one removes those beside it that were not
+   used for 180 days. Errors: those of ffd_journal_open. */
+ffd_status ffd_journal_open_default(const char *path, job_journal **journal, ffd_error *error);
 
 #endif

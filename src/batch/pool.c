@@ -76,6 +76,19 @@ static uint32_t count_words(const byte_buffer *words)
     return count;
 }
 
+static void take_look(const ffd_view_desc *from, task_look *to)
+{
+    if (!from)
+        return;
+    memcpy(to->camera, from->camera, sizeof to->camera);
+    to->width = from->width;
+    to->height = from->height;
+    to->frames = from->frames;
+    to->color = (int32_t)from->color;
+    to->up = (int32_t)from->up;
+    to->no_cage = from->no_cage;
+}
+
 static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_task *task, int threads)
 {
     const pool_desc *const desc = &pool->desc;
@@ -92,6 +105,7 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
     append_word(&text, task->picture ? task->picture : "");
     append_word(&text, desc->rows ? desc->rows->path : "");
     append_word(&text, desc->journal ? desc->journal : "");
+    append_word(&text, desc->look && desc->look->animation ? desc->look->animation : "");
     append_word(&text, desc->base ? desc->base : "");
     ffd_buffer_append(&text, task->passed.data, task->passed.size);
     head.text_size = text.size - sizeof head;
@@ -100,6 +114,7 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
     head.content = job->content;
     head.wishes = desc->wishes;
     head.order = task->order;
+    take_look(desc->look, &head.look);
     head.passed_count = count_words(&task->passed) / 2;
     head.threads = threads;
     head.dry_run_job = desc->wishes.dry && !pool->dry_run_done;

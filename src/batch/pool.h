@@ -14,9 +14,10 @@ typedef struct pool_desc {
     const char *journal; /* path of the journal; NULL: none */
     const char *base;    /* folder that its names are relative to; NULL with no journal */
     task_wishes wishes;
-    bool draws;            /* jobs make pictures too */
-    const row_array *rows; /* array of positions, or NULL */
-    const shown_box *box;  /* shared box, or NULL */
+    bool draws;                /* jobs make pictures too */
+    const ffd_view_desc *look; /* how; may be NULL */
+    const row_array *rows;     /* array of positions, or NULL */
+    const shown_box *box;      /* shared box, or NULL */
 } pool_desc;
 
 typedef enum task_state {

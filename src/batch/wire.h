@@ -37,6 +37,14 @@ typedef struct task_wishes {
     bool reports_empty_scan; /* tell at once that a scan has found nothing */
 } task_wishes;
 
+/* How pictures are drawn; their animation is among the texts. */
+typedef struct task_look {
+    double camera[3];
+    uint32_t width, height, frames;
+    int32_t color, up;
+    bool no_cage;
+} task_look;
+
 /* What one task asks for besides. */
 typedef struct task_order {
     job_record record; /* of the last time, if has_record */
@@ -71,13 +79,14 @@ typedef struct task_end {
 /* A task for a worker, followed by its texts: the settings of the job (ffd_settings_write), and each
    terminated by 0 the path of the mesh, the names of the manifest, of the input and of the output (empty: no
    mesh is written), the paths of the picture, of the array of positions and of the journal (empty: none), the
-   folder that the names in the journal are relative to, and passed_count pairs of texts as ffd_claims_others
-   fills them. */
+   animation that the picture shows (empty: none), the folder that the names in the journal are relative to,
+   and passed_count pairs of texts as ffd_claims_others fills them. */
 typedef struct wire_task {
     uint64_t text_size;
     uint64_t line, row; /* of the job */
     hash128 content;    /* likewise */
     task_wishes wishes;
+    task_look look;
     task_order order;
     row_array rows; /* array of positions, if has_row; without its path */
     shown_box box;  /* shared box, if has_box */

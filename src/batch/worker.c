@@ -34,7 +34,7 @@
 
 /* As in wire_task. */
 typedef struct task_texts {
-    const char *origin, *input, *output, *picture, *rows, *journal, *base, *passed;
+    const char *origin, *input, *output, *picture, *rows, *journal, *animation, *base, *passed;
 } task_texts;
 
 typedef struct batch_worker {
@@ -305,16 +305,34 @@ static ffd_status plan(const ffd_deform_desc *desc, ffd_error *error)
     return ffd_chain_check(&files, error);
 }
 
+static ffd_view_desc look_of(const task_look *from, const char *animation)
+{
+    ffd_view_desc look;
+    ffd_view_desc_init(&look, sizeof look);
+    memcpy(look.camera, from->camera, sizeof look.camera);
+    look.width = from->width;
+    look.height = from->height;
+    look.frames = from->frames;
+    look.color = (ffd_view_color)from->color;
+    look.up = (ffd_up)from->up;
+    look.no_cage = from->no_cage;
+    look.animation = *animation ? animation : NULL;
+    return look;
+}
+
 /* Draws the picture of a job that was done or refused by a gate. result: of the job; replaced if only the
    picture is made (is_all), or if drawing fails. */
-static ffd_status draw(const char *picture, bool is_all, const ffd_deform_desc *desc, wire_answer *answer,
-                       ffd_job_result *result)
+static ffd_status draw(const batch_worker *worker, const wire_task *task, bool is_all,
+                       const ffd_deform_desc *desc, wire_answer *answer, ffd_job_result *result)
 {
+    const char *const picture = worker->texts.picture;
+    const ffd_view_desc look = look_of(&task->look, worker->texts.animation);
     ffd_job_result drawn;
     byte_buffer *const lines = ((const job_log *)desc->log_user)->lines;
     const size_t before = lines->size;
     ffd_job_picture_drop_mesh(desc);
-    const ffd_status status = ffd_job_picture_write(picture, desc, desc->force || desc->if_changed, &drawn);
+    const ffd_status status =
+        ffd_job_picture_write(picture, desc, &look, desc->force || desc->if_changed, &drawn);
     drop_repeated(lines, before);
     answer->end.has_picture = status == FFD_OK || status == FFD_E_GATE;
     if (is_all || !answer->end.has_picture)
@@ -414,7 +432,7 @@ static ffd_status do_job(batch_worker *worker, const wire_task *task, const char
     if (task->wishes.dry)
         return status;
     if (picture && (status == FFD_OK || status == FFD_E_GATE))
-        status = draw(picture, has_output, desc, answer, result);
+        status = draw(worker, task, has_output, desc, answer, result);
     /* Results exist now: defer a signal that would end the worker, so that they are recorded. */
     ffd_process_defer_stop(true);
     if (!status && task->wishes.records)
@@ -549,7 +567,8 @@ static ffd_status take_texts(batch_worker *worker, ffd_error *error)
     texts->picture = next_text(texts->output);
     texts->rows = next_text(texts->picture);
     texts->journal = next_text(texts->rows);
-    texts->base = next_text(texts->journal);
+    texts->animation = next_text(texts->journal);
+    texts->base = next_text(texts->animation);
     texts->passed = next_text(texts->base);
     if (!desc->morphs)
         return FFD_OK;

@@ -1,8 +1,10 @@
 /* batch.c - ffd batch: many jobs, from a manifest, a table or a pattern. */
 #include "cli/command.h"
 #include "cli/deform.h"
+#include "cli/look.h"
 #include <errno.h>
 #include <ffd/batch.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,6 +15,9 @@ typedef struct settings {
     int at_once;
     uint64_t shard, shards;
     double timeout;
+    cli_look look; /* of the pictures */
+    ffd_view_desc drawn;
+    char needs[60]; /* which option needs another one */
     bool resume, stop, keep_going, dry;
 } settings;
 
@@ -57,6 +62,8 @@ static const cli_option own_options[] = {
     {"view", 0, "DIR",
      "draw each job before and after into this folder, and an index.html that compares them", cli_set_text,
      AT(view), NULL},
+    CLI_PICTURE_OPTIONS(AT(look)),
+    CLI_SIDE_OPTIONS(AT(look)),
     {"positions", 0, "ALL.npy",
      "one array of all deformed positions, jobs x vertices x 3, and ALL.json; meshes need \"out\"",
      cli_set_text, AT(positions), NULL},
@@ -86,6 +93,9 @@ static ffd_batch_desc describe(settings *s, const cli_words *words)
     desc.positions = s->positions;
     desc.positions_double = s->type > 0;
     desc.view = s->view;
+    ffd_view_desc_init(&s->drawn, sizeof s->drawn);
+    cli_look_describe(&s->look, &s->drawn);
+    desc.look = s->view ? &s->drawn : NULL;
     desc.report = job->report;
     desc.report_stable = job->stable;
     desc.depfile = s->jobs.depfile_path;
@@ -107,6 +117,10 @@ static const char *mistake(settings *s, const cli_words *words, const ffd_batch_
         return "--stop and --keep-going cannot be used together";
     if (s->type >= 0 && !s->positions)
         return "--dtype needs --positions";
+    if (!s->view && cli_look_given(&s->look)) {
+        snprintf(s->needs, sizeof s->needs, "--%s needs --view", cli_look_given(&s->look));
+        return s->needs;
+    }
     return ffd_batch_desc_check(desc, &s->jobs.job.refusal) ? s->jobs.job.refusal.message : NULL;
 }
 

@@ -1,11 +1,13 @@
 /* check.c - ffd check: what a deformation would do, without writing it. */
 #include "cli/job.h"
+#include "cli/look.h"
 #include <stdio.h>
 
 typedef struct settings {
     cli_job job;
     cli_kept kept;
     const char *picture;
+    cli_look look; /* of the picture */
     bool force;
 } settings;
 
@@ -13,6 +15,7 @@ typedef struct settings {
 static const cli_option options[] = {
     {"picture", 0, "FILE.png|FILE.html",
      "draw it too, before and after; of one IN (ffd view has more options)", cli_set_text, AT(picture), NULL},
+    CLI_SIDE_OPTIONS(AT(look)),
     {"force", 0, NULL, "overwrite an existing picture; else without effect", cli_set_flag, AT(force), NULL},
     CLI_KEPT_OPTIONS(AT(kept)),
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
@@ -41,6 +44,7 @@ static ffd_status run_job(const settings *s, const ffd_deform_desc *desc, ffd_jo
     view.job = desc;
     view.output = s->picture;
     view.force = s->force;
+    cli_look_describe(&s->look, &view);
     return ffd_view_run(&view, result, NULL);
 }
 
@@ -61,11 +65,16 @@ static int check(cli_job *job, const char *input, ffd_report *report)
 static int act(const cli_command *command, void *context, const cli_words *words)
 {
     settings *const s = context;
+    char needs[60];
     const char *why = words->count ? cli_job_mistake(&s->job, words, words->count) : "needs IN";
     if (!why && s->picture && words->count > 1)
         why = "--picture is of one mesh, but several IN are given";
     if (!why && s->picture && s->job.report && ffd_paths_meet(s->job.report, s->picture))
         why = "the report would replace the picture";
+    if (!why && !s->picture && cli_look_given(&s->look)) {
+        snprintf(needs, sizeof needs, "--%s needs --picture", cli_look_given(&s->look));
+        why = needs;
+    }
     if (why)
         return cli_usage(command, why);
     if (!cli_job_knows_formats(&s->job, words, words->count))

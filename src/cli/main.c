@@ -51,6 +51,12 @@ static const cli_command *next_of_group(const char *group, int *next)
     return NULL;
 }
 
+static const char *first_of_group(const char *group)
+{
+    int next = 0;
+    return next_of_group(group, &next)->name;
+}
+
 static bool is_group(const char *word)
 {
     int next = 0;
@@ -102,6 +108,11 @@ static int unknown_command(int count, char **arguments)
     const bool two = is_group(arguments[0]) && count > 1;
     snprintf(typed, sizeof typed, "%s%s%s", arguments[0], two ? " " : "", two ? arguments[1] : "");
     const char *const meant = two ? member_meant(arguments[0], arguments[1]) : command_meant(arguments[0]);
+    if (!meant && strpbrk(arguments[two], "./\\")) { /* a file: the command before it is missing */
+        cli_complain("\"%s\" is not a command; a command comes first, as in: ffd %s %s ...", typed,
+                     two ? first_of_group(arguments[0]) : "deform", arguments[two]);
+        return EXIT_USAGE;
+    }
     cli_complain("unknown command \"%s\" (%s%s)", typed,
                  meant ? "nearest: " : "ffd help lists the known ones", meant ? meant : "");
     return EXIT_USAGE;

@@ -129,6 +129,32 @@ const cli_option *cli_next_option(cli_option_walk *walk)
 /* The most options of a command that are compared with an unknown one. */
 #define MOST_OPTIONS 128
 
+/* Words of who looks for an option that is called otherwise: parts of the mesh, and moves. */
+static const char *hint_of(const char *word, const char *const *known, size_t count)
+{
+    static const struct hint {
+        const char *word, *option, *text;
+    } hints[] = {{"node", "only", "--only node:NAME"},
+                 {"mesh", "only", "--only mesh:NAME"},
+                 {"material", "only", "--only material:NAME"},
+                 {"group", "only", "--only group:NAME"},
+                 {"object", "only", "--only object:NAME"},
+                 {"select", "only", "--only KIND:NAME"},
+                 {"translate", "lattice", "moves are in the lattice file: \"by\""},
+                 {"scale", "lattice", "moves are in the lattice file: \"scale\""},
+                 {"rotate", "lattice", "moves are in the lattice file: \"rotate\""},
+                 {"twist", "lattice", "moves are in the lattice file: \"twist\""},
+                 {"bend", "lattice", "moves are in the lattice file: \"bend\""},
+                 {"taper", "lattice", "moves are in the lattice file: \"taper\""},
+                 {"mirror", "lattice", "moves are in the lattice file: \"mirror\""}};
+    for (size_t i = 0; i < sizeof hints / sizeof *hints; i++)
+        if (strcmp(word, hints[i].word) == 0)
+            for (size_t k = 0; k < count; k++)
+                if (strcmp(known[k], hints[i].option) == 0)
+                    return hints[i].text;
+    return NULL;
+}
+
 static bool unknown_option(const cli_table *options, const char *name, size_t length)
 {
     const char *known[MOST_OPTIONS];
@@ -138,6 +164,11 @@ static bool unknown_option(const cli_table *options, const char *name, size_t le
     for (const cli_option *option; count < MOST_OPTIONS && (option = cli_next_option(&walk));)
         known[count++] = option->name;
     snprintf(word, sizeof word, "%.*s", (int)(length < sizeof word ? length : sizeof word - 1), name);
+    const char *const hint = hint_of(word, known, count);
+    if (hint) {
+        cli_complain("unknown option --%s (%s)", word, hint);
+        return false;
+    }
     const char *const meant = ffd_word_meant(word, known, count);
     cli_complain("unknown option --%.*s (%s%s)", (int)(length < 60 ? length : 60), name,
                  meant ? "nearest: --" : "--help lists the known ones", meant ? meant : "");

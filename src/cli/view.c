@@ -1,124 +1,23 @@
 /* view.c - ffd view: a page or a picture of a mesh before and after. */
 #include "cli/job.h"
+#include "cli/look.h"
 #include <ctype.h>
 #include <string.h>
 
 typedef struct settings {
     cli_job job;
     const char *output, *deformed; /* deformed: path of the second mesh, or NULL */
-    const char *animation;
-    double camera[3];
-    int color;
-    uint32_t size[2], frames;
+    cli_look look;
     bool full, force;
     cli_kept kept;
 } settings;
-
-/* Limits of the side of a picture in pixels, and of pictures in a row. */
-#define LEAST_SIDE 16
-#define MOST_SIDE 32767
-#define MOST_FRAMES 64
-
-/* Directions from the mesh to the camera. */
-typedef struct named_camera {
-    const char *name;
-    double at[3];
-} named_camera;
-
-/* The last one is the default of a page. */
-static const named_camera cameras[] = {{"front", {0, 0, 1}}, {"back", {0, 0, -1}}, {"left", {-1, 0, 0}},
-                                       {"right", {1, 0, 0}}, {"top", {0, 1, 0}},   {"iso", {0, 0, 0}}};
-
-static bool parse_direction(const char *value, double direction[3])
-{
-    for (int a = 0; a < 3; a++) {
-        char part[64];
-        const size_t length = strcspn(value, ",");
-        if (length >= sizeof part || value[length] != (a < 2 ? ',' : 0))
-            return false;
-        memcpy(part, value, length);
-        part[length] = 0;
-        if (!cli_parse_number(part, &direction[a]))
-            return false;
-        value += length + 1;
-    }
-    return direction[0] < 0 || direction[0] > 0 || direction[1] < 0 || direction[1] > 0 || direction[2] < 0 ||
-           direction[2] > 0;
-}
-
-static bool set_camera(void *context, const cli_option *option, const char *value)
-{
-    settings *const s = context;
-    for (size_t i = 0; i < sizeof cameras / sizeof *cameras; i++)
-        if (strcmp(cameras[i].name, value) == 0) {
-            memcpy(s->camera, cameras[i].at, sizeof s->camera);
-            return true;
-        }
-    if (parse_direction(value, s->camera))
-        return true;
-    char hint[CLI_HINT];
-    cli_hint_choice(option, value, hint);
-    cli_complain("--%s: \"%.100s\" is not front, back, left, right, top, iso or a direction like 1,0.5,2%s",
-                 option->name, value, hint);
-    return false;
-}
-
-/* Parses a whole number between least and most; *text then points behind it. */
-static bool parse_whole(const char **text, unsigned least, unsigned most, uint32_t *number)
-{
-    unsigned value = 0;
-    const char *at = *text;
-    for (; *at >= '0' && *at <= '9' && value <= most; at++)
-        value = 10 * value + (unsigned)(*at - '0');
-    const bool is_right = at > *text && value >= least && value <= most;
-    *number = value;
-    *text = at;
-    return is_right;
-}
-
-static bool set_size(void *context, const cli_option *option, const char *value)
-{
-    settings *const s = context;
-    const char *at = value;
-    if (parse_whole(&at, LEAST_SIDE, MOST_SIDE, &s->size[0]) && *at++ == 'x' &&
-        parse_whole(&at, LEAST_SIDE, MOST_SIDE, &s->size[1]) && !*at)
-        return true;
-    cli_complain("--%s: \"%.100s\" is not a width and a height of %d to %d pixels, like 1600x900",
-                 option->name, value, LEAST_SIDE, MOST_SIDE);
-    return false;
-}
-
-static bool set_frames(void *context, const cli_option *option, const char *value)
-{
-    settings *const s = context;
-    const char *at = value;
-    if (parse_whole(&at, 2, MOST_FRAMES, &s->frames) && !*at)
-        return true;
-    cli_complain("--%s: \"%.100s\" is not a number from 2 to %d", option->name, value, MOST_FRAMES);
-    return false;
-}
-
-/* In the order of ffd_view_color. */
-static const char *const color_names[] = {"displacement", "status", "det", "plain", NULL};
-static const char *const camera_names[] = {"front", "back", "left", "right", "top", "iso", NULL};
 
 #define AT(field) offsetof(settings, field)
 static const cli_option options[] = {
     {"output", 'o', "FILE.html|FILE.png", "a page, which a browser opens without a network; or a picture",
      cli_set_text, AT(output), NULL},
-    {"size", 0, "WxH", "pixels of the picture, or of each in a row, 16 to 32767 a side; default 1600x900",
-     set_size, 0, NULL},
-    {"frames", 0, "N",
-     "N pictures in a row, 2 to 64, from rest to deformed; default: before and after side by side",
-     set_frames, 0, NULL},
-    {"animation", 0, "NAME",
-     "poses of this animation, 5 or --frames of them, and deformed below; a page opens with it", cli_set_text,
-     AT(animation), NULL},
-    {"camera", 0, "front|back|left|right|top|iso|x,y,z",
-     "the side to look from, y upwards; default iso: right, above, front", set_camera, 0, camera_names},
-    {"color", 0, "displacement|status|det|plain",
-     "colour by displacement, status, det F, or the mesh's own; default displacement", cli_set_choice,
-     AT(color), color_names},
+    CLI_PICTURE_OPTIONS(AT(look)),
+    CLI_SIDE_OPTIONS(AT(look)),
     {"full", 0, NULL, "a page shows all vertices; else a mesh of more than 200,000 is simplified",
      cli_set_flag, AT(full), NULL},
     {"force", 0, NULL, "overwrite an existing output", cli_set_flag, AT(force), NULL},
@@ -138,13 +37,8 @@ static int show(cli_job *job, const char *input, ffd_report *report)
     view.job = &desc;
     view.output = s->output;
     view.force = s->force;
-    view.color = (ffd_view_color)s->color;
     view.full = s->full;
-    view.width = s->size[0];
-    view.height = s->size[1];
-    view.frames = s->frames;
-    view.animation = s->animation;
-    memcpy(view.camera, s->camera, sizeof view.camera);
+    cli_look_describe(&s->look, &view);
     if (s->deformed) {
         deformed = desc.input;
         deformed.path = s->deformed;
@@ -185,9 +79,9 @@ static const char *mistake_of_kind(const settings *s)
                is_page = has_ending(s->output, ".html") || has_ending(s->output, ".htm");
     if (is_picture && s->full)
         return "--full is for pages, but the output is a picture";
-    if (is_page && s->size[0])
+    if (is_page && s->look.size[0])
         return "--size is for pictures, but the output is a page";
-    if (is_page && s->frames)
+    if (is_page && s->look.frames)
         return "--frames is for pictures, but the output is a page";
     return NULL;
 }

@@ -20,6 +20,7 @@
 #include "job/measure/behind.h"
 #include "job/measure/figures.h"
 #include "job/measure/rig.h"
+#include "job/measure/symmetry.h"
 #include "job/measure/tear_figures.h"
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
@@ -348,6 +349,7 @@ static ffd_status pass_and_judge(deform_job *job, figure_arrays *arrays, figure_
     TRY(ready);
     TRY(ffd_deadline_check(error));
     TRY(locate(job, error));
+    TRY(ffd_symmetry_warn(job, error));
     TRY(ffd_tear_figures_prepare(job, arrays, error));
     TRY(move_rig(job, error));
     const ffd_status passed = ffd_deform_passes(job, arrays, stored, error);
@@ -364,10 +366,12 @@ static ffd_status pass_and_judge(deform_job *job, figure_arrays *arrays, figure_
 /* Says what the figures of a job that has passed mean for its user. */
 static ffd_status warn(const deform_job *job, const ffd_job_result *result, ffd_error *error)
 {
+    bool falls_short;
     ffd_flaws_warn(&job->document->flaws, NULL, &job->file_log);
     TRY(ffd_overlaps_warn(&job->chain, &job->log, error));
     ffd_result_warn(&job->totals, &job->chain, true, &job->log);
-    if (warns_if_still(job))
+    TRY(ffd_places_warn(&job->chain, &job->log, &falls_short, error));
+    if (warns_if_still(job) && !(falls_short && job->totals.moved == 0))
         ffd_still_warn(&job->totals, &job->chain, &result->bounds.before, job->desc->as_morph != NULL,
                        !job->check, &job->log);
     warn_of_left(job, result);

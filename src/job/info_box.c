@@ -39,13 +39,13 @@ static ffd_status go_round(ffd_lattice *lattice, const ffd_source *like, bool fi
 {
     mesh_boxes own = {0};
     path_list files = {0};
-    ffd_bounds bounds;
-    const ffd_status status = ffd_mesh_box_find(&own, lattice, like, &bounds, &files, NULL, error);
+    fit_extent extent;
+    const ffd_status status = ffd_mesh_box_find(&own, lattice, like, &extent, &files, NULL, error);
     ffd_mesh_boxes_free(&own);
     ffd_paths_free(&files);
     TRY(status);
-    TRY(ffd_shape_grow_box(bounds.min, bounds.max, lattice->spec->margin, box->min, box->max, error));
-    return fits ? ffd_lattice_fit(lattice, bounds.min, bounds.max, error) : FFD_OK;
+    TRY(ffd_shape_grow_box(extent.min, extent.max, lattice->spec->margin, box->min, box->max, error));
+    return fits ? ffd_lattice_fit_extent(lattice, &extent, error) : FFD_OK;
 }
 
 static ffd_status describe_meshes(ffd_lattice *lattice, const ffd_source *like, bool fits, ffd_bounds *box,

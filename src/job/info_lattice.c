@@ -192,7 +192,7 @@ static ffd_status build(lattice_spec *spec, memory_budget *budget, ffd_lattice *
     const ffd_status too_large = ffd_lattice_memory_take(budget, spec, 0, error);
     *fits = !too_large;
     if (!too_large)
-        return ffd_spec_build(spec, NULL, NULL, lattice, error);
+        return ffd_spec_build(spec, NULL, lattice, error);
     return ffd_budget_take(&knots, ffd_spec_knot_bytes(spec), 1, NULL)
                ? too_large
                : ffd_spec_build_knots(spec, lattice, error);

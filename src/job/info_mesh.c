@@ -100,6 +100,19 @@ end:
     return status;
 }
 
+/* Writes the names that options and messages need; of a format that has none, empty lists. */
+static ffd_status write_names(const mesh_document *document, json_text *json, ffd_error *error)
+{
+    static const char *const keys[] = {"animations", "morph_targets", "joints", "cameras", "scenes"};
+    if (document->format->list_names)
+        return document->format->list_names(document, json, error);
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+        ffd_json_array(json, keys[i], true);
+        ffd_json_end(json, ']');
+    }
+    return FFD_OK;
+}
+
 ffd_status ffd_info_document(const mesh_document *document, json_text *json, ffd_error *error)
 {
     ffd_json_string(json, "mesh_format", document->format->name);
@@ -108,7 +121,9 @@ ffd_status ffd_info_document(const mesh_document *document, json_text *json, ffd
     ffd_json_object(json, "contents", false);
     ffd_status status = document->format->describe(document, json, error);
     ffd_json_end(json, '}');
-    return status ? status : survey_faces(document, json, error);
+    TRY(status);
+    TRY(write_names(document, json, error));
+    return survey_faces(document, json, error);
 }
 
 ffd_status ffd_info_mesh(const ffd_info_desc *desc, json_text *json, ffd_error *error)

@@ -5,6 +5,7 @@
 #include "job/info.h"
 #include "json/json_parse.h"
 #include <ffd/program.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -16,8 +17,18 @@ typedef struct renderer {
     const json_tree *facts;
     byte_buffer *out; /* NULL in the first walk */
     size_t width;
-    bool failed; /* out of memory */
+    bool is_exact; /* write all digits of numbers: those that the file declares */
+    bool failed;   /* out of memory */
 } renderer;
+
+/* Writes a number in six digits; whole ones, which may be counts, in full. */
+static void write_number(const renderer *r, double number)
+{
+    if (r->is_exact || number == floor(number))
+        ffd_buffer_number(r->out, number);
+    else
+        ffd_buffer_format(r->out, "%.6g", number);
+}
 
 /* Escapes control characters, which would reach the terminal. The rest is UTF-8. */
 static void write_string(byte_buffer *out, const char *text)
@@ -50,7 +61,7 @@ static void write_scalar(renderer *r, uint32_t value)
     }
     case JSON_NUMBER:
         ffd_json_tree_number(r->facts, value, &number);
-        ffd_buffer_number(r->out, number);
+        write_number(r, number);
         break;
     case JSON_TRUE:
         ffd_buffer_text(r->out, "yes");
@@ -68,6 +79,12 @@ static void write_scalar(renderer *r, uint32_t value)
 static bool is_kind(const renderer *r, uint32_t value, json_kind kind)
 {
     return r->facts->values[value].kind == kind;
+}
+
+/* In a list of names null is a thing without one. */
+static bool is_name(const renderer *r, uint32_t value)
+{
+    return is_kind(r, value, JSON_STRING) || is_kind(r, value, JSON_NULL);
 }
 
 static bool has_inner_parts(const renderer *r, uint32_t array)
@@ -89,8 +106,11 @@ static void write_value(renderer *r, uint32_t value)
     }
     for (uint32_t v = first; v != JSON_NONE; v = ffd_json_tree_after(r->facts, v)) {
         if (v != first)
-            ffd_buffer_text(r->out, is_kind(r, v, JSON_STRING) ? ", " : " ");
-        write_scalar(r, v);
+            ffd_buffer_text(r->out, is_name(r, v) ? ", " : " ");
+        if (is_kind(r, v, JSON_NULL))
+            ffd_buffer_text(r->out, "(no name)");
+        else
+            write_scalar(r, v);
     }
 }
 
@@ -195,6 +215,28 @@ static void render_thing(renderer *r, size_t depth, uint32_t thing)
 
 static void render_value(renderer *r, size_t depth, const char *name, uint32_t value);
 
+/* Writes an animation by its name, with its length. */
+static void render_animation(renderer *r, size_t depth, uint32_t animation)
+{
+    const uint32_t own = ffd_json_tree_member(r->facts, animation, "name");
+    const uint32_t seconds = ffd_json_tree_member(r->facts, animation, "seconds");
+    const bool has_name = is_kind(r, own, JSON_STRING);
+    char *const name = has_name ? ffd_json_tree_string(r->facts, own, NULL) : NULL;
+    const char *const shown = name ? name : "(no name)";
+    const size_t used = INDENT * depth + text_width(shown);
+    r->failed = r->failed || (has_name && !name);
+    if (!r->out) {
+        r->width = used > r->width ? used : r->width;
+    } else {
+        write_spaces(r->out, INDENT * depth);
+        write_string(r->out, shown);
+        write_spaces(r->out, r->width + GAP - used);
+        write_scalar(r, seconds);
+        ffd_buffer_text(r->out, is_kind(r, seconds, JSON_NUMBER) ? " s\n" : "\n");
+    }
+    ffd_free(name);
+}
+
 /* Elements of an array are named by their index. */
 static void render_elements(renderer *r, size_t depth, uint32_t array)
 {
@@ -205,20 +247,40 @@ static void render_elements(renderer *r, size_t depth, uint32_t array)
         snprintf(number, sizeof number, "%zu", i++);
         if (ffd_json_tree_member(r->facts, v, "faces") != JSON_NONE)
             render_thing(r, depth, v);
+        else if (ffd_json_tree_member(r->facts, v, "seconds") != JSON_NONE)
+            render_animation(r, depth, v);
         else
             render_value(r, depth, number, v);
     }
+}
+
+/* Whether a member is left out: the format of the JSON, and lists of names that are empty. */
+static bool is_hidden(const renderer *r, size_t depth, uint32_t member)
+{
+    static const char *const keys[] = {"format", "version"};
+    static const char *const lists[] = {"animations", "morph_targets", "joints", "cameras", "scenes"};
+    if (depth > 0)
+        return false;
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        if (ffd_json_tree_key_is(r->facts, member, keys[i]))
+            return true;
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
+        if (ffd_json_tree_key_is(r->facts, member, lists[i]))
+            return r->facts->values[member].count == 0;
+    return false;
 }
 
 static void render_members(renderer *r, size_t depth, uint32_t object)
 {
     for (uint32_t v = ffd_json_tree_first(r->facts, object); v != JSON_NONE;
          v = ffd_json_tree_after(r->facts, v)) {
-        const bool hidden = depth == 0 && (ffd_json_tree_key_is(r->facts, v, "format") ||
-                                           ffd_json_tree_key_is(r->facts, v, "version"));
+        const bool hidden = is_hidden(r, depth, v);
         char *const key = hidden ? NULL : ffd_json_tree_key(r->facts, v);
+        const bool was_exact = r->is_exact;
+        r->is_exact = was_exact || (depth == 0 && key && strcmp(key, "parameters") == 0);
         if (key)
             render_value(r, depth, key, v);
+        r->is_exact = was_exact;
         r->failed = r->failed || (!hidden && !key);
         ffd_free(key);
     }

@@ -376,7 +376,12 @@ static ffd_status scan_text(scanner *s)
 
 ffd_status ffd_json_parse(const json_input *input, json_tree *tree, ffd_error *error)
 {
-    *tree = (json_tree){.text = input->text, .size = input->size};
+    *tree = (json_tree){.text = input->text,
+                        .size = input->size,
+                        .whole = input->whole ? input->whole : input->text,
+                        .line = input->rules & JSON_NO_LINES ? 0
+                                : input->line                ? input->line
+                                                             : 1};
     if (input->size > LARGEST_TEXT)
         return ffd_fail_file(error, FFD_E_LIMIT, input->name, "its JSON has %zu bytes, more than %zu",
                              input->size, LARGEST_TEXT);

@@ -7,12 +7,13 @@
 
 /* Additional rules of a reader, combined with |. */
 enum {
-    JSON_ALLOW_MARK = 1,  /* a byte order mark before the text is skipped (RFC 8259, 8.1) */
-    JSON_NO_NUL = 2,      /* refuses U+0000 in keys and strings, so that they are valid C strings */
-    JSON_DOUBLES = 4,     /* refuses numbers that overflow a double */
-    JSON_INTEGERS = 8,    /* refuses integers (numbers without fraction and exponent) that do not fit in 64
-                             bits */
-    JSON_HAS_COMMENT = 16 /* a message that JSON has no comments names the member "comment" */
+    JSON_ALLOW_MARK = 1,   /* a byte order mark before the text is skipped (RFC 8259, 8.1) */
+    JSON_NO_NUL = 2,       /* refuses U+0000 in keys and strings, so that they are valid C strings */
+    JSON_DOUBLES = 4,      /* refuses numbers that overflow a double */
+    JSON_INTEGERS = 8,     /* refuses integers (numbers without fraction and exponent) that do not fit in 64
+                              bits */
+    JSON_HAS_COMMENT = 16, /* a message that JSON has no comments names the member "comment" */
+    JSON_NO_LINES = 32     /* the text is a part of a binary file: messages about values have no line */
 };
 
 typedef struct json_input {

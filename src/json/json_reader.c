@@ -72,6 +72,11 @@ static void write_pointer(json_cursor cursor, char *text, size_t capacity)
     ffd_json_tree_pointer(cursor.tree, cursor.value, text + length, capacity - length);
 }
 
+size_t ffd_cursor_line(json_cursor cursor)
+{
+    return ffd_json_tree_line(cursor.file->tree, is_substitute(cursor) ? cursor.replaced : cursor.value);
+}
+
 static ffd_status fail(json_cursor cursor, ffd_status status, const char *format, va_list arguments)
 {
     ffd_error *const error = cursor.file->error;
@@ -80,7 +85,7 @@ static ffd_status fail(json_cursor cursor, ffd_status status, const char *format
     char pointer[sizeof error->pointer], message[sizeof error->message];
     write_pointer(cursor, pointer, sizeof pointer);
     vsnprintf(message, sizeof message, format, arguments);
-    return ffd_fail_at(error, status, cursor.file->name, pointer, "%s", message);
+    return ffd_fail_at(error, status, cursor.file->name, ffd_cursor_line(cursor), pointer, "%s", message);
 }
 
 ffd_status ffd_cursor_fail(json_cursor cursor, const char *format, ...)

@@ -69,6 +69,9 @@ static inline size_t ffd_cursor_count(json_cursor cursor)
     return cursor.tree->values[cursor.value].count;
 }
 
+/* Returns the line of the value in the file, from 1. */
+size_t ffd_cursor_line(json_cursor cursor);
+
 /* Fills the file's error with a message at the value. Returns FFD_E_INVALID. */
 ffd_status ffd_cursor_fail(json_cursor cursor, const char *format, ...) FFD_PRINTF(2, 3);
 /* The same with another status. */

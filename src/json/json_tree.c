@@ -220,6 +220,15 @@ void ffd_json_tree_pointer(const json_tree *tree, uint32_t value, char *text, si
         length = pointer_step(tree, path[--depth], text, length, capacity);
 }
 
+size_t ffd_json_tree_line(const json_tree *tree, uint32_t value)
+{
+    const char *const end = tree->text + tree->values[value].begin;
+    size_t line = tree->line;
+    for (const char *c = tree->whole; line > 0 && c < end; c++)
+        line += *c == '\n';
+    return line;
+}
+
 ffd_status ffd_json_tree_fail(const json_tree *tree, uint32_t value, const char *name, ffd_status status,
                               ffd_error *error, const char *format, ...)
 {
@@ -231,5 +240,5 @@ ffd_status ffd_json_tree_fail(const json_tree *tree, uint32_t value, const char 
     va_start(arguments, format);
     vsnprintf(message, sizeof message, SPELLED(format), arguments);
     va_end(arguments);
-    return ffd_fail_at(error, status, name, pointer, "%s", message);
+    return ffd_fail_at(error, status, name, ffd_json_tree_line(tree, value), pointer, "%s", message);
 }

@@ -37,6 +37,8 @@ typedef struct json_tree {
     size_t size;
     json_value *values; /* values[0] is the root */
     size_t count, capacity;
+    const char *whole; /* where lines are counted from: the text, or that of the file that it is a part of */
+    size_t line;       /* the number of the first line there; 0: the file has no lines */
 } json_tree;
 
 /* Frees the tree and empties it. */
@@ -90,6 +92,9 @@ bool ffd_json_tree_equal_strings(const json_tree *a, uint32_t x, const json_tree
 
 /* Writes the JSON pointer (RFC 6901) of a value, "" for the root, truncated to capacity. */
 void ffd_json_tree_pointer(const json_tree *tree, uint32_t value, char *text, size_t capacity);
+
+/* Returns the line of a value, from 1; 0 if the file has no lines. */
+size_t ffd_json_tree_line(const json_tree *tree, uint32_t value);
 
 /* Fills error with a message at a value, and returns status. */
 ffd_status ffd_json_tree_fail(const json_tree *tree, uint32_t value, const char *name, ffd_status status,

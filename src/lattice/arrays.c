@@ -131,7 +131,7 @@ ffd_status ffd_lattice_from_arrays(const ffd_lattice_arrays *arrays, ffd_lattice
     TRY_END(fill_shape(&own, spec, error));
     TRY_END(fill_knots(&own, spec, error));
     TRY_END(fill_rest(&own, spec, error));
-    TRY_END(ffd_spec_build(spec, NULL, NULL, lattice, error));
+    TRY_END(ffd_spec_build(spec, NULL, lattice, error));
 end:
     if (status)
         ffd_spec_free(spec);

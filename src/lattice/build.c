@@ -1,6 +1,7 @@
 #include "lattice/build.h"
 #include "base/memory/memory.h"
 #include "lattice/cylinder.h"
+#include "lattice/drag.h"
 #include "lattice/lattice.h"
 #include "lattice/moves.h"
 #include "lattice/shapes.h"
@@ -10,10 +11,11 @@
 #include <string.h>
 
 /* Adds the JSON pointer of its cause to an error. */
-static ffd_status locate(const lattice_spec *spec, const char *pointer, ffd_status status, ffd_error *error)
+static ffd_status locate(const lattice_spec *spec, size_t line, const char *pointer, ffd_status status,
+                         ffd_error *error)
 {
     if (status == FFD_E_INVALID && error && !error->pointer[0])
-        return ffd_fail_at(error, status, spec->name, pointer, "%s", error->message);
+        return ffd_fail_at(error, status, spec->name, line, pointer, "%s", error->message);
     if (status)
         ffd_fail_name_file(error, spec->name);
     return status;
@@ -27,7 +29,7 @@ static ffd_status make_knots(const lattice_spec *spec, ffd_lattice *lattice, ffd
         lattice->size[a] = spec->size[a];
         const ffd_status status = ffd_knots_make(spec->kind[a], spec->degree[a], spec->size[a], spec->list[a],
                                                  spec->list_count[a], "uvw"[a], &lattice -> knots[a], error);
-        TRY(locate(spec, pointer, status, error));
+        TRY(locate(spec, spec->knots_line[a], pointer, status, error));
     }
     lattice->count = spec->count;
     return FFD_OK;
@@ -74,7 +76,7 @@ static ffd_status place_box(const lattice_spec *spec, ffd_lattice *lattice, cons
     const ffd_status status =
         ffd_shape_box(lattice, min, max, spec->box_axes, spec->spacing, lattice->rest, error);
     if (status)
-        return locate(spec, "/rest/box/spacing", status, error);
+        return locate(spec, spec->rest_line, "/rest/box/spacing", status, error);
     ffd_shape_box_region(min, max, spec->box_axes, region);
     if (spec->spacing == FFD_SPACING_GREVILLE && all_equal(lattice->rest_weights, lattice->count)) {
         lattice->form = REST_BOX_AFFINE;
@@ -99,8 +101,18 @@ static void place_points(const lattice_spec *spec, ffd_lattice *lattice, rest_re
     }
 }
 
-static ffd_status place_rest(const lattice_spec *spec, const double *min, const double *max,
-                             ffd_lattice *lattice, rest_region *region, ffd_error *error)
+/* A side in which the mesh is flat counts as widened, as that of its box without margin. */
+static ffd_status make_mesh_region(const fit_extent *extent, rest_region *region, ffd_error *error)
+{
+    static const double none[3] = {0, 0, 0}, axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    double min[3], max[3];
+    TRY(ffd_shape_grow_box(extent->shown_min, extent->shown_max, none, min, max, error));
+    ffd_shape_box_region(min, max, axes, region);
+    return FFD_OK;
+}
+
+static ffd_status place_rest(const lattice_spec *spec, const fit_extent *extent, ffd_lattice *lattice,
+                             rest_region *region, ffd_error *error)
 {
     double grown_min[3], grown_max[3];
     ffd_status status;
@@ -109,13 +121,15 @@ static ffd_status place_rest(const lattice_spec *spec, const double *min, const 
     case SPEC_BOX:
         return place_box(spec, lattice, spec->box_min, spec->box_max, region, error);
     case SPEC_BOX_MESH:
-        status = ffd_shape_grow_box(min, max, spec->margin, grown_min, grown_max, error);
+        status = ffd_shape_grow_box(extent->min, extent->max, spec->margin, grown_min, grown_max, error);
         if (status)
-            return locate(spec, "/rest/box", status, error);
-        return place_box(spec, lattice, grown_min, grown_max, region, error);
+            return locate(spec, spec->rest_line, "/rest/box", status, error);
+        TRY(place_box(spec, lattice, grown_min, grown_max, region, error));
+        return spec->units == UNITS_MESH ? make_mesh_region(extent, region, error) : FFD_OK;
     case SPEC_CYLINDER:
         ffd_shape_cylinder_region(spec, region);
-        return locate(spec, "/rest/cylinder", ffd_shape_cylinder(lattice, spec, lattice->rest, error), error);
+        return locate(spec, spec->rest_line, "/rest/cylinder",
+                      ffd_shape_cylinder(lattice, spec, lattice->rest, error), error);
     case SPEC_POINTS:
         place_points(spec, lattice, region);
         break;
@@ -138,20 +152,20 @@ static ffd_status set_deformed(const lattice_spec *spec, ffd_lattice *lattice, f
     return FFD_OK;
 }
 
-static ffd_status set_points(const lattice_spec *spec, const double *min, const double *max,
+static ffd_status set_points(const lattice_spec *spec, const fit_extent *extent,
                              const move_observer *observer, ffd_lattice *lattice, ffd_error *error)
 {
     rest_region region;
     TRY(make_points(lattice, error));
     TRY(make_weights(spec, lattice, error));
-    TRY(place_rest(spec, min, max, lattice, &region, error));
+    TRY(place_rest(spec, extent, lattice, &region, error));
     TRY(set_deformed(spec, lattice, error));
     if (spec->move_count > 0)
         TRY(ffd_moves_apply(spec, &region, lattice, observer, error));
     return ffd_lattice_finish_moved(lattice, error);
 }
 
-static ffd_status build(lattice_spec *spec, const double *min, const double *max, bool points,
+static ffd_status build(lattice_spec *spec, const fit_extent *extent, bool points,
                         const move_observer *observer, ffd_lattice **lattice, ffd_error *error)
 {
     *lattice = NULL;
@@ -159,7 +173,7 @@ static ffd_status build(lattice_spec *spec, const double *min, const double *max
     ffd_status status;
     TRY_END(result ? make_knots(spec, result, error) : ffd_fail_memory(error));
     if (points)
-        TRY_END(set_points(spec, min, max, observer, result, error));
+        TRY_END(set_points(spec, extent, observer, result, error));
 end:
     if (status) {
         ffd_fail_name_file(error, spec->name);
@@ -167,26 +181,23 @@ end:
         return status;
     }
     result->spec = spec;
-    for (int c = 0; c < 3 && min; c++) {
-        result->fitted_min[c] = min[c];
-        result->fitted_max[c] = max[c];
-    }
+    if (extent)
+        result->fitted = *extent;
     *lattice = result;
     return FFD_OK;
 }
 
-ffd_status ffd_spec_build(lattice_spec *spec, const double *min, const double *max, ffd_lattice **lattice,
+ffd_status ffd_spec_build(lattice_spec *spec, const fit_extent *extent, ffd_lattice **lattice,
                           ffd_error *error)
 {
-    return build(spec, min, max, spec->rest != SPEC_BOX_MESH || min, NULL, lattice, error);
+    return build(spec, extent, spec->rest != SPEC_BOX_MESH || extent, NULL, lattice, error);
 }
 
 ffd_status ffd_lattice_replay(const ffd_lattice *lattice, const move_observer *observer, ffd_error *error)
 {
     const bool fitted = lattice->spec->rest == SPEC_BOX_MESH;
     ffd_lattice *again;
-    TRY(build(lattice->spec, fitted ? lattice->fitted_min : NULL, fitted ? lattice->fitted_max : NULL, true,
-              observer, &again, error));
+    TRY(build(lattice->spec, fitted ? &lattice->fitted : NULL, true, observer, &again, error));
     again->spec = NULL; /* it belongs to the lattice */
     ffd_lattice_destroy(&again);
     return FFD_OK;
@@ -194,7 +205,7 @@ ffd_status ffd_lattice_replay(const ffd_lattice *lattice, const move_observer *o
 
 ffd_status ffd_spec_build_knots(lattice_spec *spec, ffd_lattice **lattice, ffd_error *error)
 {
-    return build(spec, NULL, NULL, false, NULL, lattice, error);
+    return build(spec, NULL, false, NULL, lattice, error);
 }
 
 uint64_t ffd_spec_knot_bytes(const lattice_spec *spec)
@@ -209,15 +220,30 @@ uint64_t ffd_spec_knot_bytes(const lattice_spec *spec)
     return bytes;
 }
 
+/* The bytes that the largest drag takes while it is applied. */
+static uint64_t drag_bytes(const lattice_spec *spec)
+{
+    uint64_t most = 0, acting = 1;
+    for (int a = 0; a < 3; a++)
+        acting *= (uint64_t)spec->degree[a] + 1;
+    for (size_t i = 0; i < spec->move_count; i++) {
+        const lattice_move *const move = &spec->moves[i];
+        const uint64_t bytes =
+            ffd_drag_bytes(move->drag_count * (move->mirror.kind == MIRROR_NONE ? 1 : 2), acting);
+        most = bytes > most ? bytes : most;
+    }
+    return most;
+}
+
 uint64_t ffd_spec_point_bytes(const lattice_spec *spec)
 {
     uint64_t each = 3 * 3 * sizeof(double) + 1; /* rest, deformed, difference, moved */
     each += spec->weights || spec->deformed_weights || ffd_spec_has_exact(spec) ? 2 * sizeof(double) : 0;
     /* Two trees while the moves are applied. */
-    each += ffd_spec_has_mirror(spec) ? 2 * (sizeof(uint32_t) + 1) : 0;
+    each += ffd_spec_finds_images(spec) ? 2 * (sizeof(uint32_t) + 1) : 0;
     each += spec->points ? 3 * sizeof(double) : 0;
     each += spec->deformed_points || spec->deformed_offsets ? 3 * sizeof(double) : 0;
     each += spec->weights ? sizeof(double) : 0;
     each += spec->deformed_weights ? sizeof(double) : 0;
-    return spec->count * each;
+    return spec->count * each + drag_bytes(spec);
 }

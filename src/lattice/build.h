@@ -12,10 +12,10 @@ uint64_t ffd_spec_knot_bytes(const lattice_spec *spec);
 /* The same for the control points, including those in the spec itself. */
 uint64_t ffd_spec_point_bytes(const lattice_spec *spec);
 
-/* Makes a lattice: knots, control points, moves. min, max: the bounds of the mesh for SPEC_BOX_MESH; if NULL,
-   such a lattice gets only its knots, as with ffd_spec_build_knots. Errors contain the file and the position
+/* Makes a lattice: knots, control points, moves. extent: of the mesh for SPEC_BOX_MESH; if NULL, such a
+   lattice gets only its knots, as with ffd_spec_build_knots. Errors contain the file and the position
    in it. After success the lattice owns the spec; after a failure the caller still does. */
-ffd_status ffd_spec_build(lattice_spec *spec, const double *min, const double *max, ffd_lattice **lattice,
+ffd_status ffd_spec_build(lattice_spec *spec, const fit_extent *extent, ffd_lattice **lattice,
                           ffd_error *error);
 
 /* Applies the moves of a lattice again, for an observer. The lattice must have control points. */

@@ -88,6 +88,10 @@ lattice_spec *ffd_spec_copy(const lattice_spec *spec)
     for (size_t i = 0; i < sizeof weights / sizeof *weights; i++)
         whole = copy_block(weights[i], copy->count, sizeof(double)) && whole;
     whole = copy_block(&copy->moves, copy->move_count, sizeof *copy->moves) && whole;
+    whole = copy_block(&copy->drags, copy->drag_count, sizeof *copy->drags) && whole;
+    for (size_t i = 0; whole && i < copy->move_count; i++)
+        if (copy->moves[i].drag_count > 0)
+            copy->moves[i].drags = copy->drags + (spec->moves[i].drags - spec->drags);
     whole = copy_meshes(copy) && whole;
     whole = copy_parameters(copy) && whole;
     whole = copy_variables(copy) && whole;

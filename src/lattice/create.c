@@ -243,7 +243,7 @@ static ffd_status build(lattice_spec *spec, ffd_lattice **lattice, ffd_error *er
 {
     ffd_error own;
     ffd_error *const found = error ? error : &own;
-    const ffd_status status = ffd_spec_build(spec, NULL, NULL, lattice, found);
+    const ffd_status status = ffd_spec_build(spec, NULL, lattice, found);
     if (status != FFD_E_INVALID || strcmp(found->pointer, "/rest/cylinder") != 0)
         return status;
     own = *found;

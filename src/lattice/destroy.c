@@ -27,6 +27,7 @@ void ffd_spec_free(lattice_spec *spec)
     ffd_free(spec->deformed_offsets);
     ffd_free(spec->deformed_weights);
     ffd_free(spec->moves);
+    ffd_free(spec->drags);
     ffd_intern_free(&spec->open);
     for (size_t i = 0; i < spec->parameter_count; i++)
         free_parameter(&spec->parameters[i]);

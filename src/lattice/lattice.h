@@ -1,5 +1,6 @@
 /* lattice.h - the struct behind ffd_lattice, and the evaluation of cells (public functions: ffd/lattice.h).
-   Declares lattice.c and evaluate.c. */
+   Declares lattice.c and evaluate.c, and
+   a function of file/file.c. */
 #ifndef FFD_LATTICE_LATTICE_H
 #define FFD_LATTICE_LATTICE_H
 
@@ -10,6 +11,12 @@
 #define FFD_MAX_CONTROL_POINTS ((size_t)1 << 26)
 
 struct lattice_spec; /* the content of the file: spec.h */
+
+/* The bounds of the meshes that a box goes round. */
+typedef struct fit_extent {
+    double min[3], max[3];             /* of all shapes: the base, morph targets, default weights */
+    double shown_min[3], shown_max[3]; /* of the shape shown: "units": "mesh" counts in it */
+} fit_extent;
 
 typedef enum rest_form {
     REST_BOX_AFFINE, /* C(u,v,w) = origin + frame t, with t in [0,1]^3 the position in the domain; exact by
@@ -33,14 +40,22 @@ typedef enum point_move {
     POINT_BEGINS_CELL = 64
 } point_move;
 
+/* What the drag that misses most misses of a place. */
+typedef struct drag_miss {
+    size_t move;        /* its index */
+    double miss, asked; /* lengths; both 0: all drags meet their places */
+    double place[3];    /* at rest */
+} drag_miss;
+
 struct ffd_lattice {
     struct lattice_spec *spec; /* owned; kept for saving and for a later ffd_lattice_fit */
     knot_vector knots[3];
     size_t size[3];
     size_t count; /* size[0]*size[1]*size[2] */
 
-    double fitted_min[3], fitted_max[3]; /* of a box round a mesh: the bounds of the mesh */
-    bool edited;                         /* control points or weights were set after the spec's moves */
+    fit_extent fitted; /* of a box round a mesh */
+    bool edited;       /* control points or weights were set after the spec's moves */
+    drag_miss missed;  /* by the spec's moves */
 
     /* NULL until the lattice has control points (a box "mesh" gets them in ffd_lattice_fit). */
     double *rest;                            /* 3*count */
@@ -62,6 +77,9 @@ struct ffd_lattice {
     double diagonal;      /* of the bounding box of the rest control points */
     double greatest[3];   /* magnitude of each coordinate of the control points, at rest and deformed */
 };
+
+/* As ffd_lattice_fit, which takes the bounds of one shape. */
+ffd_status ffd_lattice_fit_extent(ffd_lattice *lattice, const fit_extent *extent, ffd_error *error);
 
 /* Computes difference = Q - P from rest and deformed, which must exist. Errors: FFD_E_MEMORY. */
 ffd_status ffd_lattice_make_difference(ffd_lattice *lattice, ffd_error *error);

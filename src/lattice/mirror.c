@@ -1,7 +1,9 @@
 #include "lattice/mirror.h"
 #include "base/memory/memory.h"
+#include "base/text/number.h"
 #include "base/vector/vec.h"
 #include <float.h>
+#include <stdio.h>
 
 /* Positions whose distance is at most this fraction of the diagonal are equal. The rounding of coordinates
    far from the origin is added. */
@@ -29,16 +31,93 @@ static void find_bounds(const double *points, const uint32_t *order, size_t coun
     }
 }
 
-mirror_plane ffd_mirror_plane(const ffd_lattice *lattice, int axis)
+/* Returns the plane without its place. */
+static mirror_plane make_plane(const ffd_lattice *lattice, const double normal[3], double min[3],
+                               double max[3])
 {
-    double min[3], max[3], side[3], size = 0;
+    mirror_plane plane = {.axis = -1};
+    double side[3], size = 0;
     find_bounds(lattice->rest, NULL, lattice->count, min, max);
     for (int c = 0; c < 3; c++) {
         side[c] = max[c] - min[c];
         size = larger_of(size, larger_of(fabs(min[c]), fabs(max[c])));
     }
     const double tolerance = SAME_PLACE * vec_length(side) + 16 * DBL_EPSILON * size;
-    return (mirror_plane){axis, min[axis] + max[axis], larger_of(tolerance, DBL_MIN)};
+    plane.tolerance = larger_of(tolerance, DBL_MIN);
+    for (int c = 0; c < 3; c++) {
+        plane.normal[c] = normal[c];
+        if (fabs(normal[c]) == 1 && normal[(c + 1) % 3] == 0 && normal[(c + 2) % 3] == 0)
+            plane.axis = c;
+    }
+    return plane;
+}
+
+mirror_plane ffd_mirror_middle(const ffd_lattice *lattice, int axis)
+{
+    const double normal[3] = {axis == 0, axis == 1, axis == 2};
+    double min[3], max[3];
+    mirror_plane plane = make_plane(lattice, normal, min, max);
+    plane.twice = min[axis] + max[axis];
+    plane.offset = 0.5 * plane.twice;
+    return plane;
+}
+
+mirror_plane ffd_mirror_plane(const ffd_lattice *lattice, const double normal[3], double offset)
+{
+    double min[3], max[3];
+    mirror_plane plane = make_plane(lattice, normal, min, max);
+    plane.offset = offset;
+    if (plane.axis >= 0)
+        plane.twice = 2 * offset * normal[plane.axis];
+    return plane;
+}
+
+void ffd_mirror_vector(const mirror_plane *plane, const double v[3], double image[3])
+{
+    /* v may be image: the product is taken first. */
+    const double by = plane->axis < 0 ? 2 * vec_dot(plane->normal, v) : 0;
+    for (int c = 0; c < 3; c++)
+        image[c] = plane->axis < 0 ? v[c] - by * plane->normal[c] : c == plane->axis ? -v[c] : v[c];
+}
+
+void ffd_mirror_point(const mirror_plane *plane, const double p[3], double image[3])
+{
+    const double by = plane->axis < 0 ? 2 * (vec_dot(plane->normal, p) - plane->offset) : 0;
+    for (int c = 0; c < 3; c++)
+        image[c] = plane->axis < 0    ? p[c] - by * plane->normal[c]
+                   : c == plane->axis ? plane->twice - p[c]
+                                      : p[c];
+}
+
+void ffd_mirror_back(const mirror_plane *plane, const double p[3], const double from[3], const double to[3],
+                     double moved[3])
+{
+    const bool is_still = to[0] == from[0] && to[1] == from[1] && to[2] == from[2];
+    const bool is_across = plane->axis >= 0 && to[plane->axis] != from[plane->axis];
+    ffd_mirror_point(plane, to, moved);
+    for (int c = 0; c < 3; c++)
+        if (is_still || (c == plane->axis && !is_across))
+            moved[c] = p[c];
+}
+
+mirror_text ffd_mirror_describe(const mirror_plane *plane)
+{
+    mirror_text described = {""};
+    size_t length = 0;
+    if (plane->axis >= 0) {
+        snprintf(described.text, sizeof described.text, "%c = %s", "xyz"[plane->axis],
+                 ffd_number_text(0.5 * plane->twice).text);
+        return described;
+    }
+    for (int c = 0; c < 3; c++)
+        if (plane->normal[c] != 0)
+            length += (size_t)snprintf(described.text + length, sizeof described.text - length, "%s%.6g %c",
+                                       length == 0            ? ""
+                                       : plane->normal[c] < 0 ? " - "
+                                                              : " + ",
+                                       length == 0 ? plane->normal[c] : fabs(plane->normal[c]), "xyz"[c]);
+    snprintf(described.text + length, sizeof described.text - length, " = %.6g", plane->offset);
+    return described;
 }
 
 static void swap(uint32_t *a, uint32_t *b)

@@ -1,5 +1,4 @@
-/* mirror.h - the mirror plane through the middle of the rest points, and the control points that are mirror
-   images at rest. */
+/* mirror.h - mirror planes, and the control points that are mirror images at rest. */
 #ifndef FFD_LATTICE_MIRROR_H
 #define FFD_LATTICE_MIRROR_H
 
@@ -15,22 +14,35 @@ typedef struct mirror_tree {
     size_t count;
 } mirror_tree;
 
-/* A plane perpendicular to a coordinate axis, through the middle of the bounds of the rest points. */
+/* The plane normal . p = offset. Perpendicular to a coordinate axis, images are exact: the other coordinates
+   keep their bits. */
 typedef struct mirror_plane {
-    int axis;
-    double twice;     /* the coordinate of the plane, doubled */
+    int axis;     /* the coordinate axis of the normal; -1: another direction */
+    double twice; /* the coordinate of the plane along this axis, doubled */
+    double normal[3], offset;
     double tolerance; /* positions whose distance is at most this are equal */
 } mirror_plane;
 
-/* Returns the plane perpendicular to a coordinate axis. */
-mirror_plane ffd_mirror_plane(const ffd_lattice *lattice, int axis);
+/* Returns the plane perpendicular to a coordinate axis, through the middle of the bounds of the rest points.
+ */
+mirror_plane ffd_mirror_middle(const ffd_lattice *lattice, int axis);
+/* Returns the plane of a unit normal. */
+mirror_plane ffd_mirror_plane(const ffd_lattice *lattice, const double normal[3], double offset);
 
-/* Computes the mirror image of a position. */
-static inline void ffd_mirror_point(const mirror_plane *plane, const double p[3], double image[3])
-{
-    for (int c = 0; c < 3; c++)
-        image[c] = c == plane->axis ? plane->twice - p[c] : p[c];
-}
+/* Computes the mirror image of a position; image may be p. */
+void ffd_mirror_point(const mirror_plane *plane, const double p[3], double image[3]);
+/* The same for a vector. */
+void ffd_mirror_vector(const mirror_plane *plane, const double v[3], double image[3]);
+/* Computes where p goes if its mirror image goes from `from` to `to`; moved may be `to`. What does not change
+   keeps its bits. */
+void ffd_mirror_back(const mirror_plane *plane, const double p[3], const double from[3], const double to[3],
+                     double moved[3]);
+
+typedef struct mirror_text {
+    char text[120];
+} mirror_text;
+/* Returns the equation of a plane: "x = 1.5" or "0.6 x - 0.8 z = 2". */
+mirror_text ffd_mirror_describe(const mirror_plane *plane);
 
 /* Replaces a selection (one byte for each point) by the points whose rest positions are the mirror images of
    the selected ones. all: the tree of all points, built if it is empty, for reuse. *missing is the index of a

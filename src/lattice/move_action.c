@@ -5,7 +5,8 @@
 
 bool ffd_move_has_centre(move_action action)
 {
-    return action != MOVE_BY && action != MOVE_TO && action != MOVE_MATRIX && action != MOVE_PULL;
+    return action != MOVE_BY && action != MOVE_TO && action != MOVE_MATRIX && action != MOVE_PULL &&
+           action != MOVE_DRAG;
 }
 
 bool ffd_move_has_extent(move_action action)
@@ -129,6 +130,8 @@ void ffd_move_act(ready_move *ready, double p[3])
         break;
     case MOVE_BEND:
         bend(ready, p);
+        break;
+    case MOVE_DRAG: /* acts on all points at once (drag.h) */
         break;
     }
 }

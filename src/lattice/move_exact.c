@@ -4,6 +4,7 @@
 #include "base/vector/trig.h"
 #include "base/vector/vec.h"
 #include <stdio.h>
+#include <string.h>
 
 /* Tolerance for straight rows and flat layers, relative to the coordinates: the rounding of earlier moves. */
 #define STRAIGHT 1e-13
@@ -21,8 +22,8 @@ typedef struct arcs {
 
 static ffd_status refuse(const arcs *a, const char *reason)
 {
-    return ffd_fail_at(a->error, FFD_E_INVALID, a->bend->file, a->bend->ready->move.pointer,
-                       "the bend cannot be exact: %s", reason);
+    return ffd_fail_at(a->error, FFD_E_INVALID, a->bend->file, a->bend->ready->move.line,
+                       a->bend->ready->move.pointer, "the bend cannot be exact: %s", reason);
 }
 
 /* Returns a control point, reflected if the step is a mirror image. */
@@ -211,7 +212,7 @@ static void bend_point(const arcs *a, size_t point)
     ffd_lattice *const lattice = a->bend->lattice;
     const size_t layer = layer_of(a, point);
     double *const p = lattice->deformed + 3 * point;
-    double from[3], to[3], more = 0, degrees = degrees_to(a, a->along[layer]);
+    double from[3], to[3], moved[3], more = 0, degrees = degrees_to(a, a->along[layer]);
     if ((layer - a->first) % 2 == 1) {
         const double half = half_of(a, layer);
         double sine, cosine, cosine_of_half;
@@ -225,12 +226,12 @@ static void bend_point(const arcs *a, size_t point)
     for (int c = 0; c < 3; c++)
         to[c] = from[c];
     ffd_move_bend(a->bend->ready, degrees, more, to);
-    for (int c = 0; c < 3; c++) {
-        const bool reflected = a->bend->plane && c == a->bend->plane->axis;
-        const double moved = !reflected ? to[c] : to[c] == from[c] ? p[c] : a->bend->plane->twice - to[c];
-        ffd_move_put(moved, lattice->rest[3 * point + (size_t)c], &p[c],
+    memcpy(moved, to, sizeof moved);
+    if (a->bend->plane)
+        ffd_mirror_back(a->bend->plane, p, from, to, moved);
+    for (int c = 0; c < 3; c++)
+        ffd_move_put(moved[c], lattice->rest[3 * point + (size_t)c], &p[c],
                      &lattice->difference[3 * point + (size_t)c]);
-    }
 }
 
 static ffd_status bend_arcs(arcs *a)

@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "base/text/number.h"
 #include "base/vector/vec.h"
+#include "lattice/drag.h"
 #include "lattice/lattice.h"
 #include "lattice/mirror.h"
 #include "lattice/move_action.h"
@@ -12,9 +13,12 @@
 #include <math.h>
 #include <string.h>
 
-/* With "units": "box", lengths and positions (by, to, about, within, the argument of a matrix, the positions
-   in a pull and in a falloff) are fractions of the sides of the rest region, along these sides. Directions,
-   angles and factors are the same in both units. */
+/* A drag misses a place by more than rounding where it misses more than this part of what was asked. */
+#define MISSED 1e-9
+
+/* With "units": "box" or "mesh", lengths and positions (by, to, about, within, the argument of a matrix, the
+   positions in a pull and in a falloff) are fractions of the sides of the rest region, along these sides.
+   Directions, angles and factors are the same in both units. */
 
 /* The state while the moves of a lattice are applied. */
 typedef struct move_work {
@@ -22,7 +26,7 @@ typedef struct move_work {
     double *points;          /* the deformed control points */
     double *difference;      /* their displacements from rest */
     unsigned char *selected; /* by the current move; one byte for each control point */
-    bool box_units;
+    bool in_region;          /* lengths and positions are fractions of the region */
     rest_region region;
     double inverse[9]; /* inverse of the region's frame; box units only */
     double slack[3];   /* tolerance of the coordinates that `within` compares */
@@ -44,8 +48,8 @@ static void to_world(const move_work *work, double position[3])
 static void coordinates_of(const move_work *work, const double point[3], double coordinates[3])
 {
     for (int c = 0; c < 3; c++)
-        coordinates[c] = work->box_units ? point[c] - work->region.origin[c] : point[c];
-    if (work->box_units)
+        coordinates[c] = work->in_region ? point[c] - work->region.origin[c] : point[c];
+    if (work->in_region)
         mat_apply(work->inverse, coordinates, coordinates);
 }
 
@@ -78,7 +82,7 @@ static bool adds_vector(const lattice_move *move)
 
 static void move_to_world(const move_work *work, lattice_move *move)
 {
-    if (!work->box_units)
+    if (!work->in_region)
         return;
     if (move->has_about)
         to_world(work, move->about);
@@ -100,7 +104,7 @@ static void find_slack(move_work *work)
             size[c] = larger_of(size[c], fabs(work->lattice->rest[3 * i + c]));
     for (int c = 0; c < 3; c++) {
         const double *const row = work->inverse + 3 * c;
-        const double largest = work->box_units
+        const double largest = work->in_region
                                    ? fabs(row[0]) * size[0] + fabs(row[1]) * size[1] + fabs(row[2]) * size[2]
                                    : size[c];
         work->slack[c] = 16 * DBL_EPSILON * largest;
@@ -175,18 +179,26 @@ static double radii_from(const double x[3], const double center[3], double radiu
     return vec_length(away) / radius;
 }
 
+/* Returns the extent of the region along a unit vector. */
+static double extent_along(const rest_region *region, const double axis[3])
+{
+    double extent = 0;
+    for (int a = 0; a < 3; a++) {
+        const double side[3] = {region->frame[a], region->frame[3 + a], region->frame[6 + a]};
+        extent += fabs(vec_dot(axis, side));
+    }
+    return extent;
+}
+
 /* Returns the position between `from` (0) and `to` (1) of a rest point along the axis; in box units along the
    whole region, from its lower corner. Terms are halved, because a difference could overflow. */
 static double way_along(const move_work *work, const move_falloff *falloff, const double rest[3])
 {
-    double from_origin[3], extent = 0;
+    double from_origin[3];
     for (int c = 0; c < 3; c++)
-        from_origin[c] = work->box_units ? rest[c] - work->region.origin[c] : rest[c];
-    for (int a = 0; a < 3; a++) {
-        const double side[3] = {work->region.frame[a], work->region.frame[3 + a], work->region.frame[6 + a]};
-        extent += fabs(vec_dot(falloff->axis, side));
-    }
-    const double s = vec_dot(falloff->axis, from_origin) / (work->box_units ? extent : 1);
+        from_origin[c] = work->in_region ? rest[c] - work->region.origin[c] : rest[c];
+    const double extent = work->in_region ? extent_along(&work->region, falloff->axis) : 1;
+    const double s = vec_dot(falloff->axis, from_origin) / extent;
     return (0.5 * s - 0.5 * falloff->from) / (0.5 * falloff->to - 0.5 * falloff->from);
 }
 
@@ -226,7 +238,7 @@ static ffd_status check_finite(const move_work *work, const lattice_move *move, 
     const size_t *const size = work->lattice->size;
     if (vec_is_finite(work->points + 3 * point))
         return FFD_OK;
-    return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->pointer,
+    return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->line, move->pointer,
                        "moves control point %zu,%zu,%zu to a position that is not finite", point % size[0],
                        point / size[0] % size[1], point / size[0] / size[1]);
 }
@@ -249,31 +261,141 @@ static ffd_status move_point(const move_work *work, ready_move *ready, const mir
         return FFD_OK;
     double to[3] = {from[0], from[1], from[2]};
     ffd_move_act(ready, to);
+    if (plane && adds_vector(move))
+        ffd_mirror_vector(plane, move->vector, to);
+    else if (adds_vector(move))
+        memcpy(to, move->vector, sizeof to);
+    else if (plane)
+        ffd_mirror_back(plane, p, from, to, to);
     for (int c = 0; c < 3; c++) {
-        const bool reflected = plane && c == plane->axis;
         if (adds_vector(move)) {
-            const double by = weight * (reflected ? -move->vector[c] : move->vector[c]);
-            p[c] += by;
-            difference[c] += by;
+            p[c] += weight * to[c];
+            difference[c] += weight * to[c];
             continue;
         }
-        const double moved = !reflected ? to[c] : to[c] == from[c] ? p[c] : plane->twice - to[c];
-        ffd_move_put(weight == 1 ? moved : p[c] + weight * (moved - p[c]), rest[c], &p[c], &difference[c]);
+        ffd_move_put(weight == 1 ? to[c] : p[c] + weight * (to[c] - p[c]), rest[c], &p[c], &difference[c]);
     }
     return check_finite(work, move, point);
+}
+
+void ffd_drag_targets(const move_step *step, const spec_drag *from, double *targets)
+{
+    const size_t own = step->move->drag_count;
+    for (size_t i = 0; i < own; i++) {
+        double *const by = targets + 3 * i;
+        memcpy(by, from[i].by, 3 * sizeof *by);
+        if (step->inverse)
+            mat_apply(step->region->frame, by, by);
+        if (step->plane)
+            ffd_mirror_vector(step->plane, by, by + 3 * own);
+    }
+}
+
+/* Fills xyz with the places of a drag in world units, and their mirror images. */
+static void find_places(const move_work *work, const lattice_move *move, const mirror_plane *plane,
+                        double *xyz)
+{
+    for (size_t i = 0; i < move->drag_count; i++) {
+        double *const place = xyz + 3 * i;
+        memcpy(place, move->drags[i].point, 3 * sizeof *place);
+        if (work->in_region)
+            to_world(work, place);
+        if (plane)
+            ffd_mirror_point(plane, place, place + 3 * move->drag_count);
+    }
+}
+
+/* Drops the points from the selection that rest beyond the radius of all places. Returns how many are left.
+ */
+static size_t keep_near(move_work *work, const double *xyz, size_t places, double radius)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < work->lattice->count; i++) {
+        double rest[3], place[3];
+        bool is_near = !(radius > 0);
+        coordinates_of(work, work->lattice->rest + 3 * i, rest);
+        for (size_t k = 0; k < places && work->selected[i] && !is_near; k++) {
+            coordinates_of(work, xyz + 3 * k, place);
+            is_near = radii_from(rest, place, radius) <= 1;
+        }
+        work->selected[i] = work->selected[i] && is_near;
+        count += work->selected[i];
+    }
+    return count;
+}
+
+/* Notes the largest miss of a drag, if it is more than rounding and more than those of the moves before. */
+static void note_miss(move_work *work, size_t index, const drag_solver *solver, const double *xyz,
+                      const double *by)
+{
+    drag_miss *const missed = &work->lattice->missed;
+    double asked = 0, most = 0;
+    size_t worst = 0;
+    for (size_t i = 0; i < solver->places; i++) {
+        const double miss = vec_length(solver->miss + 3 * i);
+        asked = larger_of(asked, vec_length(by + 3 * i));
+        worst = miss > most ? i : worst;
+        most = larger_of(most, miss);
+    }
+    if (!(most > MISSED * asked) || !(most > missed->miss))
+        return;
+    *missed = (drag_miss){.move = index, .miss = most, .asked = vec_length(by + 3 * worst)};
+    memcpy(missed->place, xyz + 3 * worst, sizeof missed->place);
+}
+
+/* Changes the control points by what a drag asks for. numbers: room for 6 numbers for each place. */
+static ffd_status move_places(move_work *work, move_step *step, double *numbers)
+{
+    const lattice_move *const move = step->move;
+    drag_solver solver = {0};
+    const size_t places = step->plane ? 2 * move->drag_count : move->drag_count;
+    double *const by = numbers + 3 * places, *change = NULL;
+    ffd_status status;
+    find_places(work, move, step->plane, numbers);
+    if (keep_near(work, numbers, places, move->radius) == 0)
+        TRY_END(ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->line, move->pointer,
+                            "no control point that it selects rests within %s of a place",
+                            ffd_number_text(move->radius).text));
+    TRY_END(ffd_drag_prepare(
+        work->lattice, &(drag_places){numbers, places, move->drag_count, work->selected, work->file, move},
+        &solver, work->error));
+    step->drag = &solver;
+    TRY_END(work->observer ? work->observer->see(work->observer->context, step, work->error) : FFD_OK);
+    change = ffd_alloc(solver.columns, 3 * sizeof *change);
+    TRY_END(change ? FFD_OK : ffd_fail_memory(work->error));
+    ffd_drag_targets(step, move->drags, by);
+    ffd_drag_solve(&solver, by, change);
+    for (size_t i = 0; i < solver.columns; i++) {
+        for (size_t c = 0; c < 3; c++) {
+            work->points[3 * solver.point[i] + c] += change[3 * i + c];
+            work->difference[3 * solver.point[i] + c] += change[3 * i + c];
+        }
+        TRY_END(check_finite(work, move, solver.point[i]));
+    }
+    note_miss(work, step->index, &solver, numbers, by);
+end:
+    ffd_drag_free(&solver);
+    ffd_free(change);
+    return status;
+}
+
+static move_step step_of(const move_work *work, size_t index, const lattice_move *move,
+                         const ready_move *ready, const mirror_plane *plane)
+{
+    return (move_step){.move = move,
+                       .index = index,
+                       .ready = ready,
+                       .plane = plane,
+                       .selected = work->selected,
+                       .lattice = work->lattice,
+                       .region = &work->region,
+                       .inverse = work->in_region ? work->inverse : NULL};
 }
 
 static ffd_status observe(const move_work *work, size_t index, const lattice_move *move,
                           const ready_move *ready, const mirror_plane *plane)
 {
-    const move_step step = {.move = move,
-                            .index = index,
-                            .ready = ready,
-                            .plane = plane,
-                            .selected = work->selected,
-                            .lattice = work->lattice,
-                            .region = &work->region,
-                            .inverse = work->box_units ? work->inverse : NULL};
+    const move_step step = step_of(work, index, move, ready, plane);
     return work->observer ? work->observer->see(work->observer->context, &step, work->error) : FFD_OK;
 }
 
@@ -293,20 +415,54 @@ static ffd_status move_points(const move_work *work, size_t index, const lattice
     return FFD_OK;
 }
 
-/* Applies the action again, reflected, to the mirror images of the points. */
+/* Returns the plane in world units. With fractions, `at` counts along the normal, as in way_along. */
+static mirror_plane plane_of(const move_work *work, const move_mirror *mirror)
+{
+    const rest_region *const region = &work->region;
+    const double *const normal = mirror->normal;
+    double point[3] = {mirror->point[0], mirror->point[1], mirror->point[2]}, offset = mirror->at;
+    if (mirror->kind == MIRROR_MIDDLE)
+        return ffd_mirror_middle(work->lattice, normal[0] != 0 ? 0 : normal[1] != 0 ? 1 : 2);
+    if (mirror->kind == MIRROR_POINT) {
+        if (work->in_region)
+            to_world(work, point);
+        offset = vec_dot(normal, point);
+    } else if (work->in_region) {
+        offset = vec_dot(normal, region->origin) + mirror->at * extent_along(region, normal);
+    }
+    return ffd_mirror_plane(work->lattice, normal, offset);
+}
+
+/* Applies the action again, reflected: to the mirror images of the points, or, where the weight depends on
+   the position, to the same points with the mirrored weight. */
 static ffd_status move_images(move_work *work, size_t index, const lattice_move *move, ready_move *ready)
 {
     const size_t *const size = work->lattice->size, count = work->lattice->count;
-    const mirror_plane plane = ffd_mirror_plane(work->lattice, move->mirror);
-    size_t missing;
+    const mirror_plane plane = plane_of(work, &move->mirror);
+    size_t missing = count;
+    if (ffd_move_weighs_places(move))
+        return move_points(work, index, move, ready, &plane);
     TRY(ffd_mirror_select(work->lattice, &plane, &work->rest, work->selected, &missing, work->error));
     if (missing == count)
         return move_points(work, index, move, ready, &plane);
-    return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->pointer,
-                       "control point %zu,%zu,%zu has no mirror image in %c: no other rests across the plane "
-                       "%c = %s",
+    return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->line, move->pointer,
+                       "control point %zu,%zu,%zu has no mirror image: no other rests across the plane %s",
                        missing % size[0], missing / size[0] % size[1], missing / size[0] / size[1],
-                       "xyz"[move->mirror], "xyz"[move->mirror], ffd_number_text(0.5 * plane.twice).text);
+                       ffd_mirror_describe(&plane).text);
+}
+
+static ffd_status apply_drag(move_work *work, size_t index, const lattice_move *move)
+{
+    const bool mirrors = move->mirror.kind != MIRROR_NONE;
+    const mirror_plane plane = mirrors ? plane_of(work, &move->mirror) : (mirror_plane){0};
+    const ready_move ready = {.move = *move};
+    move_step step = step_of(work, index, move, &ready, mirrors ? &plane : NULL);
+    double *const numbers = ffd_alloc(move->drag_count, 12 * sizeof *numbers);
+    if (!numbers)
+        return ffd_fail_memory(work->error);
+    const ffd_status status = move_places(work, &step, numbers);
+    ffd_free(numbers);
+    return status;
 }
 
 static ffd_status apply_move(move_work *work, const lattice_spec *spec, size_t index)
@@ -315,15 +471,17 @@ static ffd_status apply_move(move_work *work, const lattice_spec *spec, size_t i
     ready_move ready = {.move = *move, .degrees = NAN};
     const size_t count = select_points(work, move);
     if (count == 0)
-        return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->pointer,
+        return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->line, move->pointer,
                            "selects no control point: none is within these bounds at rest");
+    if (move->action == MOVE_DRAG)
+        return apply_drag(work, index, move);
     move_to_world(work, &ready.move);
     if (!move->has_about && ffd_move_has_centre(move->action))
         find_centroid(work, count, ready.move.about);
     if (ffd_move_has_extent(move->action))
         find_extent(work, &ready);
     TRY(move_points(work, index, move, &ready, NULL));
-    return move->has_mirror ? move_images(work, index, move, &ready) : FFD_OK;
+    return move->mirror.kind != MIRROR_NONE ? move_images(work, index, move, &ready) : FFD_OK;
 }
 
 ffd_status ffd_moves_apply(const lattice_spec *spec, const rest_region *region, ffd_lattice *lattice,
@@ -332,13 +490,13 @@ ffd_status ffd_moves_apply(const lattice_spec *spec, const rest_region *region, 
     move_work work = {.lattice = lattice,
                       .points = lattice->deformed,
                       .difference = lattice->difference,
-                      .box_units = spec->box_units,
+                      .in_region = spec->units != UNITS_WORLD,
                       .region = *region,
                       .file = spec->name,
                       .observer = observer,
                       .error = error};
-    if (work.box_units && !mat_invert(region->frame, work.inverse))
-        return ffd_fail_at(error, FFD_E_INVALID, spec->name, "/units",
+    if (work.in_region && !mat_invert(region->frame, work.inverse))
+        return ffd_fail_at(error, FFD_E_INVALID, spec->name, spec->units_line, "/units",
                            "the rest points lie in a plane: there is no box to take fractions of");
     find_slack(&work);
     work.selected = ffd_alloc(lattice->count, 1);

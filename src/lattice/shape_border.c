@@ -44,7 +44,7 @@ static double off_box(const ffd_lattice *lattice)
         side[1][a] = spec->box_max[a];
     }
     if (spec->rest == SPEC_BOX_MESH &&
-        ffd_shape_grow_box(lattice->fitted_min, lattice->fitted_max, spec->margin, side[0], side[1], NULL))
+        ffd_shape_grow_box(lattice->fitted.min, lattice->fitted.max, spec->margin, side[0], side[1], NULL))
         return 0;
     for (int a = 0; a < 3; a++)
         for (int end = 0; end < 2 && !ffd_knots_closed(&lattice->knots[a]); end++) {

@@ -4,9 +4,10 @@
 
 #include "lattice/lattice.h"
 
-/* The region that "units": "box" refers to: position = origin + sum_a fraction_a * (column a of frame). For a
-   box: its lower corner and its sides. For a cylinder: the bounds along x,y,z of the solid cylinder of a full
-   turn, whatever its angles are. For points: the bounds along x,y,z of the rest points. */
+/* The region that "units" refers to, but for "world": position = origin + sum_a fraction_a * (column a of
+   frame). For a box: its lower corner and its sides. For a cylinder: the bounds along x,y,z of the solid
+   cylinder of a full turn, whatever its angles are. For points: the bounds along x,y,z of the rest points.
+   With "mesh" the bounds of the mesh. */
 typedef struct rest_region {
     double origin[3], frame[9];
 } rest_region;

@@ -17,8 +17,13 @@ typedef enum move_action {
     MOVE_TWIST,
     MOVE_TAPER,
     MOVE_BEND,
-    MOVE_PULL
+    MOVE_PULL,
+    MOVE_DRAG
 } move_action;
+
+/* Of the lengths and positions in moves: of the world, or fractions of the rest region's sides, or of the
+   bounds of the mesh that the box goes round. */
+typedef enum lattice_units { UNITS_WORLD, UNITS_BOX, UNITS_MESH } lattice_units;
 
 typedef enum falloff_kind { FALLOFF_NONE, FALLOFF_AXIS, FALLOFF_BALL } falloff_kind;
 
@@ -29,6 +34,23 @@ typedef struct move_falloff {
     double raw_axis[3];       /* as the file has it */
     double center[3], radius; /* FALLOFF_BALL; radius > 0 */
 } move_falloff;
+
+/* The plane of a mirrored move: none, through the middle of the rest points, at a coordinate along its
+   normal, through a point. */
+typedef enum mirror_kind { MIRROR_NONE, MIRROR_MIDDLE, MIRROR_AT, MIRROR_POINT } mirror_kind;
+
+/* In the units of the file. */
+typedef struct move_mirror {
+    mirror_kind kind;
+    double normal[3]; /* unit length; of MIRROR_MIDDLE a coordinate axis */
+    double at, point[3];
+} move_mirror;
+
+/* A place that a drag takes along, in the units of the file. */
+typedef struct spec_drag {
+    double point[3], by[3];
+    size_t line; /* of the point in the file, for messages */
+} spec_drag;
 
 typedef struct lattice_move {
     move_action action;
@@ -44,12 +66,14 @@ typedef struct lattice_move {
     double raw_axis[3], raw_toward[3]; /* as the file has them */
     double amount;                     /* degrees, taper factor */
     double matrix[16];
-    double point[3], radius; /* of a pull, in the units of the file */
-    bool exact;              /* of a bend: with rational quadratic arcs */
-    bool has_mirror;
-    int mirror; /* the coordinate that is reflected */
+    double point[3], radius; /* of a pull, in the units of the file; the radius also of a drag, 0: none */
+    spec_drag *drags;        /* drag_count of the spec's */
+    size_t drag_count;
+    bool exact; /* of a bend: with rational quadratic arcs */
+    move_mirror mirror;
     move_falloff falloff;
-    char pointer[32]; /* "/moves/3", for messages when the moves are applied */
+    char pointer[32]; /* "/moves/3", for messages when the moves are applied; */
+    size_t line;      /* its line; 0: unknown */
 } lattice_move;
 
 /* The declaration of a placeholder. */
@@ -70,7 +94,8 @@ typedef struct spec_variable {
 
 /* A number of a move that equals a factor times a number of a variable. */
 typedef struct spec_seed {
-    size_t move, offset; /* offset of the number in the lattice_move, in bytes */
+    bool is_dragged;     /* a number of a spec_drag: then move is the index of that */
+    size_t move, offset; /* offset of the number in the lattice_move or the spec_drag, in bytes */
     size_t variable, component;
     double factor;
 } spec_seed;
@@ -108,9 +133,13 @@ typedef struct lattice_spec {
     size_t variable_count;
     spec_seed *seeds;
     size_t seed_count;
-    bool box_units;
+    lattice_units units;
+    /* Lines of members of the file, for messages when the lattice is built; 0: unknown. */
+    size_t knots_line[3], rest_line, units_line;
     lattice_move *moves;
     size_t move_count;
+    spec_drag *drags; /* of all moves */
+    size_t drag_count;
     intern_table open; /* names of placeholders without a value; if there are any, there are no moves */
 } lattice_spec;
 
@@ -122,7 +151,7 @@ static inline bool ffd_spec_full_turn(const lattice_spec *spec)
     return spec->angle[1] - spec->angle[0] >= 360 - SPEC_TURN_TOLERANCE;
 }
 
-/* Return whether a move adds weights (an exact bend), and whether a move is mirrored. */
+/* Returns whether a move adds weights (an exact bend). */
 static inline bool ffd_spec_has_exact(const lattice_spec *spec)
 {
     for (size_t i = 0; i < spec->move_count; i++)
@@ -131,10 +160,18 @@ static inline bool ffd_spec_has_exact(const lattice_spec *spec)
     return false;
 }
 
-static inline bool ffd_spec_has_mirror(const lattice_spec *spec)
+/* Returns whether the weight of a move depends on positions: its mirror image then acts on the same points.
+ */
+static inline bool ffd_move_weighs_places(const lattice_move *move)
+{
+    return move->action == MOVE_PULL || move->falloff.kind != FALLOFF_NONE;
+}
+
+/* Returns whether a move looks for the mirror images of control points. */
+static inline bool ffd_spec_finds_images(const lattice_spec *spec)
 {
     for (size_t i = 0; i < spec->move_count; i++)
-        if (spec->moves[i].has_mirror)
+        if (spec->moves[i].mirror.kind != MIRROR_NONE && !ffd_move_weighs_places(&spec->moves[i]))
             return true;
     return false;
 }

@@ -35,12 +35,10 @@ ffd_status ffd_flaw_note(mesh_flaws *flaws, const char *file, size_t line, const
         return FFD_OK;
     vsnprintf(message, sizeof message, SPELLED(format), arguments);
     if (!flaws->strict) {
-        add_kind(flaws, format, line, pointer, message);
+        add_kind(flaws, format, *pointer ? 0 : line, pointer, message);
         return FFD_OK;
     }
-    if (*pointer)
-        return ffd_fail_at(error, FFD_E_INVALID, file, pointer, "%s", message);
-    return ffd_fail_line(error, FFD_E_INVALID, file, line, "%s", message);
+    return ffd_fail_at(error, FFD_E_INVALID, file, line, pointer, "%s", message);
 }
 
 ffd_status ffd_flaw_line(mesh_flaws *flaws, const char *file, size_t line, ffd_error *error,

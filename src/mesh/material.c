@@ -2,6 +2,11 @@
 #include "base/memory/memory.h"
 #include <string.h>
 
+mesh_texture ffd_texture_none(void)
+{
+    return (mesh_texture){.image = MATERIAL_NONE, .scale = {1, 1}};
+}
+
 ffd_status ffd_materials_add(mesh_materials *materials, char *name, memory_budget *budget, ffd_error *error)
 {
     ffd_status status;
@@ -10,8 +15,11 @@ ffd_status ffd_materials_add(mesh_materials *materials, char *name, memory_budge
     if (!ffd_grow((void **)&materials->list, &materials->capacity, materials->count + 1,
                   sizeof *materials->list))
         TRY_END(ffd_fail_memory(error));
-    materials->list[materials->count++] =
-        (mesh_material){.name = name, .color = {1, 1, 1, 1}, .image = MATERIAL_NONE};
+    materials->list[materials->count++] = (mesh_material){.name = name,
+                                                          .color = {1, 1, 1, 1},
+                                                          .base = ffd_texture_none(),
+                                                          .glow = ffd_texture_none(),
+                                                          .opacity = ffd_texture_none()};
 end:
     if (status)
         ffd_free(name);

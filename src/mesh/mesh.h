@@ -323,6 +323,7 @@ typedef struct mesh_format {
     mesh_save_function *save;
 
     /* NULL: there is nothing of that kind. */
+    mesh_describe_function *list_names; /* animations, morph targets, joints, cameras, scenes */
     mesh_check_function *check;
     mesh_check_reach_function *check_reach;
     mesh_warn_function *warn;

@@ -102,18 +102,20 @@ ffd_status ffd_model_begin_run(mesh_model *model, const char *object, const char
         !find_name(model, material, &run.material))
         return ffd_fail_memory(error);
     run.material_index = MODEL_NONE;
+    run.glow_step = 0;
     const model_run *last = model->run_count ? &model->runs[model->run_count - 1] : NULL;
     if (last && last->object == run.object && last->group == run.group && last->material == run.material)
         return FFD_OK;
     return add_run(model, run, error);
 }
 
-ffd_status ffd_model_set_material(mesh_model *model, uint32_t index, ffd_error *error)
+ffd_status ffd_model_set_material(mesh_model *model, uint32_t index, int64_t glow_step, ffd_error *error)
 {
     model_run run = model->runs[model->run_count - 1];
-    if (run.material_index == index)
+    if (run.material_index == index && run.glow_step == glow_step)
         return FFD_OK;
     run.material_index = index;
+    run.glow_step = glow_step;
     return add_run(model, run, error);
 }
 

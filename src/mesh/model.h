@@ -42,8 +42,10 @@ typedef struct model_list {
 typedef struct model_run {
     uint32_t object, group, material;
     size_t first[MODEL_KINDS];
+    /* The others only if wants_details. */
     uint32_t material_index; /* index in the list of the format's materials; MODEL_NONE: identified by its
-                                 name. Only if wants_details. */
+                                name */
+    int64_t glow_step;       /* from a corner's texture coordinates to those of the texture of the emission */
 } model_run;
 
 typedef enum model_feature {
@@ -127,9 +129,9 @@ ffd_status ffd_model_make_colours(mesh_model *model, ffd_error *error);
 /* Begins a run with these names; NULL or "": no name. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_model_begin_run(mesh_model *model, const char *object, const char *group, const char *material,
                                ffd_error *error);
-/* Sets the material index of the current run. Begins a new run if two materials have the same name. Errors:
-   FFD_E_LIMIT, FFD_E_MEMORY. */
-ffd_status ffd_model_set_material(mesh_model *model, uint32_t index, ffd_error *error);
+/* Sets the material index and the glow_step of the current run. Begins a new run if two materials have the
+   same name, or two steps the same material. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+ffd_status ffd_model_set_material(mesh_model *model, uint32_t index, int64_t glow_step, ffd_error *error);
 /* Adds a face, line or point of count corners. A face with two corners becomes a line, and a face or line
    with one corner a point; without corners nothing is added. A run must have begun. Errors: FFD_E_LIMIT,
    FFD_E_MEMORY. */

@@ -1,32 +1,62 @@
 #include "picture/camera.h"
-#include "base/text/number.h"
 #include "base/vector/trig.h"
 #include "base/vector/vec.h"
 #include "mesh/bounds.h"
 #include <float.h>
 #include <string.h>
 
-/* Angles in degrees: yaw from +z towards +x, pitch upwards. */
-typedef struct named_view {
+/* Directions where y points upwards. */
+typedef struct named_side {
     const char *name;
-    double yaw, pitch;
-} named_view;
+    double direction[3];
+} named_side;
 
-static const named_view views[] = {{"front", 0, 0},  {"back", 180, 0}, {"left", -90, 0},
-                                   {"right", 90, 0}, {"top", 0, 90},   {"iso", 36, 26}};
+static const named_side sides[] = {{"front", {0, 0, 1}}, {"back", {0, 0, -1}}, {"left", {-1, 0, 0}},
+                                   {"right", {1, 0, 0}}, {"top", {0, 1, 0}},   {"bottom", {0, -1, 0}}};
+
+/* Angles of the default view in degrees: yaw from +z towards +x, pitch upwards. */
+#define ISO_YAW 36
+#define ISO_PITCH 26
 
 /* A scene of a single point, or of none, is drawn with this extent. */
 #define LEAST_EXTENT 1e-300
 
-static camera turned(double yaw, double pitch)
+void ffd_camera_turn(ffd_up up, double direction[3])
 {
-    double sy, cy, sp, cp;
-    ffd_sincos_degrees(yaw, &sy, &cy);
-    ffd_sincos_degrees(pitch, &sp, &cp);
-    return (camera){.right = {cy, 0, -sy}, .up = {-sy * sp, cp, -cy * sp}, .back = {sy * cp, sp, cy * cp}};
+    const double x = direction[0], y = direction[1], z = direction[2];
+    const double turned[3][3] = {{x, y, z}, {x, -z, y}, {y, -x, z}}; /* by ffd_up */
+    memcpy(direction, turned[up], sizeof turned[up]);
 }
 
-bool ffd_camera_from(const double direction[3], camera *result)
+static void turn_back(ffd_up up, double direction[3])
+{
+    const double x = direction[0], y = direction[1], z = direction[2];
+    const double turned[3][3] = {{x, y, z}, {x, z, -y}, {-y, x, z}};
+    memcpy(direction, turned[up], sizeof turned[up]);
+}
+
+/* Makes the camera from sines and cosines of yaw and pitch. */
+static camera camera_at(ffd_up up, double sy, double cy, double sp, double cp)
+{
+    camera made = {.right = {cy, 0, -sy}, .up = {-sy * sp, cp, -cy * sp}, .back = {sy * cp, sp, cy * cp}};
+    ffd_camera_turn(up, made.right);
+    ffd_camera_turn(up, made.up);
+    ffd_camera_turn(up, made.back);
+    return made;
+}
+
+bool ffd_camera_side(const char *name, ffd_up up, double direction[3])
+{
+    for (size_t i = 0; i < sizeof sides / sizeof *sides; i++)
+        if (strcmp(name, sides[i].name) == 0) {
+            memcpy(direction, sides[i].direction, sizeof sides[i].direction);
+            ffd_camera_turn(up, direction);
+            return true;
+        }
+    return false;
+}
+
+bool ffd_camera_from(const double direction[3], ffd_up up, camera *result)
 {
     double largest = 0, d[3];
     for (int a = 0; a < 3; a++)
@@ -35,31 +65,20 @@ bool ffd_camera_from(const double direction[3], camera *result)
         return false;
     for (int a = 0; a < 3; a++)
         d[a] = direction[a] / largest;
+    turn_back(up, d);
     const double length = vec_length(d), level = sqrt(d[0] * d[0] + d[2] * d[2]);
-    /* Straight from above, +z points down in the picture; from below, up. */
+    /* Straight from above, what is in front is below in the picture; from below, above. */
     const double sy = level > 0 ? d[0] / level : 0, cy = level > 0 ? d[2] / level : 1;
-    const double sp = d[1] / length, cp = level / length;
-    *result = (camera){.right = {cy, 0, -sy}, .up = {-sy * sp, cp, -cy * sp}, .back = {sy * cp, sp, cy * cp}};
+    *result = camera_at(up, sy, cy, d[1] / length, level / length);
     return true;
 }
 
-bool ffd_camera_parse(const char *text, camera *result)
+camera ffd_camera_iso(ffd_up up)
 {
-    for (size_t i = 0; i < sizeof views / sizeof *views; i++)
-        if (strcmp(text, views[i].name) == 0) {
-            *result = turned(views[i].yaw, views[i].pitch);
-            return true;
-        }
-    double direction[3];
-    const char *at = text;
-    for (int a = 0; a < 3; a++) {
-        const char *const comma = strchr(at, ',');
-        const char *const end = comma ? comma : at + strlen(at);
-        if (!comma != (a == 2) || ffd_number_parse(at, end, &direction[a]) != end)
-            return false;
-        at = end + 1;
-    }
-    return ffd_camera_from(direction, result);
+    double sy, cy, sp, cp;
+    ffd_sincos_degrees(ISO_YAW, &sy, &cy);
+    ffd_sincos_degrees(ISO_PITCH, &sp, &cp);
+    return camera_at(up, sy, cy, sp, cp);
 }
 
 void ffd_camera_widen(const camera *from, const double *points, size_t count, ffd_bounds *seen)

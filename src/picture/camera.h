@@ -1,4 +1,4 @@
-/* camera.h - the camera of a picture: a parallel projection, with y upwards. */
+/* camera.h - the camera of a picture: a parallel projection. */
 #ifndef FFD_PICTURE_CAMERA_H
 #define FFD_PICTURE_CAMERA_H
 
@@ -19,11 +19,17 @@ typedef struct projection {
     double offset[3]; /* offset of x, y, z in pixels */
 } projection;
 
-/* Parses the direction of the camera: front (from +z), back, left (from -x), right, top, iso, or "x,y,z" with
-   finite numbers that are not all 0. Returns false for another text. */
-bool ffd_camera_parse(const char *text, camera *result);
-/* Makes the camera for a direction from the scene to the eye. Returns false if it is not a direction. */
-bool ffd_camera_from(const double direction[3], camera *result);
+/* Turns a direction from axes in which y points upwards to those of a scene in which `up` does: turned about
+   x for z upwards, about z for x upwards. */
+void ffd_camera_turn(ffd_up up, double direction[3]);
+/* Fills the direction from the scene to the eye of a named side: front (from +z where y points upwards),
+   back, left (from -x), right, top, bottom. Returns false for another name. */
+bool ffd_camera_side(const char *name, ffd_up up, double direction[3]);
+/* Makes the camera for a direction from the scene to the eye, in the axes of the scene. Returns false if it
+   is not a direction. */
+bool ffd_camera_from(const double direction[3], ffd_up up, camera *result);
+/* Makes the camera that looks from the right, above and in front. */
+camera ffd_camera_iso(ffd_up up);
 
 /* Extends bounds along right, up and back by points in world space; points that are not finite are
    ignored. */

@@ -1,26 +1,40 @@
 #include "picture/layout.h"
 #include "base/vector/vec.h"
 #include "picture/letters.h"
+#include "picture/stripes.h"
 
-/* sRGB. */
-static const uint8_t background_top[3] = {251, 252, 253}, background_bottom[3] = {229, 233, 238};
-static const uint8_t ink[3] = {52, 58, 66}, divider[3] = {203, 209, 216};
+/* sRGB. Grey enough that a white surface stands out, and light enough for dark ones. */
+static const uint8_t background_top[3] = {205, 212, 221}, background_bottom[3] = {197, 205, 216};
+static const uint8_t ink[3] = {38, 43, 50}, divider[3] = {160, 167, 176};
 
 /* Heights of the parts of a scale, and gaps, in dots. */
 #define BAR_HEIGHT 6
-#define GAP 4
-#define TITLE_GAP 5
-#define MARGIN 8
+#define GAP 3
+#define TITLE_GAP 3
+#define MARGIN 4
+/* Width of the field of a mark. */
+#define MARK_WIDTH 14
+
+/* Dots in a panel and in a row, by which letters have their size: so many that before and after side by side
+   can still be read where the picture is shrunk to 320 pixels, as in the page of a batch. */
+#define PANEL_DOTS 144
+#define ROW_DOTS 162
 
 static uint64_t from_bytes(const linear_tables *tables, const uint8_t color[3])
 {
     return linear_pack(tables->light[color[0]], tables->light[color[1]], tables->light[color[2]]);
 }
 
-static double scale_height(const picture_scale *scale)
+/* Returns the height of the scale and of the marks, in dots. */
+static double legend_height(const picture *of)
 {
-    return (scale->title ? LETTER_ROWS + TITLE_GAP : 0) + BAR_HEIGHT +
-           (scale->is_fields ? 1 : GAP + LETTER_ROWS) + MARGIN;
+    const picture_scale *const scale = of->scale;
+    double height = of->mark_count ? LETTER_ROWS + MARGIN : 0;
+    if (scale)
+        height += (scale->title ? LETTER_ROWS + TITLE_GAP : 0) +
+                  (scale->is_fields ? LETTER_ROWS : BAR_HEIGHT) + (scale->is_fields ? 0 : GAP + LETTER_ROWS) +
+                  MARGIN;
+    return height;
 }
 
 layout ffd_layout_make(const picture *of)
@@ -28,15 +42,16 @@ layout ffd_layout_make(const picture *of)
     layout by = {.of = of, .rows = of->rows ? of->rows : 1};
     by.columns = of->panel_count > by.rows ? of->panel_count / by.rows : 1;
     const double panel = (double)of->width / (double)by.columns, row = of->height / (double)by.rows;
-    /* The dot size follows the height, in steps of half a pixel, so that letters are sharp. */
-    by.dot = larger_of(1, lesser_of(4, floor(lesser_of(row / 360.0, panel / 240) * 2) / 2));
+    /* In steps of half a pixel, so that letters are sharp. */
+    by.dot = larger_of(1, floor(lesser_of(row / ROW_DOTS, panel / PANEL_DOTS) * 2) / 2);
     by.line = larger_of(0.6, lesser_of(3, lesser_of(row, panel) / 500));
+    by.stripe = (int32_t)larger_of(6, floor(lesser_of(row, panel) / 80));
     by.margin = MARGIN * by.dot;
     by.top = by.margin;
     for (size_t i = 0; i < of->panel_count; i++)
         if (of->panels[i].caption)
             by.top = (2 * MARGIN + LETTER_ROWS) * by.dot;
-    by.row_height = of->height - (of->scale ? (scale_height(of->scale) + GAP) * by.dot : 0);
+    by.row_height = of->height - (legend_height(of) > 0 ? (legend_height(of) + GAP) * by.dot : 0);
     if (by.rows > 1)
         by.row_height = floor(by.row_height / (double)by.rows);
     by.bottom = by.row_height - by.margin;
@@ -73,18 +88,20 @@ static void fill(const stroke_target *into, double left, double top, double righ
                     color;
 }
 
+/* Letters are smaller where a text would not fit into the picture. */
 static void write_middle(const layout *by, const stroke_target *into, const char *text, double middle,
                          double top, uint64_t color)
 {
-    ffd_letters_draw(into, text, floor(middle - by->dot * ffd_letters_width(text) / 2), floor(top), by->dot,
-                     color);
+    const double width = ffd_letters_width(text), room = by->of->width - 2 * by->margin,
+                 dot = width > 0 ? lesser_of(by->dot, room / width) : by->dot;
+    ffd_letters_draw(into, text, floor(middle - dot * width / 2), floor(top), dot, color);
 }
 
 static void draw_bar(const layout *by, const linear_tables *tables, const stroke_target *into, double top)
 {
     const picture_scale *const scale = by->of->scale;
-    const double width = floor(by->of->width * (by->of->panel_count > 1 ? 0.4 : 0.5)),
-                 left = floor((by->of->width - width) / 2), bottom = top + BAR_HEIGHT * by->dot;
+    const double width = floor(by->of->width * 0.6), left = floor((by->of->width - width) / 2),
+                 bottom = top + BAR_HEIGHT * by->dot;
     for (size_t i = 0; i < scale->color_count; i++) {
         const double count = (double)scale->color_count, index = (double)i;
         fill(into, left + width * index / count, top, left + width * (index + 1) / count, bottom,
@@ -104,27 +121,80 @@ static void draw_bar(const layout *by, const linear_tables *tables, const stroke
     }
 }
 
+/* A row of fields with labels, in the middle of the picture. Where they need more than its width, letters are
+   smaller. */
+typedef struct field_row {
+    double left, dot;
+    double field; /* width of a field, in dots */
+} field_row;
+
+static field_row begin_fields(const layout *by, double field, double letters, size_t count)
+{
+    const double dots = letters + (double)count * (field + GAP) + (double)(count - 1) * 3 * GAP,
+                 most = by->of->width - 2 * by->margin;
+    field_row row = {0, lesser_of(by->dot, most / dots), field};
+    row.left = larger_of(0, floor((by->of->width - row.dot * dots) / 2));
+    return row;
+}
+
+/* Writes the label of the field at row->left, and goes on to the next one. */
+static void label_field(field_row *row, const linear_tables *tables, const stroke_target *into,
+                        const char *label, double top)
+{
+    const double at = row->left + (row->field + GAP) * row->dot;
+    ffd_letters_draw(into, label, floor(at), floor(top), row->dot, from_bytes(tables, ink));
+    row->left = at + row->dot * (3 * GAP + ffd_letters_width(label));
+}
+
 static void draw_fields(const layout *by, const linear_tables *tables, const stroke_target *into, double top)
 {
     const picture_scale *const scale = by->of->scale;
     const size_t count = scale->color_count < scale->label_count ? scale->color_count : scale->label_count;
-    double width = 0;
+    double letters = 0;
     for (size_t i = 0; i < count; i++)
-        width += by->dot * (BAR_HEIGHT + GAP + ffd_letters_width(scale->labels[i]) + (i > 0 ? 3 * GAP : 0));
-    double left = floor((by->of->width - width) / 2);
+        letters += ffd_letters_width(scale->labels[i]);
+    field_row row = begin_fields(by, BAR_HEIGHT, letters, count);
     for (size_t i = 0; i < count; i++) {
-        const double right = left + BAR_HEIGHT * by->dot;
-        fill(into, left, top, right, top + BAR_HEIGHT * by->dot, from_bytes(tables, scale->colors[i]));
-        ffd_letters_draw(into, scale->labels[i], right + GAP * by->dot, floor(top - by->dot / 2), by->dot,
-                         from_bytes(tables, ink));
-        left = right + by->dot * (4 * GAP + ffd_letters_width(scale->labels[i]));
+        fill(into, row.left, top, row.left + BAR_HEIGHT * row.dot, top + LETTER_ROWS * row.dot,
+             from_bytes(tables, scale->colors[i]));
+        label_field(&row, tables, into, scale->labels[i], top);
+    }
+}
+
+/* Fills the field of a mark with its stripes, as they are on the mesh: a whole field, or a line. */
+static void fill_mark(const layout *by, const linear_tables *tables, const stroke_target *into,
+                      const picture_mark *mark, double left, double top, double dot)
+{
+    const double middle = top + LETTER_ROWS / 2.0 * dot;
+    const double from = mark->is_line ? middle - dot : top,
+                 to = mark->is_line ? middle + dot : top + LETTER_ROWS * dot;
+    const uint64_t colors[2] = {from_bytes(tables, mark->colors[0]), from_bytes(tables, mark->colors[1])};
+    for (int32_t y = into->top; y < into->top + into->rows; y++)
+        for (int32_t x = into->left; y + 0.5 >= from && y + 0.5 < to && x < into->left + into->width; x++)
+            if (x + 0.5 >= left && x + 0.5 < left + MARK_WIDTH * dot)
+                into->pixels[(size_t)(y - into->top) * (size_t)into->width + (size_t)(x - into->left)] =
+                    colors[ffd_stripes_second(mark->stripes, by->stripe, x, y)];
+}
+
+static void draw_marks(const layout *by, const linear_tables *tables, const stroke_target *into)
+{
+    const double top = floor(by->of->height - (LETTER_ROWS + MARGIN) * by->dot);
+    double letters = 0;
+    if (by->of->mark_count == 0 || into->top + into->rows <= top)
+        return;
+    for (size_t i = 0; i < by->of->mark_count; i++)
+        letters += ffd_letters_width(by->of->marks[i].label);
+    field_row row = begin_fields(by, MARK_WIDTH, letters, by->of->mark_count);
+    for (size_t i = 0; i < by->of->mark_count; i++) {
+        fill_mark(by, tables, into, &by->of->marks[i], row.left, top, row.dot);
+        label_field(&row, tables, into, by->of->marks[i].label, top);
     }
 }
 
 static void draw_scale(const layout *by, const linear_tables *tables, const stroke_target *into)
 {
     const picture_scale *const scale = by->of->scale;
-    double top = floor(by->of->height - scale_height(scale) * by->dot);
+    double top = floor(by->of->height - legend_height(by->of) * by->dot);
     if (into->top + into->rows <= top)
         return;
     if (scale->title) {
@@ -139,7 +209,7 @@ static void draw_scale(const layout *by, const linear_tables *tables, const stro
 
 void ffd_layout_draw(const layout *by, const linear_tables *tables, const stroke_target *into)
 {
-    const double divided = by->of->scale ? by->row_height * (double)by->rows : by->of->height;
+    const double divided = legend_height(by->of) > 0 ? by->row_height * (double)by->rows : by->of->height;
     for (size_t i = 0; i < by->of->panel_count; i++) {
         const size_t column = i % by->columns, row = i / by->columns;
         const int32_t left = ffd_layout_column(by, column), right = ffd_layout_column(by, column + 1),
@@ -154,4 +224,5 @@ void ffd_layout_draw(const layout *by, const linear_tables *tables, const stroke
     }
     if (by->of->scale)
         draw_scale(by, tables, into);
+    draw_marks(by, tables, into);
 }

@@ -1,5 +1,5 @@
-/* layout.h - the positions of panels, captions and the colour scale in a picture; draws everything except the
-   panels' content. */
+/* layout.h - the positions of panels, captions, the colour scale and the legend of marks in a picture; draws
+   everything except the panels' content. */
 #ifndef FFD_PICTURE_LAYOUT_H
 #define FFD_PICTURE_LAYOUT_H
 
@@ -9,8 +9,9 @@
 
 typedef struct layout {
     const picture *of;
-    double dot;  /* size of a dot of letters, in pixels */
-    double line; /* width of the lines of a cage, in pixels */
+    double dot;     /* size of a dot of letters, in pixels */
+    double line;    /* width of the lines of a cage, in pixels */
+    int32_t stripe; /* pixels of a stripe and the one beside it */
     size_t rows, columns;
     double row_height;
     double top, bottom; /* rows of the part of each panel of the first row in which meshes are drawn */

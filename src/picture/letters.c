@@ -176,7 +176,8 @@ static void draw_dot(const pen *p, const uint8_t *letter, int column, int row)
 void ffd_letters_draw(const stroke_target *into, const char *text, double x, double y, double dot,
                       uint64_t color)
 {
-    pen p = {into, {color, HALF_WIDTH * dot, 0}, x + dot / 2, y + dot / 2, dot};
+    pen p = {
+        into, {.color = color, .end = color, .half_width = HALF_WIDTH * dot}, x + dot / 2, y + dot / 2, dot};
     for (char c = next_letter(&text); c; c = next_letter(&text)) {
         for (int column = 0; column < COLUMNS; column++)
             for (int row = 0; row < ROWS; row++)

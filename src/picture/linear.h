@@ -30,9 +30,23 @@ static ALWAYS_INLINE uint64_t linear_pack(uint32_t red, uint32_t green, uint32_t
     return (uint64_t)red | (uint64_t)green << 16 | (uint64_t)blue << 32;
 }
 
+/* The bits of red, green and blue. */
+#define LINEAR_LIGHT UINT64_C(0xffffffffffff)
+
 static ALWAYS_INLINE uint16_t linear_part(uint64_t color, int which)
 {
     return (uint16_t)(color >> (16 * which));
+}
+
+/* Light up to this is shown as it is. */
+#define LINEAR_KNEE (LINEAR_ONE / 5 * 4)
+
+/* Returns light that may be beyond LINEAR_ONE as part of it: above the knee it grows ever more slowly, so
+   that a white surface keeps its shape in bright light. */
+static ALWAYS_INLINE uint32_t linear_shoulder(uint64_t light)
+{
+    const uint64_t rest = LINEAR_ONE - LINEAR_KNEE;
+    return (uint32_t)(light <= LINEAR_KNEE ? light : LINEAR_ONE - rest * rest / (light - LINEAR_KNEE + rest));
 }
 
 /* Converts light from 0 to 1 to 16 bits; clamps other values, and NaN to an end. */

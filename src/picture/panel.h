@@ -4,6 +4,7 @@
 
 #include "picture/bands.h"
 #include "picture/layout.h"
+#include "picture/points.h"
 #include "picture/raster.h"
 
 typedef struct panel_mesh {
@@ -11,8 +12,14 @@ typedef struct panel_mesh {
     bands triangles;
 } panel_mesh;
 
+typedef struct panel_points {
+    placed_points placed;
+    bands list;
+} panel_points;
+
 typedef struct panel_cage {
     const picture_cage *cage;
+    int32_t stripe; /* period of stripes */
     double half_width, radius;
     double *points; /* in pixels */
     bands segments, discs;
@@ -23,6 +30,7 @@ typedef struct panel {
     const layout *layout;
     int32_t left, right, top, bottom; /* columns and rows */
     panel_mesh *meshes;
+    panel_points *points;
     panel_cage *cages;
 } panel;
 
@@ -31,7 +39,8 @@ ffd_status ffd_panel_make(const layout *by, size_t index, const ffd_bounds *seen
                           panel *result, ffd_error *error);
 /* Frees the panel and empties it. */
 void ffd_panel_free(panel *of);
-/* Draws the surfaces in a band of rows into the samples of the panel's columns. */
+/* Draws the surfaces and points in a band of rows into the samples of the panel's columns: first all that is
+   opaque, then the layers of what is see-through. */
 void ffd_panel_draw_meshes(const panel *of, const linear_tables *tables, size_t band, samples *into);
 /* Draws the cages in a band of rows. */
 void ffd_panel_draw_cages(const panel *of, const linear_tables *tables, size_t band,

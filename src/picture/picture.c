@@ -9,6 +9,7 @@
 typedef struct scratch {
     float *depth, *blocks;
     uint64_t *color;
+    layers layers; /* empty unless the picture sees through */
 } scratch;
 
 /* Panels are prepared and drawn one after the other, so that many panels need the memory of one. */
@@ -28,6 +29,7 @@ typedef struct drawing {
 #define VERTEX_BYTES 48
 #define TRIANGLE_BYTES 40
 #define POINT_BYTES 64
+#define DOT_BYTES 80
 
 /* Bytes of lists and points of cages in a panel, as far as they are not large. */
 #define LIST_BYTES ((uint64_t)8 << 20)
@@ -64,6 +66,8 @@ static ffd_status check_panel(const picture_panel *filled, memory_budget *budget
     }
     for (size_t c = 0; c < filled->cage_count; c++)
         bytes += POINT_BYTES * ((uint64_t)filled->cages[c].point_count + filled->cages[c].segment_count);
+    for (size_t p = 0; p < filled->point_count; p++)
+        bytes += DOT_BYTES * (uint64_t)filled->points[p].count;
     return budget ? ffd_budget_take(budget, bytes, 1, error) : FFD_OK;
 }
 
@@ -77,6 +81,9 @@ static ffd_bounds find_bounds(const picture *of)
         for (size_t m = 0; m < of->panels[p].mesh_count; m++)
             ffd_camera_widen(&of->camera, of->panels[p].meshes[m].positions,
                              of->panels[p].meshes[m].vertex_count, &seen);
+        for (size_t i = 0; i < of->panels[p].point_count; i++)
+            ffd_camera_widen(&of->camera, of->panels[p].points[i].positions,
+                             of->panels[p].points[i].vertex_count, &seen);
         for (size_t c = 0; c < of->panels[p].cage_count; c++)
             ffd_camera_widen(&of->camera, of->panels[p].cages[c].points, of->panels[p].cages[c].point_count,
                              &seen);
@@ -88,6 +95,13 @@ static ffd_bounds find_bounds(const picture *of)
 static size_t widest_of(const picture *of)
 {
     return of->width / (of->panel_count / (of->rows ? of->rows : 1)) + 1;
+}
+
+static bool make_layers(size_t pixels, layers *of)
+{
+    of->counts = ffd_alloc(pixels, sizeof *of->counts);
+    of->list = ffd_alloc(pixels, LAYERS_MOST * sizeof *of->list);
+    return of->counts && of->list;
 }
 
 static ffd_status make(drawing *d, ffd_error *error)
@@ -102,7 +116,8 @@ static ffd_status make(drawing *d, ffd_error *error)
         s->depth = ffd_alloc(widest * BAND_ROWS * SAMPLES, sizeof *s->depth);
         s->blocks = ffd_alloc(widest / BLOCK + 1, sizeof *s->blocks);
         s->color = ffd_alloc(widest * BAND_ROWS * SAMPLES, sizeof *s->color);
-        if (!s->depth || !s->blocks || !s->color)
+        if (!s->depth || !s->blocks || !s->color ||
+            (d->of->sees_through && !make_layers(widest * BAND_ROWS, &s->layers)))
             return ffd_fail_memory(error);
     }
     return FFD_OK;
@@ -120,6 +135,8 @@ static void clear(const drawing *d, samples *into)
         for (size_t i = first; i < first + count; i++)
             into->color[i] = color;
     }
+    if (into->layers)
+        ffd_layers_clear(into->layers, (size_t)into->width * (size_t)into->rows);
 }
 
 /* Returns the mean of the samples of a pixel. The two lowest bits of each channel are dropped; they are below
@@ -137,6 +154,8 @@ static uint64_t mean(const uint64_t *color)
 static void resolve(const samples *from)
 {
     const size_t count = (size_t)from->rows * (size_t)from->width;
+    for (size_t pixel = 0; pixel < count && from->layers; pixel++)
+        ffd_layers_blend(from->layers, pixel, from->color + SAMPLES * pixel);
     for (size_t pixel = 0; pixel < count; pixel++)
         from->color[pixel] = mean(from->color + SAMPLES * pixel);
 }
@@ -157,12 +176,19 @@ static void draw_band(void *context, size_t band, size_t begin, size_t end, int 
 {
     const drawing *const d = context;
     const panel *const of = &d->drawn;
-    const scratch *const s = &d->scratch[worker];
+    scratch *const s = &d->scratch[worker];
     const int32_t top = (int32_t)begin > of->top ? (int32_t)begin : of->top,
                   bottom = (int32_t)end < of->bottom ? (int32_t)end : of->bottom;
     if (top >= bottom)
         return;
-    samples at = {of->left, top, of->right - of->left, bottom - top, s->depth, s->color, s->blocks};
+    samples at = {of->left,
+                  top,
+                  of->right - of->left,
+                  bottom - top,
+                  s->depth,
+                  s->color,
+                  s->blocks,
+                  d->of->sees_through ? &s->layers : NULL};
     stroke_target into = {at.left, at.top, at.width, at.rows, s->color, &at};
     clear(d, &at);
     ffd_panel_draw_meshes(of, &d->tables, band, &at);
@@ -192,6 +218,8 @@ static void free_scratch(drawing *d)
         ffd_free(d->scratch[t].depth);
         ffd_free(d->scratch[t].blocks);
         ffd_free(d->scratch[t].color);
+        ffd_free(d->scratch[t].layers.counts);
+        ffd_free(d->scratch[t].layers.list);
     }
     ffd_free(d->scratch);
 }
@@ -199,7 +227,8 @@ static void free_scratch(drawing *d)
 /* Returns the number of threads: as many as requested, limited by the memory budget for scratch memory. */
 static int thread_count(const picture *of, const memory_budget *budget)
 {
-    const uint64_t pixel = SAMPLES * (sizeof(float) + sizeof(uint64_t));
+    const uint64_t pixel = SAMPLES * (sizeof(float) + sizeof(uint64_t)) +
+                           (of->sees_through ? 1 + LAYERS_MOST * sizeof(layer) : 0);
     const int threads = of->threads > 1 ? of->threads : 1;
     return budget ? ffd_budget_threads(budget, threads, widest_of(of) * BAND_ROWS * pixel) : threads;
 }

@@ -82,7 +82,7 @@ static bool has_same_holes(const surface *of, size_t triangle, size_t other, siz
 static bool repeats(const surface *of, size_t triangle)
 {
     const picture_material *const material = ffd_shade_material(of->mesh, triangle);
-    const bool has_holes = material->alpha_cutoff > 0 && of->mesh->texcoords;
+    const bool has_holes = (material->alpha_cutoff > 0 || material->is_see_through) && of->mesh->texcoords;
     for (size_t back = 1; back <= MOST_BEFORE && back <= triangle; back++) {
         const size_t other = triangle - back,
                      turn = turn_between(of->triangles + 3 * triangle, of->triangles + 3 * other);
@@ -244,6 +244,8 @@ static void weigh(const setup *s, int64_t x, int64_t y, numbers drawn, double we
 
 typedef struct brush {
     shade shade;
+    bool is_layer;           /* of a see-through material */
+    bool is_striped;         /* the colour depends on the pixel */
     bool is_begun, is_drawn; /* the colour is known, if the triangle has a single one */
     uint64_t color;
 } brush;
@@ -251,15 +253,33 @@ typedef struct brush {
 static bool pick_color(brush *b, const setup *s, int64_t x, int64_t y, numbers drawn)
 {
     double weights[3];
-    if (b->is_begun && s->is_flat)
+    if (b->is_begun && s->is_flat && !b->is_striped)
         return b->is_drawn;
     if (!b->is_begun)
         ffd_shade_begin(&b->shade);
     b->is_begun = true;
+    b->shade.px = x / SUBPIXELS;
+    b->shade.py = y / SUBPIXELS;
     if (s->is_flat)
         return b->is_drawn = ffd_shade_middle(&b->shade, &b->color);
     weigh(s, x, y, drawn, weights);
     return ffd_shade_color(&b->shade, weights, &b->color);
+}
+
+/* Adds a fragment of a see-through triangle, at the depth of its middle. */
+static void add_layer(const brush *b, const numbers drawn, depths at, size_t pixel, const samples *into)
+{
+    layer fragment = {0, 0, b->color};
+    float sum = 0, count = 0;
+    for (int i = 0; i < SAMPLES; i++)
+        if (drawn[i]) {
+            fragment.samples |= 1u << i;
+            sum += at[i];
+            count += 1;
+        }
+    fragment.depth = sum / count;
+    if (linear_part(b->color, 3) > 0)
+        ffd_layers_add(into->layers, pixel, &fragment);
 }
 
 /* Draws the samples of a pixel that are in the triangle and nearer than the stored depth. */
@@ -281,13 +301,18 @@ static ALWAYS_INLINE void draw_pixel(setup *s, brush *b, int64_t px, int64_t py,
     const numbers drawn = inside & (at < there);
     if (!any(drawn) || !pick_color(b, s, x, y, drawn))
         return;
+    if (b->is_layer) {
+        add_layer(b, drawn, at, first / SAMPLES, into);
+        return;
+    }
     at = (depths)(((numbers)at & drawn) | ((numbers)there & ~drawn));
     memcpy(into->depth + first, &at, sizeof at);
     /* Without branches, which would be unpredictable. */
     uint64_t *const colors = into->color + first;
+    const uint64_t opaque = b->color & LINEAR_LIGHT;
     for (int i = 0; i < SAMPLES; i++) {
         const uint64_t which = (uint64_t)(int64_t)drawn[i];
-        colors[i] = (colors[i] & ~which) | (b->color & which);
+        colors[i] = (colors[i] & ~which) | (opaque & which);
     }
 }
 
@@ -381,7 +406,7 @@ static void draw_large(setup *s, brush *b, samples *into)
         if (is_outside(s, of) || (into->blocks && nearest_in(s, of) >= into->blocks[i]))
             continue;
         draw_block(s, b, of, into);
-        if (into->blocks)
+        if (into->blocks && !b->is_layer)
             into->blocks[i] = farthest_of(into, i);
     }
 }
@@ -393,10 +418,13 @@ void ffd_raster_corners(const surface *of, const linear_tables *tables, size_t t
     int side;
     if (!set_up(corners, into, &s, &side))
         return;
-    if (side && !ffd_shade_material(of->mesh, triangle)->is_double_sided)
+    const picture_material *const material = ffd_shade_material(of->mesh, triangle);
+    if (side && !material->is_double_sided)
         return;
     s.is_flat |= is_flat;
-    brush b = {.shade = {.surface = of, .tables = tables, .triangle = triangle, .side = side}};
+    brush b = {.shade = {.surface = of, .tables = tables, .triangle = triangle, .side = side},
+               .is_layer = material->is_see_through && into->layers,
+               .is_striped = material->stripes != STRIPES_NONE};
     if (s.is_small)
         draw_small(&s, &b, into);
     else

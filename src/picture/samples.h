@@ -2,10 +2,10 @@
 #ifndef FFD_PICTURE_SAMPLES_H
 #define FFD_PICTURE_SAMPLES_H
 
+#include "picture/layers.h"
 #include "picture/surface.h"
 #include <math.h>
 
-#define SAMPLES 4
 /* Positions of the samples in a pixel, in subpixels (rotated grid): no two share a row or a column, so nearly
    horizontal and vertical edges are smooth too. */
 #define SAMPLE_X                                                                                             \
@@ -30,6 +30,7 @@ typedef struct samples {
     uint64_t *color; /* SAMPLES for each pixel, as linear_pack */
     /* For each block of a band an upper bound of the depth of its samples; NULL: unknown. */
     float *blocks;
+    layers *layers; /* of see-through surfaces; NULL: these are drawn as if they were opaque */
 } samples;
 
 /* Finds the pixels with samples in [low, high], in subpixels; none if *last < *first. */

@@ -11,16 +11,17 @@ typedef struct shade {
     const linear_tables *tables;
     size_t triangle;
     const picture_material *material;
-    int side;          /* 0: seen from the front */
-    double texel_size; /* texels of the texture for a pixel */
+    int side;         /* 0: seen from the front */
+    int64_t px, py;   /* the pixel, for stripes */
+    double texels[3]; /* of the texture, that of the opacity and that of the emission for a pixel */
 } shade;
 
 /* Returns the material of a triangle; never NULL. */
 const picture_material *ffd_shade_material(const picture_mesh *mesh, size_t triangle);
-/* Sets the material and the texel size of a triangle, whose index and side are set. */
+/* Sets the material and the texel sizes of a triangle, whose index and side are set. */
 void ffd_shade_begin(shade *of);
-/* Computes the colour, as linear_pack, at barycentric weights whose sum is 1. Returns false at a hole (alpha
-   test). */
+/* Computes the colour, as linear_pack, at barycentric weights whose sum is 1; of a see-through material with
+   alpha in the highest 16 bits. Returns false at a hole (alpha test). */
 bool ffd_shade_color(const shade *of, const double weights[3], uint64_t *color);
 
 /* The same in the middle of the triangle. */

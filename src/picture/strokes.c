@@ -1,6 +1,7 @@
 #include "picture/strokes.h"
 #include "base/vector/vec.h"
 #include "picture/linear.h"
+#include "picture/stripes.h"
 
 /* Strokes are moved towards the eye by this many pixels, so that lines on a surface are visible. */
 #define NEARER 1.5
@@ -31,6 +32,13 @@ static double seen_share(const stroke_target *into, size_t pixel, double depth)
     return into->depths ? seen / (double)SAMPLES : 1;
 }
 
+static uint64_t color_at(const stroke *with, double share, int32_t px, int32_t py)
+{
+    if (ffd_stripes_second(with->stripes, with->period, px, py))
+        return with->second;
+    return with->color == with->end ? with->color : mix(with->color, with->end, share);
+}
+
 static void draw_at(const stroke_target *into, const stroke *with, const double from[3], const double step[3],
                     double square, int32_t px, int32_t py)
 {
@@ -42,8 +50,8 @@ static void draw_at(const stroke_target *into, const stroke *with, const double 
     const size_t pixel = (size_t)(py - into->top) * (size_t)into->width + (size_t)(px - into->left);
     const double seen = seen_share(into, pixel, from[2] + share * step[2]);
     const double strength = (covered < 1 ? covered : 1) * lesser_of(1, 2 * with->half_width);
-    into->pixels[pixel] =
-        mix(into->pixels[pixel], with->color, strength * (seen + (1 - seen) * with->hidden));
+    into->pixels[pixel] = mix(into->pixels[pixel], color_at(with, share, px, py),
+                              strength * (seen + (1 - seen) * with->hidden));
 }
 
 /* Finds the integers from low to high that are in [begin, end). */

@@ -12,7 +12,11 @@ typedef struct stroke_target {
 } stroke_target;
 
 typedef struct stroke {
-    uint64_t color; /* linear_pack */
+    uint64_t color;  /* linear_pack, where the stroke begins */
+    uint64_t end;    /* where it ends: in between the colours are mixed */
+    uint64_t second; /* of every second stripe */
+    picture_stripes stripes;
+    int32_t period; /* of the stripes, in pixels */
     double half_width;
     double hidden; /* opacity of hidden parts, 0 to 1 */
 } stroke;

@@ -108,6 +108,8 @@ ffd_status ffd_surface_make(const picture_mesh *mesh, const projection *by, cons
         turn_lamps(&by->camera, &work);
         ffd_parallel_tiles(count, TILE, means->threads, make_vertices, &work);
     }
+    for (size_t m = 0; m < mesh->material_count; m++)
+        result->has_see_through |= mesh->material_list[m].is_see_through;
     ffd_free(found.normals);
     if (result->vertices)
         return FFD_OK;

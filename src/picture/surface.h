@@ -32,6 +32,8 @@ typedef struct surface {
     uint32_t *origins;         /* for each copy, the vertex of the mesh */
     const uint32_t *triangles; /* those of the mesh, or own_triangles */
     uint32_t *own_triangles;
+    bool has_see_through; /* a material is see-through */
+    int32_t stripe;       /* pixels of a stripe and the one beside it */
 } surface;
 
 /* Vertex normals of a mesh: the area-weighted mean of the faces. Faces that meet at more than 60 degrees (a

@@ -1,4 +1,5 @@
 #include "view/index.h"
+#include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
 #include "base/text/words.h"
@@ -23,6 +24,12 @@ static void append_name(byte_buffer *html, const char *name, void (*escape)(byte
     ffd_free(shown);
 }
 
+/* A path from the root of its maker's disk is no business of those who look at a page: the name alone. */
+static const char *shown_path(const char *path)
+{
+    return path && ffd_path_is_absolute(path) ? ffd_path_name(path) : path;
+}
+
 static void append_picture(byte_buffer *html, const index_row *row)
 {
     if (!row->picture) {
@@ -35,7 +42,7 @@ static void append_picture(byte_buffer *html, const index_row *row)
     ffd_page_address(html, row->picture);
     ffd_buffer_format(html, "\" loading=\"lazy\" width=\"%d\" height=\"%d\" alt=\"before and after: ",
                       PICTURE_WIDTH, PICTURE_HEIGHT);
-    append_name(html, row->output, ffd_page_attribute);
+    append_name(html, shown_path(row->output), ffd_page_attribute);
     ffd_buffer_text(html, "\"></a></td>");
 }
 
@@ -46,9 +53,9 @@ static void append_job(byte_buffer *html, const index_row *row)
     ffd_buffer_format(html, "<td data-label=\"Line\" data-key=\"%" PRIu64 "\">%" PRIu64 "</td>", row->line,
                       row->line);
     ffd_buffer_text(html, "<th scope=\"row\" data-label=\"Output\"><span class=\"name\">");
-    append_name(html, row->output, ffd_page_html);
+    append_name(html, shown_path(row->output), ffd_page_html);
     ffd_buffer_text(html, "</span> <span class=\"from\">from ");
-    append_name(html, row->input, ffd_page_html);
+    append_name(html, shown_path(row->input), ffd_page_html);
     ffd_buffer_text(html, "</span></th><td data-label=\"Parameters\" class=\"settings\">");
     append_name(html, row->settings, ffd_page_html);
     ffd_buffer_text(html, "</td>");

@@ -3,8 +3,10 @@
 #include "base/spelling.h"
 #include "base/text/words.h"
 #include "view/page_assets.h"
+#include "view/page_images.h"
 #include "view/page_reduce.h"
 #include "view/page_scene.h"
+#include "view/page_texcoords.h"
 #include "view/page_text.h"
 #include <inttypes.h>
 #include <stdarg.h>
@@ -16,6 +18,8 @@ typedef struct page_work {
     const view_page_options *options;
     page_mesh mesh;
     page_data data;
+    page_texcoords texcoords;
+    page_images images;
     page_rig rig;
     page_description description;
     bool *has_cage;
@@ -98,6 +102,19 @@ static ffd_status make_rig(page_work *work, ffd_error *error)
     return status;
 }
 
+static ffd_status make_textures(page_work *work, ffd_error *error)
+{
+    const page_images *const images = &work->images;
+    TRY(ffd_page_texcoords_make(&work->mesh, &work->texcoords, error));
+    TRY(ffd_page_images_take(&work->mesh, work->options->full, work->options->budget, &work->images, error));
+    if (images->smaller_count)
+        give_notice(
+            work, "%zu of %zu textures are smaller than in the model: %.1f in place of %.1f MB (see {full})",
+            images->smaller_count, images->count, (double)images->bytes / 1e6,
+            (double)images->all_bytes / 1e6);
+    return FFD_OK;
+}
+
 static ffd_status prepare(page_work *work, ffd_error *error)
 {
     TRY(ffd_page_mesh_take(work->scene, &work->mesh, error));
@@ -107,6 +124,7 @@ static ffd_status prepare(page_work *work, ffd_error *error)
     TRY(ffd_page_mesh_index(&work->mesh, error));
     ffd_page_data_measure(&work->mesh, &work->data);
     log_omissions(work, used);
+    TRY(make_textures(work, error));
     TRY(make_rig(work, error));
     return choose_cages(work, error);
 }
@@ -144,6 +162,8 @@ static void write_data(page_work *work)
     ffd_page_describe(&work->description, &description);
     write_json(work, "scene", &description);
     ffd_page_data_write(&work->data, &work->writer);
+    ffd_page_texcoords_write(&work->texcoords, &work->writer);
+    ffd_page_images_write(&work->images, &work->writer);
     ffd_page_rig_write(&work->rig, &work->writer);
     for (size_t i = 0; i < scene->cage_count; i++) {
         char id[40];
@@ -158,6 +178,8 @@ ffd_status ffd_view_page_write(const view_scene *scene, const view_page_options 
 {
     page_work work = {.scene = scene, .options = options};
     work.description.data = &work.data;
+    work.description.texcoords = &work.texcoords;
+    work.description.images = &work.images;
     work.description.rig = &work.rig;
     work.description.options = options;
     ffd_status status;
@@ -171,6 +193,8 @@ ffd_status ffd_view_page_write(const view_scene *scene, const view_page_options 
     }
     TRY_END(ffd_page_writer_end(&work.writer));
 end:
+    ffd_page_texcoords_free(&work.texcoords);
+    ffd_page_images_free(&work.images);
     ffd_page_mesh_free(&work.mesh);
     ffd_page_rig_free(&work.rig);
     ffd_free(work.has_cage);

@@ -157,7 +157,8 @@ void ffd_page_data_write(const page_data *data, page_writer *w)
         ffd_page_write_block(w, "data-color", mesh->vertex_count, 4, fill_colors, data);
     if (data->index_size)
         ffd_page_write_block(w, "data-number", mesh->vertex_count, data->index_size, fill_indices, data);
-    ffd_page_write_block(w, "data-triangle", mesh->triangle_count, 12, fill_triangles, data);
+    if (!mesh->texcoords) /* else they are those of the wedges (page_texcoords.h) */
+        ffd_page_write_block(w, "data-triangle", mesh->triangle_count, 12, fill_triangles, data);
     if (mesh->flipped)
         ffd_page_write_block(w, "data-flipped", mesh->triangle_count, 1, fill_flipped, data);
     ffd_page_write_block(w, "data-segment", mesh->segment_count, 8, fill_segments, data);

@@ -70,7 +70,36 @@ static size_t take_elements(const page_mesh *mesh, const uint32_t *from, size_t 
     return taken;
 }
 
-static void take_part(page_mesh *mesh, size_t first, size_t count, page_part *part)
+/* Whether the triangles of a part have a texture. */
+static bool is_textured(const view_scene *scene, const view_part *part)
+{
+    const mesh_materials *const materials = &scene->materials;
+    if (!scene->texcoords || part->material >= materials->count)
+        return false;
+    const mesh_material *const m = &materials->list[part->material];
+    return m->base.image < materials->image_count || m->glow.image < materials->image_count ||
+           m->opacity.image < materials->image_count;
+}
+
+static bool has_textures(const view_scene *scene)
+{
+    size_t i = 0;
+    while (i < scene->part_count && !is_textured(scene, &scene->parts[i]))
+        i++;
+    return i < scene->part_count;
+}
+
+static void take_texcoords(const view_scene *scene, size_t triangle, float *to)
+{
+    for (size_t corner = 3 * triangle; corner < 3 * triangle + 3; corner++) {
+        memcpy(to, scene->texcoords + 2 * corner, 2 * sizeof *to);
+        if (scene->glow_texcoords)
+            memcpy(to + 2, scene->glow_texcoords + 2 * corner, 2 * sizeof *to);
+        to += scene->glow_texcoords ? 4 : 2;
+    }
+}
+
+static void take_part(page_mesh *mesh, size_t first, size_t count, bool has_texture, page_part *part)
 {
     const view_scene *const scene = mesh->scene;
     part->first_triangle = mesh->triangle_count;
@@ -82,6 +111,8 @@ static void take_part(page_mesh *mesh, size_t first, size_t count, page_part *pa
         }
         if (mesh->flipped)
             mesh->flipped[mesh->triangle_count] = scene->flipped[t] != 0;
+        if (has_texture)
+            take_texcoords(scene, t, mesh->texcoords + 3 * mesh->texcoord_width * mesh->triangle_count);
         memcpy(mesh->triangles + 3 * mesh->triangle_count++, corners, 3 * sizeof *corners);
     }
     part->triangle_count = mesh->triangle_count - part->first_triangle;
@@ -100,12 +131,15 @@ static bool allocate(page_mesh *mesh, size_t triangles, size_t points)
     const view_scene *const scene = mesh->scene;
     mesh->triangles = ffd_alloc(triangles, 3 * sizeof *mesh->triangles);
     mesh->flipped = scene->flipped ? ffd_alloc(triangles, 1) : NULL;
+    mesh->texcoord_width = !has_textures(scene) ? 0 : scene->glow_texcoords ? 4 : 2;
+    const size_t texcoords = 3 * mesh->texcoord_width;
+    mesh->texcoords = texcoords ? ffd_alloc_zero(triangles, texcoords * sizeof *mesh->texcoords) : NULL;
     mesh->parts = ffd_alloc_zero(mesh->part_count, sizeof *mesh->parts);
     mesh->segments = ffd_alloc(scene->segment_count, 2 * sizeof *mesh->segments);
     mesh->points = ffd_alloc(points, sizeof *mesh->points);
     mesh->places = ffd_alloc(scene->vertex_count, sizeof *mesh->places);
-    return mesh->triangles && (mesh->flipped || !scene->flipped) && mesh->parts && mesh->segments &&
-           mesh->points && mesh->places;
+    return mesh->triangles && (mesh->flipped || !scene->flipped) && (mesh->texcoords || !texcoords) &&
+           mesh->parts && mesh->segments && mesh->points && mesh->places;
 }
 
 /* Counts the triangles of all parts, which may overlap. Returns SIZE_MAX on overflow. */
@@ -130,9 +164,10 @@ ffd_status ffd_page_mesh_take(const view_scene *scene, page_mesh *mesh, ffd_erro
         return ffd_fail_memory(error);
     find_finite(mesh);
     for (size_t i = 0; i < scene->part_count; i++)
-        take_part(mesh, scene->parts[i].first_triangle, scene->parts[i].triangle_count, &mesh->parts[i]);
+        take_part(mesh, scene->parts[i].first_triangle, scene->parts[i].triangle_count,
+                  is_textured(scene, &scene->parts[i]), &mesh->parts[i]);
     if (scene->part_count == 0)
-        take_part(mesh, 0, scene->triangle_count, &mesh->parts[0]);
+        take_part(mesh, 0, scene->triangle_count, false, &mesh->parts[0]);
     mesh->segment_count = take_elements(mesh, scene->segments, scene->segment_count, 2, mesh->segments);
     mesh->point_count = take_elements(mesh, scene->points, scene->point_count, 1, mesh->points);
     if (is_cloud)
@@ -183,8 +218,8 @@ ffd_status ffd_page_mesh_index(page_mesh *mesh, ffd_error *error)
 
 void ffd_page_mesh_free(page_mesh *mesh)
 {
-    void *const blocks[] = {mesh->triangles, mesh->flipped,  mesh->parts, mesh->segments,
-                            mesh->points,    mesh->vertices, mesh->places};
+    void *const blocks[] = {mesh->triangles, mesh->flipped, mesh->texcoords, mesh->parts,
+                            mesh->segments,  mesh->points,  mesh->vertices,  mesh->places};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         ffd_free(blocks[i]);
     *mesh = (page_mesh){0};

@@ -12,8 +12,10 @@ typedef struct page_part {
 /* Indices refer to the scene's vertices until ffd_page_mesh_index, then to those of the page. */
 typedef struct page_mesh {
     const view_scene *scene;
-    uint32_t *triangles; /* 3 indices each, part by part */
-    uint8_t *flipped;    /* one flag a triangle, or NULL */
+    uint32_t *triangles;   /* 3 indices each, part by part */
+    uint8_t *flipped;      /* one flag a triangle, or NULL */
+    float *texcoords;      /* texcoord_width a corner, zeros where no texture is shown; NULL: none is */
+    size_t texcoord_width; /* 2, or 4 with those of the emission; 0: none */
     size_t triangle_count;
     page_part *parts; /* as many as the scene has; one where it has none */
     size_t part_count;

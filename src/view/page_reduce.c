@@ -23,9 +23,13 @@ typedef struct reducer {
     uint8_t *torn;        /* of each vertex of the scene: whether it is an end of a torn edge */
     uint32_t *local;  /* of each vertex of the scene: its index in the current run; VIEW_NONE between runs */
     uint32_t *global; /* of each vertex of the run: its index in the scene */
+    uint32_t
+        *next; /* and another with the same one and other texture coordinates; VIEW_NONE: there is none */
+    float *texcoords; /* of each vertex of the run, as many as a corner of the mesh has */
     float *positions;
     uint32_t *indices, *result; /* of the run: before and after simplification */
-    uint32_t *kept;             /* copy of a part's triangles, sorted by class */
+    uint32_t *kept;             /* copy of a part's triangles, sorted by class, */
+    float *kept_texcoords;      /* and of their texture coordinates, or NULL */
 } reducer;
 
 static void measure(reducer *r)
@@ -54,15 +58,19 @@ static bool allocate(reducer *r)
     r->torn = ffd_alloc_zero(vertices, 1);
     r->local = ffd_alloc(vertices, sizeof *r->local);
     r->global = ffd_alloc(run, 3 * sizeof *r->global);
+    r->next = ffd_alloc(run, 3 * sizeof *r->next);
+    r->texcoords = ffd_alloc(run, 3 * r->mesh->texcoord_width * sizeof *r->texcoords);
     r->positions = ffd_alloc(run, 9 * sizeof *r->positions);
     r->indices = ffd_alloc(run, 3 * sizeof *r->indices);
     r->result = ffd_alloc(run, 3 * sizeof *r->result);
-    return r->torn && r->local && r->global && r->positions && r->indices && r->result;
+    return r->torn && r->local && r->global && r->next && r->texcoords && r->positions && r->indices &&
+           r->result;
 }
 
 static void free_reducer(reducer *r)
 {
-    void *const blocks[] = {r->torn, r->local, r->global, r->positions, r->indices, r->result, r->kept};
+    void *const blocks[] = {r->torn,      r->local,   r->global, r->next, r->texcoords,
+                            r->positions, r->indices, r->result, r->kept, r->kept_texcoords};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         ffd_free(blocks[i]);
 }
@@ -90,20 +98,43 @@ static void mark_torn(reducer *r, double ratio)
         memset(r->torn, 0, scene->vertex_count);
 }
 
-/* Gives the vertices of a run their local indices and scaled positions. Returns their number. */
-static size_t enter_run(reducer *r, const uint32_t *corners, size_t count)
+static void enter_vertex(reducer *r, uint32_t v, const float *uv, uint32_t at)
+{
+    for (size_t a = 0; a < 3; a++)
+        r->positions[3 * (size_t)at + a] =
+            (float)((r->mesh->scene->before[3 * (size_t)v + a] - r->low[a]) * r->scale);
+    if (uv)
+        memcpy(r->texcoords + r->mesh->texcoord_width * at, uv, r->mesh->texcoord_width * sizeof *uv);
+    r->global[at] = v;
+    r->next[at] = r->local[v];
+    r->local[v] = at;
+}
+
+/* Returns the index in the run of a vertex with these texture coordinates (NULL: none); VIEW_NONE: it has
+   none. */
+static uint32_t find_vertex(const reducer *r, uint32_t v, const float *uv)
+{
+    const size_t width = r->mesh->texcoord_width;
+    uint32_t at = r->local[v];
+    while (uv && at != VIEW_NONE && memcmp(r->texcoords + width * at, uv, width * sizeof *uv) != 0)
+        at = r->next[at];
+    return at;
+}
+
+/* Gives the vertices of a run their local indices and scaled positions. A vertex has several where it has
+   several texture coordinates: at one place they are simplified as one, and the texture is not torn. Returns
+   their number. */
+static size_t enter_run(reducer *r, const uint32_t *corners, const float *texcoords, size_t count)
 {
     size_t vertices = 0;
     for (size_t i = 0; i < count; i++) {
-        const uint32_t v = corners[i];
-        if (r->local[v] == VIEW_NONE) {
-            for (size_t a = 0; a < 3; a++)
-                r->positions[3 * vertices + a] =
-                    (float)((r->mesh->scene->before[3 * (size_t)v + a] - r->low[a]) * r->scale);
-            r->global[vertices] = v;
-            r->local[v] = (uint32_t)vertices++;
+        const float *const uv = texcoords ? texcoords + r->mesh->texcoord_width * i : NULL;
+        uint32_t at = find_vertex(r, corners[i], uv);
+        if (at == VIEW_NONE) {
+            at = (uint32_t)vertices++;
+            enter_vertex(r, corners[i], uv, at);
         }
-        r->indices[i] = r->local[v];
+        r->indices[i] = at;
     }
     for (size_t i = 0; i < vertices; i++)
         r->local[r->global[i]] = VIEW_NONE;
@@ -111,10 +142,11 @@ static size_t enter_run(reducer *r, const uint32_t *corners, size_t count)
 }
 
 /* Simplifies the triangles of a run in place. *count: their number before and after. */
-static ffd_status reduce_run(reducer *r, double ratio, bool is_rough, uint32_t *corners, size_t *count,
-                             ffd_error *error)
+static ffd_status reduce_run(reducer *r, double ratio, bool is_rough, uint32_t *corners, float *texcoords,
+                             size_t *count, ffd_error *error)
 {
-    const size_t vertices = enter_run(r, corners, 3 * *count), target = 3 * (size_t)(ratio * (double)*count);
+    const size_t vertices = enter_run(r, corners, texcoords, 3 * *count),
+                 target = 3 * (size_t)(ratio * (double)*count);
     const meshopt_mesh run = {r->positions, vertices, r->indices, 3 * *count};
     size_t left = 0;
     if (vertices == 0)
@@ -125,6 +157,9 @@ static ffd_status reduce_run(reducer *r, double ratio, bool is_rough, uint32_t *
         return status;
     for (size_t i = 0; i < left; i++)
         corners[i] = r->global[r->result[i]];
+    const size_t width = r->mesh->texcoord_width;
+    for (size_t i = 0; texcoords && i < left; i++)
+        memcpy(texcoords + width * i, r->texcoords + width * r->result[i], width * sizeof *texcoords);
     *count = left / 3;
     return FFD_OK;
 }
@@ -132,44 +167,57 @@ static ffd_status reduce_run(reducer *r, double ratio, bool is_rough, uint32_t *
 /* Copies a part's triangles into kept, sorted by class. */
 static void sort_part(reducer *r, const page_part *part, size_t counts[CLASSES])
 {
+    const size_t wide = 3 * r->mesh->texcoord_width;
     size_t at = 0;
     for (int kind = 0; kind < CLASSES; kind++) {
         const size_t first = at;
         for (size_t t = part->first_triangle; t < part->first_triangle + part->triangle_count; t++)
-            if (class_of(r, t) == kind)
-                memcpy(r->kept + 3 * at++, r->mesh->triangles + 3 * t, 3 * sizeof *r->kept);
+            if (class_of(r, t) == kind) {
+                memcpy(r->kept + 3 * at, r->mesh->triangles + 3 * t, 3 * sizeof *r->kept);
+                if (r->kept_texcoords)
+                    memcpy(r->kept_texcoords + wide * at, r->mesh->texcoords + wide * t,
+                           wide * sizeof *r->kept_texcoords);
+                at++;
+            }
         counts[kind] = at - first;
     }
 }
 
-/* Appends triangles to the mesh. */
-static void put_back(page_mesh *mesh, const uint32_t *corners, size_t count, int kind)
+/* Appends triangles to the mesh. texcoords: NULL if it has none. */
+static void put_back(page_mesh *mesh, const uint32_t *corners, const float *texcoords, size_t count, int kind)
 {
+    const size_t wide = 3 * mesh->texcoord_width;
     if (count)
         memcpy(mesh->triangles + 3 * mesh->triangle_count, corners, 3 * count * sizeof *corners);
+    if (count && texcoords)
+        memcpy(mesh->texcoords + wide * mesh->triangle_count, texcoords, wide * count * sizeof *texcoords);
     if (mesh->flipped)
         memset(mesh->flipped + mesh->triangle_count, kind == FLIPPED, count);
     mesh->triangle_count += count;
 }
 
 /* Appends torn triangles. They may also be flipped, which marks tells. */
-static void put_torn(page_mesh *mesh, const uint8_t *marks, const uint32_t *corners, size_t count)
+static void put_torn(page_mesh *mesh, const uint8_t *marks, const uint32_t *corners, const float *texcoords,
+                     size_t count)
 {
     const size_t first = mesh->triangle_count;
-    put_back(mesh, corners, count, TORN);
+    put_back(mesh, corners, texcoords, count, TORN);
     for (size_t i = 0; mesh->flipped && i < count; i++)
         mesh->flipped[first + i] = marks[i];
 }
 
-static ffd_status reduce_class(reducer *r, double ratio, bool is_rough, int kind, uint32_t *corners,
-                               size_t count, ffd_error *error)
+/* start: in kept. */
+static ffd_status reduce_class(reducer *r, double ratio, bool is_rough, int kind, size_t start, size_t count,
+                               ffd_error *error)
 {
     for (size_t done = 0; done < count;) {
         size_t run = count - done < RUN_TRIANGLES ? count - done : RUN_TRIANGLES;
-        uint32_t *const first = corners + 3 * done;
+        uint32_t *const corners = r->kept + 3 * (start + done);
+        float *const texcoords =
+            r->kept_texcoords ? r->kept_texcoords + 3 * r->mesh->texcoord_width * (start + done) : NULL;
         done += run;
-        TRY(reduce_run(r, ratio, is_rough, first, &run, error));
-        put_back(r->mesh, first, run, kind);
+        TRY(reduce_run(r, ratio, is_rough, corners, texcoords, &run, error));
+        put_back(r->mesh, corners, texcoords, run, kind);
     }
     return FFD_OK;
 }
@@ -191,14 +239,15 @@ static ffd_status reduce_part(reducer *r, double ratio, bool is_rough, page_part
         return ffd_fail_memory(error);
     note_flipped(r, part, marks);
     part->first_triangle = r->mesh->triangle_count;
-    uint32_t *corners = r->kept;
+    size_t at = 0;
     ffd_status status = FFD_OK;
     for (int kind = PLAIN; kind < TORN; kind++) {
-        TRY_END(reduce_class(r, ratio, is_rough, kind, corners, counts[kind], error));
-        corners += 3 * counts[kind];
+        TRY_END(reduce_class(r, ratio, is_rough, kind, at, counts[kind], error));
+        at += counts[kind];
     }
 end:
-    put_torn(r->mesh, marks, corners, counts[TORN]);
+    put_torn(r->mesh, marks, r->kept + 3 * at,
+             r->kept_texcoords ? r->kept_texcoords + 3 * r->mesh->texcoord_width * at : NULL, counts[TORN]);
     part->triangle_count = r->mesh->triangle_count - part->first_triangle;
     ffd_free(marks);
     return status;
@@ -220,11 +269,14 @@ static ffd_status reduce_once(reducer *r, double ratio, bool is_rough, ffd_error
     mesh->segment_count = thin_out(mesh->segments, mesh->segment_count, 2, ratio);
     mesh->point_count = thin_out(mesh->points, mesh->point_count, 1, ratio);
     ffd_free(r->kept);
+    ffd_free(r->kept_texcoords);
     size_t largest = 0;
     for (size_t i = 0; i < mesh->part_count; i++)
         largest = mesh->parts[i].triangle_count > largest ? mesh->parts[i].triangle_count : largest;
     r->kept = ffd_alloc(largest, 3 * sizeof *r->kept);
-    if (!r->kept)
+    r->kept_texcoords =
+        mesh->texcoords ? ffd_alloc(largest, 3 * mesh->texcoord_width * sizeof *r->kept_texcoords) : NULL;
+    if (!r->kept || (mesh->texcoords && !r->kept_texcoords))
         return ffd_fail_memory(error);
     /* Triangles are written back in place: no part grows, so none is overwritten before it is read. */
     mesh->triangle_count = 0;
@@ -237,6 +289,7 @@ static ffd_status reduce_once(reducer *r, double ratio, bool is_rough, ffd_error
    triangles evenly. */
 static void drop_triangles(page_mesh *mesh, double ratio)
 {
+    const size_t wide = 3 * mesh->texcoord_width;
     size_t left = 0;
     for (size_t i = 0; i < mesh->part_count; i++) {
         page_part *const part = &mesh->parts[i];
@@ -246,6 +299,9 @@ static void drop_triangles(page_mesh *mesh, double ratio)
                 memmove(mesh->triangles + 3 * left, mesh->triangles + 3 * t, 3 * sizeof *mesh->triangles);
                 if (mesh->flipped)
                     mesh->flipped[left] = mesh->flipped[t];
+                if (mesh->texcoords)
+                    memmove(mesh->texcoords + wide * left, mesh->texcoords + wide * t,
+                            wide * sizeof *mesh->texcoords);
                 left++;
             }
         *part = (page_part){first, left - first};

@@ -41,9 +41,52 @@ static void put_mesh(json_text *json, const page_data *data)
     ffd_json_number(json, "displacementMax", scene->displacement_max);
 }
 
-static const mesh_material *material_of(const view_scene *scene, uint32_t index)
+/* Adds a texture that the page has; nothing if there is none. */
+static void put_texture(json_text *json, const char *key, const mesh_texture *texture,
+                        const page_images *images)
 {
-    return index < scene->materials.count ? &scene->materials.list[index] : NULL;
+    static const char *const wraps[] = {
+        [TEXTURE_REPEAT] = "repeat", [TEXTURE_MIRROR] = "mirror", [TEXTURE_CLAMP] = "clamp"};
+    const uint32_t at = ffd_page_image_of(images, texture->image);
+    if (at == VIEW_NONE)
+        return;
+    ffd_json_object(json, key, true);
+    ffd_json_count(json, "image", at);
+    ffd_json_array(json, "wrap", true);
+    for (int a = 0; a < 2; a++)
+        ffd_json_string(json, NULL, wraps[texture->wrap[a]]);
+    ffd_json_end(json, ']');
+    ffd_json_end(json, '}');
+}
+
+static void put_material(json_text *json, const mesh_material *material, const page_images *images)
+{
+    static const char *const alphas[] = {
+        [MATERIAL_OPAQUE] = "opaque", [MATERIAL_MASK] = "mask", [MATERIAL_BLEND] = "blend"};
+    ffd_json_object(json, NULL, true);
+    put_name(json, "name", material->name);
+    ffd_json_vector(json, "color", material->color, 4);
+    ffd_json_string(json, "alpha", alphas[material->alpha]);
+    ffd_json_number(json, "cutoff", material->alpha_cutoff);
+    ffd_json_vector(json, "emission", material->emission, 3);
+    ffd_json_bool(json, "twoSided", material->is_double_sided);
+    ffd_json_bool(json, "unlit", material->is_unlit);
+    ffd_json_bool(json, "lost",
+                  material->base.image != MATERIAL_NONE &&
+                      ffd_page_image_of(images, material->base.image) == VIEW_NONE);
+    put_texture(json, "base", &material->base, images);
+    put_texture(json, "glow", &material->glow, images);
+    put_texture(json, "opacity", &material->opacity, images);
+    ffd_json_end(json, '}');
+}
+
+static void put_materials(json_text *json, const page_description *page)
+{
+    const mesh_materials *const materials = &page->data->mesh->scene->materials;
+    ffd_json_array(json, "materials", false);
+    for (size_t i = 0; i < materials->count; i++)
+        put_material(json, &materials->list[i], page->images);
+    ffd_json_end(json, ']');
 }
 
 static void put_parts(json_text *json, const page_mesh *mesh)
@@ -52,17 +95,13 @@ static void put_parts(json_text *json, const page_mesh *mesh)
     ffd_json_array(json, "parts", false);
     for (size_t i = 0; i < mesh->part_count; i++) {
         const view_part *const part = scene->part_count ? &scene->parts[i] : NULL;
-        const mesh_material *const material = part ? material_of(scene, part->material) : NULL;
         ffd_json_object(json, NULL, true);
         put_name(json, "name", part ? part->name : "");
         ffd_json_count(json, "first", mesh->parts[i].first_triangle);
         ffd_json_count(json, "count", mesh->parts[i].triangle_count);
         ffd_json_count(json, "all", part ? part->triangle_count : scene->triangle_count);
-        if (material) {
-            put_name(json, "material", material->name);
-            ffd_json_vector(json, "color", material->color, 4);
-            ffd_json_bool(json, "texture", material->image != MATERIAL_NONE);
-        }
+        if (part && part->material < scene->materials.count)
+            ffd_json_count(json, "material", part->material);
         ffd_json_end(json, '}');
     }
     ffd_json_end(json, ']');
@@ -138,6 +177,7 @@ static void put_view(json_text *json, const view_page_options *options)
     ffd_json_object(json, "view", true);
     ffd_json_string(json, "color", ffd_view_color_name(options->color));
     ffd_json_vector(json, "camera", options->camera, 3);
+    ffd_json_string(json, "up", options->up == FFD_UP_Z ? "z" : options->up == FFD_UP_X ? "x" : "y");
     ffd_json_end(json, '}');
 }
 
@@ -157,7 +197,10 @@ void ffd_page_describe(const page_description *page, byte_buffer *out)
     put_mesh(&json, page->data);
     put_witness(&json, scene);
     put_cages(&json, page);
+    put_materials(&json, page);
     put_parts(&json, mesh);
+    ffd_page_texcoords_describe(page->texcoords, &json);
+    ffd_page_images_describe(page->images, &json);
     put_tears(&json, mesh);
     if (ffd_page_rig_is_there(page->rig))
         ffd_page_rig_describe(page->rig, &json);

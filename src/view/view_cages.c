@@ -1,14 +1,15 @@
 #include "view/view_cages.h"
 #include "base/memory/memory.h"
+#include "view/view_dots.h"
 #include "view/view_palette.h"
 #include <string.h>
 
-/* Beside the lattices: the mesh's segments, its points, torn edges, the witness of a fold. */
+/* Beside the lattices: the ground, the mesh's segments, torn edges, the witness of a fold. */
 #define OTHERS 4
 /* The most arrays that one picture_cage owns. */
 #define ARRAYS 2
 
-static const uint8_t cage_color[3] = {29, 91, 208}, line_color[3] = {60, 64, 72};
+static const uint8_t cage_color[3] = {29, 91, 208}, ground_color[3] = {128, 134, 143};
 
 static void *own(view_cages *c, size_t count, size_t size)
 {
@@ -69,31 +70,46 @@ static picture_cage *add(view_cages *c, const uint8_t color[3], double radius)
     return to;
 }
 
-static void add_lines(const view_scene *scene, const double *positions, uint32_t height, view_cages *c)
+static void add_lines(const view_cages_desc *of, view_cages *c)
 {
-    picture_cage *const to = add(c, line_color, -1);
-    to->points = positions;
-    to->point_count = scene->vertex_count;
-    to->segments = scene->segments;
-    to->segment_count = scene->segment_count;
-    to->width = 1 + height / 900.0;
+    picture_cage *const to = add(c, ffd_view_line_color, -1);
+    to->points = of->positions;
+    to->point_count = of->scene->vertex_count;
+    to->segments = of->scene->segments;
+    to->segment_count = of->scene->segment_count;
+    to->colors = of->colors;
+    to->width = 1 + of->height / 900.0;
 }
 
-/* A mesh that has vertices and nothing else is drawn as points. */
-static ffd_status add_points(const view_scene *scene, const double *positions, uint32_t height, view_cages *c,
-                             ffd_error *error)
+/* The rectangle round the mesh at rest, as high as its lowest point: what stands on it before still does so
+   after, or does not. */
+static ffd_status add_ground(const view_cages_desc *of, view_cages *c, ffd_error *error)
 {
-    const bool is_alone = !scene->triangle_count && !scene->segment_count && !scene->point_count;
-    const size_t count = is_alone ? scene->vertex_count : scene->point_count;
-    double *const points = own(c, count, 3 * sizeof *points);
-    if (!points)
+    double *const points = own(c, GROUND_CORNERS, 3 * sizeof *points);
+    uint32_t *const segments = points ? own(c, GROUND_CORNERS, 2 * sizeof *segments) : NULL;
+    if (!segments)
         return ffd_fail_memory(error);
-    for (size_t i = 0; i < count; i++)
-        memcpy(points + 3 * i, positions + 3 * (is_alone ? i : scene->points[i]), 3 * sizeof *points);
-    picture_cage *const to = add(c, line_color, 1 + height / 900.0);
+    memcpy(points, of->ground, 3 * GROUND_CORNERS * sizeof *points);
+    for (uint32_t i = 0; i < GROUND_CORNERS; i++) {
+        segments[2 * i] = i;
+        segments[2 * i + 1] = (i + 1) % GROUND_CORNERS;
+    }
+    picture_cage *const to = add(c, ground_color, -1);
     to->points = points;
-    to->point_count = count;
+    to->point_count = to->segment_count = GROUND_CORNERS;
+    to->segments = segments;
+    to->width = 0.7 + of->height / 1800.0;
+    to->is_covered = true;
     return FFD_OK;
+}
+
+static picture_cage *add_striped(view_cages *c, const uint8_t colors[2][3], picture_stripes stripes,
+                                 double radius)
+{
+    picture_cage *const to = add(c, colors[0], radius);
+    memcpy(to->second, colors[1], sizeof to->second);
+    to->stripes = stripes;
+    return to;
 }
 
 static ffd_status add_tears(const view_scene *scene, const double *positions, uint32_t height, view_cages *c,
@@ -104,12 +120,12 @@ static ffd_status add_tears(const view_scene *scene, const double *positions, ui
         return ffd_fail_memory(error);
     for (size_t i = 0; i < scene->tear_count; i++)
         memcpy(segments + 2 * i, scene->tears[i].vertices, 2 * sizeof *segments);
-    picture_cage *const to = add(c, ffd_view_torn, -1);
+    picture_cage *const to = add_striped(c, ffd_view_torn, STRIPES_RISING, -1);
     to->points = positions;
     to->point_count = scene->vertex_count;
     to->segments = segments;
     to->segment_count = scene->tear_count;
-    to->width = 1 + height / 600.0;
+    to->width = 1.5 + height / 360.0;
     return FFD_OK;
 }
 
@@ -126,34 +142,33 @@ static ffd_status add_marks(const view_scene *scene, double share, const double 
         return ffd_fail_memory(error);
     for (int a = 0; a < 3; a++)
         point[a] = scene->witness.rest[a] + share * (scene->witness.xyz[a] - scene->witness.rest[a]);
-    picture_cage *const to = add(c, ffd_view_folded, height / 120.0);
+    picture_cage *const to = add_striped(c, ffd_view_folded, STRIPES_FALLING, height / 80.0);
     to->points = point;
     to->point_count = 1;
     return FFD_OK;
 }
 
-ffd_status ffd_view_cages_make(const view_scene *scene, double share, const double *positions,
-                               uint32_t height, size_t most, view_cages *c, ffd_error *error)
+ffd_status ffd_view_cages_make(const view_cages_desc *of, view_cages *c, ffd_error *error)
 {
-    size_t left = most;
+    const view_scene *const scene = of->scene;
+    size_t left = of->most;
     c->list = ffd_alloc(scene->cage_count + OTHERS, sizeof *c->list);
     c->owned = ffd_alloc(ARRAYS * (scene->cage_count + OTHERS), sizeof *c->owned);
     if (!c->list || !c->owned)
         return ffd_fail_memory(error);
+    if (of->ground)
+        TRY(add_ground(of, c, error));
     for (size_t i = 0; i < scene->cage_count; i++) {
         size_t points;
         const bool fits = ffd_view_cage_fits(&scene->cages[i], left, &points);
         if (fits)
-            TRY(add_lattice(&scene->cages[i], share, c, error));
+            TRY(add_lattice(&scene->cages[i], of->share, c, error));
         left -= points;
         c->left_out += !fits;
     }
     if (scene->segment_count)
-        add_lines(scene, positions, height, c);
-    TRY(add_points(scene, positions, height, c, error));
-    if (share > 0)
-        TRY(add_marks(scene, share, positions, height, c, error));
-    return FFD_OK;
+        add_lines(of, c);
+    return of->share > 0 ? add_marks(scene, of->share, of->positions, of->height, c, error) : FFD_OK;
 }
 
 void ffd_view_cages_free(view_cages *c)

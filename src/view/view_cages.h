@@ -1,5 +1,5 @@
-/* view_cages.h - the lines and points that a picture shows beside the mesh's triangles: control lattices,
-   segments and points of the mesh, torn edges, the witness of a fold. */
+/* view_cages.h - the lines that a picture shows beside the mesh's triangles: the ground, control lattices,
+   segments of the mesh, torn edges; and the witness of a fold. */
 #ifndef FFD_VIEW_VIEW_CAGES_H
 #define FFD_VIEW_VIEW_CAGES_H
 
@@ -22,11 +22,21 @@ typedef struct view_cages {
    its points; 0 if they do not fit. */
 bool ffd_view_cage_fits(const view_cage *cage, size_t left, size_t *count);
 
-/* Fills cages for the scene at a share of the way from before (0) to after (1). positions: of the scene's
-   vertices at that share, lent. height: of the picture in pixels, for the widths of lines. most: control
-   points that may be drawn; lattices that do not fit are left out and counted. Errors: FFD_E_MEMORY. */
-ffd_status ffd_view_cages_make(const view_scene *scene, double share, const double *positions,
-                               uint32_t height, size_t most, view_cages *cages, ffd_error *error);
+#define GROUND_CORNERS 4
+
+/* What is drawn, and how. All arrays are lent. */
+typedef struct view_cages_desc {
+    const view_scene *scene;
+    double share;            /* of the way from before (0) to after (1) */
+    const double *positions; /* of the scene's vertices at that share */
+    const uint8_t *colors;   /* of these, for segments, as picture_cage.colors; NULL: all have one colour */
+    const double *ground;    /* its corners, 3 numbers each; NULL: none is drawn */
+    uint32_t height;         /* of the picture in pixels, for the widths of lines */
+    size_t most;             /* control points that may be drawn */
+} view_cages_desc;
+
+/* Fills cages. Lattices that do not fit are left out and counted. Errors: FFD_E_MEMORY. */
+ffd_status ffd_view_cages_make(const view_cages_desc *of, view_cages *cages, ffd_error *error);
 /* Frees the arrays; leaves all zeros. */
 void ffd_view_cages_free(view_cages *cages);
 

@@ -17,12 +17,14 @@ static void widen_by_mesh(const view_fit *fit, ffd_bounds *seen)
     const double *const shapes[] = {fit->scene->before, fit->scene->after};
     const size_t count = fit->scene->vertex_count;
     for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++) {
-        if (!fit->used)
+        if (!fit->framed)
             ffd_camera_widen(fit->camera, shapes[s], count, seen);
-        for (size_t v = 0; v < count && fit->used; v++)
-            if (fit->used[v])
+        for (size_t v = 0; v < count && fit->framed; v++)
+            if (fit->framed[v])
                 ffd_camera_widen(fit->camera, shapes[s] + 3 * v, 1, seen);
     }
+    if (fit->ground)
+        ffd_camera_widen(fit->camera, fit->ground, GROUND_CORNERS, seen);
 }
 
 static void widen_by_lattices(const view_fit *fit, ffd_bounds *seen)

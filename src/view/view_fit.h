@@ -8,7 +8,8 @@
 
 typedef struct view_fit {
     const view_scene *scene;
-    const uint8_t *used; /* of each vertex: whether an element uses it; NULL: all are used */
+    const uint8_t *framed; /* of each vertex: whether it has to be seen; NULL: all have */
+    const double *ground;  /* its corners (view_cages.h); NULL: none */
     const camera *camera;
     size_t most; /* control points that may be drawn (view_cages.h) */
 } view_fit;

@@ -5,7 +5,10 @@
 #include <stdio.h>
 #include <string.h>
 
-const uint8_t ffd_view_folded[3] = {217, 31, 184}, ffd_view_torn[3] = {214, 40, 40};
+/* The second colour of surfaces is STRIPE_DARK of the first one's light. */
+const uint8_t ffd_view_flipped[2][3] = {{250, 115, 15}, {55, 22, 1}},
+              ffd_view_folded[2][3] = {{217, 31, 184}, {46, 2, 38}},
+              ffd_view_torn[2][3] = {{214, 40, 40}, {255, 255, 255}};
 static const uint8_t unknown_color[3] = {148, 153, 161};
 
 /* By ffd_vertex_status. */
@@ -134,7 +137,7 @@ static const uint8_t *color_of(const view_palette *p, const view_scene *scene, s
     if (p->color == FFD_VIEW_DET) {
         const double det = scene->dets[v];
         return isnan(det) ? unknown_color
-               : det <= 0 ? ffd_view_folded
+               : det <= 0 ? ffd_view_folded[0]
                           : ramp_at(p, place_of_det(det, p->most));
     }
     double along[3];
@@ -160,7 +163,35 @@ void ffd_view_palette_fill(const view_palette *palette, const view_scene *scene,
         return;
     }
     for (size_t v = 0; v < scene->vertex_count; v++) {
-        memcpy(colors + 4 * v, color_of(palette, scene, v, share), 3);
-        colors[4 * v + 3] = 255;
+        const uint8_t *const color = color_of(palette, scene, v, share);
+        memcpy(colors + 4 * v, color, 3);
+        colors[4 * v + 3] = color == ffd_view_folded[0] ? 0 : 255;
     }
+}
+
+static bool shows_folds(const view_scene *scene, const view_palette *palette)
+{
+    bool found = scene->witness.is_there;
+    for (size_t v = 0; v < scene->vertex_count && !found && palette->color == FFD_VIEW_DET; v++)
+        found = scene->dets[v] <= 0;
+    return found;
+}
+
+static void add_mark(picture_mark *mark, const char *label, const uint8_t colors[2][3],
+                     picture_stripes stripes, bool is_line)
+{
+    *mark = (picture_mark){.label = label, .stripes = stripes, .is_line = is_line};
+    memcpy(mark->colors, colors, sizeof mark->colors);
+}
+
+size_t ffd_view_marks(const view_scene *scene, const view_palette *palette, picture_mark marks[PALETTE_MARKS])
+{
+    size_t count = 0;
+    if (scene->flipped)
+        add_mark(&marks[count++], "flipped", ffd_view_flipped, STRIPES_RISING, false);
+    if (scene->tear_count)
+        add_mark(&marks[count++], "torn", ffd_view_torn, STRIPES_RISING, true);
+    if (shows_folds(scene, palette))
+        add_mark(&marks[count++], "fold", ffd_view_folded, STRIPES_FALLING, false);
+    return count;
 }

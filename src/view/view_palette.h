@@ -9,6 +9,8 @@
 
 #define PALETTE_COLORS 256
 #define PALETTE_LABELS 5
+/* The most marks in a legend. */
+#define PALETTE_MARKS 3
 
 typedef struct view_palette {
     ffd_view_color color; /* the colouring asked for, or what replaces it where the scene lacks the data */
@@ -21,15 +23,20 @@ typedef struct view_palette {
     bool has_scale;
 } view_palette;
 
-/* Colours of flipped faces and folded volume, and of torn edges; sRGB. */
-extern const uint8_t ffd_view_folded[3], ffd_view_torn[3];
+/* Colours of marks, sRGB: of flipped faces, folded volume and torn edges. Each is drawn in stripes of two, so
+   that it is told apart from all colours of the scales by every eye. */
+extern const uint8_t ffd_view_flipped[2][3], ffd_view_folded[2][3], ffd_view_torn[2][3];
+
+/* Fills the marks of a scene for the legend: those that are in it. Returns their number. */
+size_t ffd_view_marks(const view_scene *scene, const view_palette *palette,
+                      picture_mark marks[PALETTE_MARKS]);
 
 /* Makes the palette of a scene. Without the statuses or det F that were asked for, it shows displacements;
    where nothing moves, the mesh's own colours. */
 void ffd_view_palette_make(const view_scene *scene, ffd_view_color color, view_palette *palette);
 
 /* Fills the colour of each vertex (red, green, blue, alpha) at a share of the way from before (0) to after
-   (1). */
+   (1). The alpha of a colour of the palette is 255, or 0 where the colour is a mark: folded volume. */
 void ffd_view_palette_fill(const view_palette *palette, const view_scene *scene, double share,
                            uint8_t *colors);
 

@@ -6,7 +6,9 @@
 #include "mesh/positions.h"
 #include "picture/image/image.h"
 #include "view/view_cages.h"
+#include "view/view_dots.h"
 #include "view/view_fit.h"
+#include "view/view_ground.h"
 #include "view/view_palette.h"
 #include "view/view_pose.h"
 #include "view/view_surface.h"
@@ -15,8 +17,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Bytes per vertex: position and colour. */
+/* Bytes per vertex: position and colour; and of a mesh with points: its colour, number and splat. */
 #define VERTEX_BYTES (3 * sizeof(double) + 4)
+#define DOT_BYTES (4 + sizeof(uint32_t) + 6 * sizeof(float))
 /* Bytes per triangle: a material index. */
 #define TRIANGLE_BYTES 4
 /* Meshes in a panel: the ordinary triangles, and the flipped ones if there are any. */
@@ -33,6 +36,7 @@ typedef struct step {
     uint8_t *colors;
     picture_mesh meshes[MESHES];
     view_cages cages;
+    view_dots dots;
 } step;
 
 typedef struct picture_work {
@@ -42,6 +46,7 @@ typedef struct picture_work {
     view_palette palette;
     view_surface surface;
     uint8_t *used;           /* of each vertex: whether an element uses it; NULL: all are used */
+    uint8_t *framed;         /* of each vertex: whether the camera has to show it; NULL: as `used` */
     uint32_t *twins, *white; /* white: a material index of 0 for each triangle that a palette colours */
     step step;               /* the one being drawn */
     picture_panel *panels;
@@ -49,10 +54,16 @@ typedef struct picture_work {
     size_t step_count;
     camera camera;
     ffd_bounds seen; /* bounds along the camera's axes */
+    double ground[3 * GROUND_CORNERS];
+    bool has_ground;
+    picture_mark marks[PALETTE_MARKS];
+    size_t mark_count;
     ffd_error *error;
 } picture_work;
 
-static const picture_material white_material = {.color = {1, 1, 1, 1}, .is_double_sided = true};
+/* Folded volume has an alpha of 0. */
+static const picture_material white_material = {
+    .color = {1, 1, 1, 1}, .is_double_sided = true, .stripes = STRIPES_FALLING};
 
 static uint32_t width_of(const view_picture_options *options)
 {
@@ -209,7 +220,8 @@ static ffd_status paint(picture_work *w, step *s, view_palette *own)
 
 static void make_meshes(const picture_work *w, step *s, bool is_plain)
 {
-    static const picture_material folded = {.color = {0.6939, 0.0137, 0.4793, 1}, .is_double_sided = true};
+    static const picture_material flipped = {
+        .color = {0.9559, 0.1714, 0.0048, 0}, .is_double_sided = true, .stripes = STRIPES_RISING};
     const view_surface *const from = &w->surface;
     const size_t marked = s->share > 0 ? from->flipped_count : 0;
     picture_mesh mesh = {.positions = s->positions,
@@ -220,6 +232,7 @@ static void make_meshes(const picture_work *w, step *s, bool is_plain)
                          .twins = w->twins};
     if (is_plain) {
         mesh.texcoords = from->texcoords;
+        mesh.glow_texcoords = from->glow_texcoords;
         mesh.materials = from->materials;
         mesh.material_list = from->list;
         mesh.material_count = from->list_count;
@@ -231,10 +244,10 @@ static void make_meshes(const picture_work *w, step *s, bool is_plain)
     s->meshes[0] = mesh;
     mesh.triangles += 3 * mesh.triangle_count;
     mesh.triangle_count = marked;
-    mesh.texcoords = NULL;
+    mesh.texcoords = mesh.glow_texcoords = NULL;
     mesh.colors = NULL;
     mesh.materials = w->white;
-    mesh.material_list = &folded;
+    mesh.material_list = &flipped;
     mesh.material_count = 1;
     s->meshes[1] = mesh;
 }
@@ -260,6 +273,7 @@ static void free_step(picture_work *w)
         ffd_free(s->positions);
     ffd_free(s->colors);
     ffd_view_cages_free(&s->cages);
+    ffd_view_dots_free(&s->dots);
     *s = (step){0};
 }
 
@@ -281,8 +295,14 @@ static ffd_status make_cages(const picture_work *w, step *s, ffd_error *error)
         scene.cage_count = 0;
         scene.witness.is_there = false;
     }
-    return ffd_view_cages_make(&scene, s->share, s->positions, height_of(w->options), VIEW_PICTURE_CONTROLS,
-                               &s->cages, error);
+    const view_cages_desc of = {.scene = &scene,
+                                .share = s->share,
+                                .positions = s->positions,
+                                .colors = s->dots.points.colors,
+                                .ground = w->has_ground ? w->ground : NULL,
+                                .height = height_of(w->options),
+                                .most = VIEW_PICTURE_CONTROLS};
+    return ffd_view_cages_make(&of, &s->cages, error);
 }
 
 /* Makes the step of a panel. Only one step is in memory at a time, as each has its own positions and
@@ -295,7 +315,10 @@ static ffd_status make_step(void *context, size_t index, ffd_error *error)
     free_step(w);
     TRY(place(w, index, s));
     TRY(paint(w, s, &own));
-    make_meshes(w, s, own.color == FFD_VIEW_PLAIN);
+    const bool is_plain = own.color == FFD_VIEW_PLAIN;
+    make_meshes(w, s, is_plain);
+    TRY(ffd_view_dots_make(w->scene, s->share, s->positions, s->colors, is_plain, height_of(w->options),
+                           &s->dots, error));
     TRY(make_cages(w, s, error));
     if (index == 0)
         log_omitted_lattices(w);
@@ -304,6 +327,8 @@ static ffd_status make_step(void *context, size_t index, ffd_error *error)
     panel->mesh_count = !w->scene->vertex_count ? 0 : s->meshes[1].triangle_count ? MESHES : 1;
     panel->cages = s->cages.list;
     panel->cage_count = s->cages.count;
+    panel->points = &s->dots.points;
+    panel->point_count = s->dots.points.count > 0;
     return FFD_OK;
 }
 
@@ -329,13 +354,18 @@ static ffd_status find_posed(picture_work *w)
         TRY(pose(w, i, &w->step));
         ffd_camera_widen(&w->camera, w->step.positions, w->scene->vertex_count, &w->seen);
     }
+    if (w->has_ground)
+        ffd_camera_widen(&w->camera, w->ground, GROUND_CORNERS, &w->seen);
     return FFD_OK;
 }
 
 static void find_seen(picture_work *w)
 {
-    const view_fit fit = {
-        .scene = w->scene, .used = w->used, .camera = &w->camera, .most = VIEW_PICTURE_CONTROLS};
+    const view_fit fit = {.scene = w->scene,
+                          .framed = w->framed ? w->framed : w->used,
+                          .ground = w->has_ground ? w->ground : NULL,
+                          .camera = &w->camera,
+                          .most = VIEW_PICTURE_CONTROLS};
     size_t points, beyond;
     ffd_view_fit(&fit, &w->seen, &points, &beyond);
     if (beyond)
@@ -351,6 +381,38 @@ static uint64_t pixel_count(const view_picture_options *options)
            (options->rows ? options->rows : 1);
 }
 
+/* Where splats are nearly clear, the camera need not show them. */
+static ffd_status find_framed(picture_work *w)
+{
+    const view_scene *const scene = w->scene;
+    size_t left = 0;
+    if (!scene->splats[0])
+        return FFD_OK;
+    uint8_t *const marks = ffd_alloc(scene->vertex_count, 1);
+    if (!marks)
+        return ffd_fail_memory(w->error);
+    for (size_t v = 0; v < scene->vertex_count; v++)
+        marks[v] = !w->used || w->used[v];
+    ffd_view_drop_faint(scene, marks);
+    for (size_t v = 0; v < scene->vertex_count; v++)
+        left += marks[v];
+    if (left > 0)
+        w->framed = marks;
+    else
+        ffd_free(marks);
+    return FFD_OK;
+}
+
+static ffd_status take_memory(picture_work *w)
+{
+    const view_scene *const scene = w->scene;
+    w->budget = *w->options->budget;
+    if (ffd_view_has_dots(scene))
+        TRY(ffd_budget_take(&w->budget, scene->vertex_count, DOT_BYTES, w->error));
+    TRY(ffd_budget_take(&w->budget, scene->vertex_count, VERTEX_BYTES, w->error));
+    return ffd_budget_take(&w->budget, scene->triangle_count, TRIANGLE_BYTES, w->error);
+}
+
 /* Makes everything that the steps share. */
 static ffd_status prepare(picture_work *w)
 {
@@ -358,13 +420,11 @@ static ffd_status prepare(picture_work *w)
     const view_picture_options *const options = w->options;
     const bool has_texture = scene->texcoords && scene->materials.image_count;
     w->step_count = count_steps(scene, options);
-    if (!ffd_camera_from(options->camera, &w->camera))
-        ffd_camera_parse("iso", &w->camera);
-    w->budget = *options->budget;
+    if (!ffd_camera_from(options->camera, options->up, &w->camera))
+        w->camera = ffd_camera_iso(options->up);
     const uint64_t drawing =
         ffd_picture_bytes(pixel_count(options), scene->vertex_count, scene->triangle_count);
-    TRY(ffd_budget_take(&w->budget, scene->vertex_count, VERTEX_BYTES, w->error));
-    TRY(ffd_budget_take(&w->budget, scene->triangle_count, TRIANGLE_BYTES, w->error));
+    TRY(take_memory(w));
     TRY(ffd_view_surface_make(scene, has_texture, &w->budget, drawing, options->log, &w->surface, w->error));
     w->twins = ffd_alloc(scene->vertex_count, sizeof *w->twins);
     w->white = ffd_alloc_zero(scene->triangle_count, sizeof *w->white);
@@ -372,8 +432,11 @@ static ffd_status prepare(picture_work *w)
         return ffd_fail_memory(w->error);
     log_omissions(w);
     ffd_view_palette_make(scene, options->color, &w->palette);
+    w->mark_count = w->step_count > 1 ? ffd_view_marks(scene, &w->palette, w->marks) : 0;
     TRY(ffd_positions_twins(scene->before, scene->vertex_count, w->twins, w->error));
     TRY(find_used(scene, &w->used, w->error));
+    TRY(find_framed(w));
+    w->has_ground = ffd_view_ground(scene, w->framed ? w->framed : w->used, options->up, w->ground);
     TRY(name_panels(w));
     if (options->rows)
         return find_posed(w);
@@ -387,6 +450,7 @@ static void free_picture(picture_work *w)
     ffd_free(w->panels);
     ffd_free(w->captions);
     ffd_free(w->used);
+    ffd_free(w->framed);
     ffd_free(w->twins);
     ffd_free(w->white);
     ffd_view_surface_free(&w->surface);
@@ -406,6 +470,9 @@ static ffd_status draw(picture_work *w, file_output *output)
                         .panel_count = w->step_count,
                         .rows = options->rows,
                         .scale = w->palette.has_scale ? &w->palette.scale : NULL,
+                        .marks = w->marks,
+                        .mark_count = w->mark_count,
+                        .sees_through = w->surface.sees_through || w->scene->splats[0],
                         .camera = w->camera,
                         .seen = &w->seen,
                         .fill = make_step,
@@ -415,7 +482,7 @@ static ffd_status draw(picture_work *w, file_output *output)
     ffd_status status = ffd_picture_draw(&of, &w->budget, &pixels, w->error);
     free_step(w);
     TRY(status);
-    status = ffd_png_write(pixels, of.width, of.height, append, output, w->error);
+    status = ffd_png_write(pixels, of.width, of.height, 3, append, output, w->error);
     ffd_free(pixels);
     return status;
 }

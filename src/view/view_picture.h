@@ -20,6 +20,7 @@ typedef struct view_picture_options {
     uint32_t rows; /* rows of poses of scene->animation: 2, or 1 where nothing is deformed; 0: no animation */
     ffd_view_color color;
     double camera[3]; /* as in view_page_options */
+    ffd_up up;
     int threads;
     const memory_budget *budget; /* limits the memory for drawing */
     const mesh_log *log;         /* gets warnings, as of images that cannot be decoded; may be NULL */

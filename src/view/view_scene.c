@@ -43,10 +43,28 @@ void ffd_view_scene_free_rigs(view_scene *scene)
 
 void ffd_view_scene_free(view_scene *scene)
 {
-    void *const blocks[] = {
-        scene->name,   scene->output, scene->before,    scene->after,     scene->indices, scene->statuses,
-        scene->dets,   scene->colors, scene->triangles, scene->texcoords, scene->flipped, scene->segments,
-        scene->points, scene->parts,  scene->cages,     scene->tears,     scene->report};
+    void *const blocks[] = {scene->name,
+                            scene->output,
+                            scene->before,
+                            scene->after,
+                            scene->indices,
+                            scene->statuses,
+                            scene->dets,
+                            scene->colors,
+                            scene->triangles,
+                            scene->texcoords,
+                            scene->glow_texcoords,
+                            scene->flipped,
+                            scene->segments,
+                            scene->points,
+                            scene->parts,
+                            scene->cages,
+                            scene->tears,
+                            scene->report,
+                            scene->segment_materials,
+                            scene->point_materials,
+                            scene->splats[0],
+                            scene->splats[1]};
     free_lists(scene);
     ffd_view_scene_free_rigs(scene);
     ffd_materials_free(&scene->materials);

@@ -62,12 +62,17 @@ typedef struct view_scene {
     double *dets;           /* det F at each vertex, NaN where unknown; NULL: no deformation */
     double *colors;         /* 4 numbers a vertex: red, green, blue, alpha, 0 to 1, sRGB; NULL: none */
     size_t triangle_count;
-    uint32_t *triangles; /* 3 vertices each, counter-clockwise seen from outside */
-    float *texcoords;    /* 2 numbers a corner, v upwards; NULL: none */
-    uint8_t *flipped;    /* one flag a triangle: its face is flipped; NULL: no face is */
+    uint32_t *triangles;   /* 3 vertices each, counter-clockwise seen from outside */
+    float *texcoords;      /* 2 numbers a corner, v upwards, as the base texture takes them; NULL: none */
+    float *glow_texcoords; /* as the texture of the emission takes them; NULL: the same */
+    uint8_t *flipped;      /* one flag a triangle: its face is flipped; NULL: no face is */
     uint64_t flipped_faces;
     size_t segment_count, point_count;
-    uint32_t *segments, *points; /* of the mesh: 2 vertices and 1 vertex each */
+    uint32_t *segments, *points;                   /* of the mesh: 2 vertices and 1 vertex each */
+    uint32_t *segment_materials, *point_materials; /* of each one: a material, or VIEW_NONE */
+    /* Covariances of Gaussian splats before and after, for each vertex xx, xy, xz, yy, yz, zz; all 0: the
+       vertex is none. NULL: the mesh has none. The alpha of a splat's colour is its opacity. */
+    float *splats[2];
     view_part *parts;
     size_t part_count;
     mesh_materials materials;

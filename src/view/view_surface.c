@@ -4,27 +4,60 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Linear base colours. grey: of a material whose texture is lost. paper: of a white material without texture,
-   a little darker than white so that shading shows its shape. */
-static const double grey[3] = {0.47, 0.49, 0.52}, paper[3] = {0.72, 0.72, 0.73};
-#define WHITE 0.9
+/* The linear base colour of a material whose texture is lost. */
+static const double grey[3] = {0.3, 0.312, 0.335};
 
 /* Bytes per triangle, and of its texture coordinates. */
 #define TRIANGLE_BYTES (4 * sizeof(uint32_t))
 #define TEXCOORD_BYTES (6 * sizeof(float))
 
+/* Makes the luminance of an image its alpha, unless it has an alpha of its own. */
+static void make_opacity(image *of)
+{
+    const size_t count = (size_t)of->width * of->height;
+    bool is_opaque = true;
+    for (size_t i = 0; i < count && is_opaque; i++)
+        is_opaque = of->pixels[4 * i + 3] == 255;
+    /* ITU-R BT.709, in 256ths */
+    for (size_t i = 0; i < count && is_opaque; i++) {
+        uint8_t *const pixel = of->pixels + 4 * i;
+        pixel[3] = (uint8_t)((54u * pixel[0] + 183u * pixel[1] + 19u * pixel[2]) / 256);
+    }
+}
+
 /* All textures are in memory at the same time. */
-static ffd_status decode(const mesh_image *from, memory_budget *budget, texture *to, ffd_error *error)
+static ffd_status decode(const mesh_image *from, bool is_opacity, memory_budget *budget, texture *to,
+                         ffd_error *error)
 {
     image decoded = {0};
     ffd_status status;
     TRY_END(ffd_image_decode(from->bytes, from->size, budget, &decoded, error));
+    if (is_opacity)
+        make_opacity(&decoded);
     TRY_END(ffd_budget_take(budget, ffd_texture_size(decoded.width, decoded.height), 1, error));
     TRY_END(ffd_texture_make(&decoded, to, error));
 end:
     if (status)
         ffd_free(decoded.pixels);
     return status;
+}
+
+/* How materials use an image: it may be two textures. */
+enum { USED_AS_COLOR = 1, USED_AS_OPACITY = 2 };
+
+static void note_use(const mesh_materials *from, const mesh_texture *of, uint8_t use, uint8_t *uses)
+{
+    if (of->image < from->image_count)
+        uses[of->image] |= use;
+}
+
+static void find_uses(const mesh_materials *from, uint8_t *uses)
+{
+    for (size_t i = 0; i < from->count; i++) {
+        note_use(from, &from->list[i].base, USED_AS_COLOR, uses);
+        note_use(from, &from->list[i].glow, USED_AS_COLOR, uses);
+        note_use(from, &from->list[i].opacity, USED_AS_OPACITY, uses);
+    }
 }
 
 /* An image that cannot be decoded is logged, and its material is drawn grey; running out of memory is an
@@ -36,39 +69,63 @@ static ffd_status decode_all(const mesh_materials *from, memory_budget *budget, 
     size_t lost = 0;
     s->texture_count = from->image_count;
     s->textures = ffd_alloc_zero(from->image_count, sizeof *s->textures);
-    if (!s->textures)
-        return ffd_fail_memory(error);
-    for (size_t i = 0; i < from->image_count; i++) {
+    s->opacities = ffd_alloc_zero(from->image_count, sizeof *s->opacities);
+    uint8_t *const uses = ffd_alloc_zero(from->image_count, 1);
+    ffd_status status;
+    TRY_END(s->textures && s->opacities && uses ? FFD_OK : ffd_fail_memory(error));
+    find_uses(from, uses);
+    for (size_t i = 0; i < 2 * from->image_count; i++) {
+        const size_t index = i / 2;
+        const bool is_opacity = i % 2;
         ffd_error own;
-        const ffd_status status = decode(&from->images[i], budget, &s->textures[i], &own);
-        if (status == FFD_E_MEMORY)
-            return ffd_fail_memory(error);
-        if (status && lost++ == 0)
-            snprintf(first, sizeof first, "%.100s: %.180s", from->images[i].name, own.message);
+        if (!(uses[index] & (is_opacity ? USED_AS_OPACITY : USED_AS_COLOR)))
+            continue;
+        const ffd_status decoded = decode(&from->images[index], is_opacity, budget,
+                                          is_opacity ? &s->opacities[index] : &s->textures[index], &own);
+        if (decoded == FFD_E_MEMORY)
+            TRY_END(ffd_fail_memory(error));
+        if (decoded && lost++ == 0)
+            snprintf(first, sizeof first, "%.100s: %.180s", from->images[index].name, own.message);
     }
     if (lost)
         ffd_log_line(log, FFD_LOG_WARNING, "grey in the picture: %zu %s, as %s", lost,
                      ffd_plural(lost, "image", "images"), first);
-    return FFD_OK;
+end:
+    ffd_free(uses);
+    return status;
+}
+
+/* Returns the texture of an image; NULL if there is none. *is_lost: there is one that cannot be had. */
+static const texture *find_texture(const view_surface *s, const texture *list, const mesh_texture *of,
+                                   bool *is_lost)
+{
+    if (of->image >= s->texture_count)
+        *is_lost = of->image == MATERIAL_LOST;
+    else
+        *is_lost = list[of->image].level_count == 0;
+    return of->image < s->texture_count && !*is_lost ? &list[of->image] : NULL;
 }
 
 static void fill_material(const view_surface *s, const mesh_material *from, picture_material *to)
 {
-    const texture *const of = from->image < s->texture_count ? &s->textures[from->image] : NULL;
-    const bool is_lost = from->image == MATERIAL_LOST || (of && of->level_count == 0);
-    *to = (picture_material){.wrap = {from->wrap[0], from->wrap[1]},
-                             .alpha_cutoff = from->alpha_cutoff,
+    bool base_is_lost, glow_is_lost, opacity_is_lost;
+    *to = (picture_material){.wrap = {from->base.wrap[0], from->base.wrap[1]},
+                             .opacity_wrap = {from->opacity.wrap[0], from->opacity.wrap[1]},
+                             .glow_wrap = {from->glow.wrap[0], from->glow.wrap[1]},
+                             .alpha_cutoff = from->alpha == MATERIAL_MASK ? from->alpha_cutoff : 0,
+                             .is_see_through = from->alpha == MATERIAL_BLEND,
+                             .is_unlit = from->is_unlit,
                              .is_double_sided = from->is_double_sided};
     memcpy(to->color, from->color, sizeof to->color);
-    const double *const c = to->color;
-    if (!of && c[0] > WHITE && c[1] > WHITE && c[2] > WHITE)
-        memcpy(to->color, paper, sizeof paper);
-    if (!is_lost)
-        to->texture = of;
-    else {
-        memcpy(to->color, grey, sizeof grey);
-        to->alpha_cutoff = 0; /* it applied to the texture */
-    }
+    to->texture = find_texture(s, s->textures, &from->base, &base_is_lost);
+    to->opacity = find_texture(s, s->opacities, &from->opacity, &opacity_is_lost);
+    to->glow = find_texture(s, s->textures, &from->glow, &glow_is_lost);
+    if (!glow_is_lost) /* else all of it would be as bright as its brightest place */
+        memcpy(to->emission, from->emission, sizeof to->emission);
+    if (!base_is_lost)
+        return;
+    memcpy(to->color, grey, sizeof grey);
+    to->alpha_cutoff = 0; /* it applied to the texture */
 }
 
 static ffd_status fill_materials(const view_scene *scene, view_surface *s, ffd_error *error)
@@ -80,6 +137,8 @@ static ffd_status fill_materials(const view_scene *scene, view_surface *s, ffd_e
         return ffd_fail_memory(error);
     for (size_t i = 0; i < from->count; i++)
         fill_material(s, &from->list[i], &s->list[i]);
+    for (size_t i = 0; i < from->count; i++)
+        s->sees_through |= s->list[i].is_see_through;
     return FFD_OK;
 }
 
@@ -88,6 +147,8 @@ static void put_triangle(const view_scene *scene, size_t t, uint32_t material, s
     memcpy(s->triangles + 3 * to, scene->triangles + 3 * t, 3 * sizeof *s->triangles);
     if (s->texcoords)
         memcpy(s->texcoords + 6 * to, scene->texcoords + 6 * t, 6 * sizeof *s->texcoords);
+    if (s->glow_texcoords)
+        memcpy(s->glow_texcoords + 6 * to, scene->glow_texcoords + 6 * t, 6 * sizeof *s->glow_texcoords);
     s->materials[to] = material;
 }
 
@@ -117,14 +178,19 @@ ffd_status ffd_view_surface_make(const view_scene *scene, bool textured, memory_
                                  uint64_t reserve, const mesh_log *log, view_surface *s, ffd_error *error)
 {
     const size_t count = scene->triangle_count;
-    const bool has_texcoords = textured && scene->texcoords;
+    const bool has_texcoords = textured && scene->texcoords,
+               has_glow = has_texcoords && scene->glow_texcoords;
     *s = (view_surface){0};
-    TRY(ffd_budget_take(budget, count, TRIANGLE_BYTES + (has_texcoords ? TEXCOORD_BYTES : 0), error));
+    TRY(ffd_budget_take(
+        budget, count,
+        TRIANGLE_BYTES + (has_texcoords ? TEXCOORD_BYTES : 0) + (has_glow ? TEXCOORD_BYTES : 0), error));
     count_triangles(scene, s);
     s->triangles = ffd_alloc(count, 3 * sizeof *s->triangles);
     s->materials = ffd_alloc(count, sizeof *s->materials);
     s->texcoords = has_texcoords ? ffd_alloc(count, 6 * sizeof *s->texcoords) : NULL;
-    if (!s->triangles || !s->materials || (has_texcoords && !s->texcoords))
+    s->glow_texcoords = has_glow ? ffd_alloc(count, 6 * sizeof *s->glow_texcoords) : NULL;
+    if (!s->triangles || !s->materials || (has_texcoords && !s->texcoords) ||
+        (has_glow && !s->glow_texcoords))
         return ffd_fail_memory(error);
     fill_triangles(scene, s);
     if (textured) {
@@ -140,7 +206,11 @@ void ffd_view_surface_free(view_surface *s)
 {
     for (size_t i = 0; s->textures && i < s->texture_count; i++)
         ffd_texture_free(&s->textures[i]);
+    for (size_t i = 0; s->opacities && i < s->texture_count; i++)
+        ffd_texture_free(&s->opacities[i]);
     ffd_free(s->textures);
+    ffd_free(s->opacities);
+    ffd_free(s->glow_texcoords);
     ffd_free(s->list);
     ffd_free(s->triangles);
     ffd_free(s->materials);

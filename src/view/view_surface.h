@@ -11,10 +11,13 @@ typedef struct view_surface {
     /* Flipped triangles come last. materials (1 a triangle) and texcoords (6 a triangle; NULL if not
        textured) are in the same order. */
     uint32_t *triangles, *materials;
-    float *texcoords;
+    float *texcoords, *glow_texcoords; /* glow_texcoords: as in view_scene */
     size_t plain_count, flipped_count;
     picture_material *list; /* one for each material of the scene */
-    texture *textures;      /* one for each image; empty where it cannot be decoded */
+    /* One for each image; empty where it is not used as such, or cannot be decoded. opacities: with the
+       opacity as alpha. */
+    texture *textures, *opacities;
+    bool sees_through; /* a material is see-through */
     size_t list_count, texture_count;
 } view_surface;
 

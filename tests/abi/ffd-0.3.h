@@ -496,9 +496,12 @@ typedef enum ffd_view_color {
     FFD_VIEW_DISPLACEMENT = 0,
     FFD_VIEW_STATUS,
     FFD_VIEW_DET,
-    FFD_VIEW_PLAIN
+    FFD_VIEW_PLAIN,
+    FFD_VIEW_AUTO
 } ffd_view_color;
 const char *ffd_view_color_name(ffd_view_color color);
+typedef enum ffd_up { FFD_UP_Y = 0, FFD_UP_Z, FFD_UP_X } ffd_up;
+ffd_status ffd_view_camera(const char *name, ffd_up up, double direction[3]);
 typedef struct ffd_view_desc {
     size_t struct_size;
     const ffd_deform_desc *job;
@@ -514,6 +517,8 @@ typedef struct ffd_view_desc {
     bool as_stored;
     ffd_sink_function sink;
     void *sink_user;
+    ffd_up up;
+    bool no_cage;
 } ffd_view_desc;
 void ffd_view_desc_init(ffd_view_desc *desc, size_t size);
 ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error);
@@ -687,6 +692,7 @@ typedef struct ffd_batch_desc {
     bool verbose;
     bool is_program;
     const int *cancel;
+    const ffd_view_desc *look;
 } ffd_batch_desc;
 void ffd_batch_desc_init(ffd_batch_desc *desc, size_t size);
 ffd_status ffd_batch_desc_check(const ffd_batch_desc *desc, ffd_error *error);

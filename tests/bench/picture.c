@@ -54,7 +54,7 @@ int main(int argc, char **argv)
                  .panels = &panel,
                  .panel_count = 1,
                  .threads = 1};
-    ffd_camera_parse("iso", &p.camera);
+    p.camera = shape_camera("iso");
     const size_t pixels = (size_t)p.width * p.height;
     const size_t size = s.mesh.vertex_count * 28 + s.mesh.triangle_count * 12 + pixels * 3;
     uint8_t *const again = malloc(size), *const from = calloc(pixels, 3);

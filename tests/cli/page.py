@@ -19,7 +19,7 @@ class Page:
         self.before = self.positions()
         self.after = [[x + self.scene["moveStep"] * d for x, d in zip(p, move)]
                       for p, move in zip(self.before, self.rows("data-move", "h", 3))]
-        self.triangles = self.rows("data-triangle", "I", 3)
+        self.triangles = self.list_triangles()
         equal([len(self.before), len(self.triangles)], [self.scene["vertices"], self.scene["triangles"]], "sizes")
 
     def rows(self, name, code, width):
@@ -29,6 +29,13 @@ class Page:
         data = base64.b64decode(self.blocks[name])
         values = struct.unpack(f"<{len(data) // struct.calcsize(code)}{code}", data)
         return [list(values[i:i + width]) for i in range(0, len(values), width)]
+
+    def list_triangles(self):
+        """With a texture their corners are wedges, each of a vertex."""
+        wedges = self.column("data-wedge", "I")
+        if wedges is None:
+            return self.rows("data-triangle", "I", 3)
+        return [[wedges[corner] for corner in row] for row in self.rows("data-corner", "I", 3)]
 
     def column(self, name, code):
         rows = self.rows(name, code, 1)

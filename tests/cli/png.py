@@ -1,12 +1,11 @@
-"""PNG files of 8 bits, red, green, blue: reading those of ffd view, and making textures."""
+"""Reads the PNG files of ffd view: 8 bits, red, green, blue."""
 
 import itertools
 import struct
 import zlib
 
 from harness import check, equal
-
-SIGNATURE = b"\x89PNG\r\n\x1a\n"
+from png_make import SIGNATURE
 
 
 def chunks(content):
@@ -73,12 +72,3 @@ def read_png(content):
         above = unfilter(data[y * size], data[y * size + 1:(y + 1) * size], above)
         rows.append(list(zip(above[::3], above[1::3], above[2::3])))
     return rows
-
-
-def make_png(rows):
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    lines = b"".join(b"\0" + bytes(x for pixel in row for x in pixel) for row in rows)
-    return (SIGNATURE + chunk(b"IHDR", struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 2, 0, 0, 0))
-            + chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b""))

@@ -221,7 +221,7 @@ def entries_and_messages_say_what_was_set(run):
     equal([e["set"] for e in report(run)], [{"D": 30, "H": 0.5, "AXIS": "x"}, {"D": 30}, {"H": [1], "D": 2}, {"H": 0.001, "AXIS": "y: z", "D": 1}, {}])
     equal([e["line"] for e in report(run)], [1, 2, 3, 4, 5])
     starts = [["m.jsonl:1: D=30, H=0.5, AXIS=\"x\": a.obj: "], ["m.jsonl:2: D=30: l.json: "], ["m.jsonl:3: H=[1], D=2: p.json"],
-              ["m.jsonl:4: H=0.001, AXIS=\"y: z\", D=1: p.json:/moves/1/twist/axis"], ["m.jsonl:5: unknown key"]]
+              ["m.jsonl:4: H=0.001, AXIS=\"y: z\", D=1: p.json:1: /moves/1/twist/axis"], ["m.jsonl:5: unknown key"]]
     for begin in starts:
         check(any(said.startswith(begin[0]) for said in done.err), begin, "starts none of", done.err)
     check(all(said.startswith("m.jsonl:") for said in done.err[:-1]), done.err)
@@ -232,7 +232,7 @@ def entries_and_messages_say_what_was_set(run):
     # Lines of a pattern are nobody's.
     run.folder_of("out")
     run.ffd("batch", "--in", "a.obj", "-l", "p.json", "--out-dir", "out", "--set", "H=1", code=NO,
-            err=lambda said: check(said[0].startswith("H=1: p.json:/moves/1/twist/"), said))
+            err=lambda said: check(said[0].startswith("H=1: p.json:1: /moves/1/twist/"), said))
 
 
 @case

@@ -3,6 +3,7 @@
 
 import os
 import subprocess
+import time
 
 from batches import MOVE, batch, case, check, equal, job, lattice, lines_of, main, start, statuses
 from harness import CUBE, FFD, PNG, SECONDS, gltf_json
@@ -166,6 +167,33 @@ def resumed(run):
     """What becomes of the jobs, found by a dry run."""
     run.ffd("batch", "m.jsonl", "--resume", "--dry-run", "-q", "--report", "d.json", err=[])
     return statuses(run, "d.json")
+
+
+@case
+def a_new_journal_removes_those_of_long_ago(run):
+    start(run, [job(0)])
+    batch(run, "m.jsonl", done=1)
+    (used,) = os.listdir(run.path("cache/ffd"))
+
+    def age(name, days):
+        path = os.path.join(run.path("cache/ffd"), name)
+        if not os.path.exists(path):
+            with open(path, "wb"):
+                pass
+        os.utime(path, (time.time() - days * 86400,) * 2)
+
+    age(used, 400)
+    age("batch-of-another", 181)
+    age("batch-of-a-third", 179)
+    age("copy-of-long-ago", 400)
+    # A run that finds its own removes nothing, and has used it today.
+    batch(run, "m.jsonl", "--resume", kept=1)
+    equal(sorted(os.listdir(run.path("cache/ffd"))), sorted([used, "batch-of-another", "batch-of-a-third", "copy-of-long-ago"]))
+    run.write("n.jsonl", lines_of([job(1)]))
+    batch(run, "n.jsonl", done=1)
+    left = set(os.listdir(run.path("cache/ffd")))
+    check(left > {used, "batch-of-a-third", "copy-of-long-ago"} and "batch-of-another" not in left and len(left) == 4, left)
+    batch(run, "m.jsonl", "--resume", kept=1)
 
 
 @case

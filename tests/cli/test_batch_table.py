@@ -123,8 +123,8 @@ def set_in_a_manifest(run):
 @case
 def a_set_that_does_not_fit_fails_its_job(run):
     begin(run)
-    bad = [([], '"set"'), (3, '"set"'), ("H=1", '"set"'), ({}, '"H"'), ({"H": "1"}, r"p\.json:/moves/0/by/1"), ({"H": [1]}, r"p\.json:/moves/0/by/1"),
-           ({"H": None}, r"p\.json:/moves/0/by/1"), ({"H": True}, r"p\.json:/moves/0/by/1"), ({"H": 1, "K": 2}, '"K"'), ({"h": 1}, '"H"')]
+    bad = [([], '"set"'), (3, '"set"'), ("H=1", '"set"'), ({}, '"H"'), ({"H": "1"}, r"p\.json:1: /moves/0/by/1"), ({"H": [1]}, r"p\.json:1: /moves/0/by/1"),
+           ({"H": None}, r"p\.json:1: /moves/0/by/1"), ({"H": True}, r"p\.json:1: /moves/0/by/1"), ({"H": 1, "K": 2}, '"K"'), ({"h": 1}, '"H"')]
     run.write("m.jsonl", lines_of([job(i, lattice="p.json", set=value) for i, (value, _) in enumerate(bad)] + [job(99, lattice="p.json", set={"H": 1})]))
     batch(run, "m.jsonl", "--report", "r.json", failed=[told for _, told in bad], done=1)
     equal([e["exit"] for e in report(run)], [INVALID] * len(bad) + [OK])
@@ -171,7 +171,7 @@ def bad_rows_fail_alone(run):
     rows = [(b"a.obj,p.json,x1.obj", r"^t\.csv:2: .*3.*4"), (b"a.obj,p.json,x2.obj,1,2", r"^t\.csv:3: .*5.*4"), (b"a.obj,p.json,good1.obj,1", None),
             (b'a.obj,p.json,"x3.obj"x,1', r"^t\.csv:5: "), (b'a.obj,p.json,x".obj,1', r"^t\.csv:6: "), (b",p.json,x4.obj,1", r'^t\.csv:7: .*"in"'),
             (b"a.obj,,x5.obj,1", r'^t\.csv:8: .*"lattice"'), (b"a.obj,p.json,,1", r'^t\.csv:9: .*"out"'), (b"a.obj,p.json,x6.obj,abc", "abc"),
-            (b"a.obj,p.json,x7.obj,", r"p\.json:/moves/0/by/1"), (b"a.obj,p.json,x8.obj,nan", "nan"), (b"none.obj,p.json,x9.obj,1", r"^none\.obj: "),
+            (b"a.obj,p.json,x7.obj,", r"p\.json:1: /moves/0/by/1"), (b"a.obj,p.json,x8.obj,nan", "nan"), (b"none.obj,p.json,x9.obj,1", r"^none\.obj: "),
             (b"a.obj,p.json,good2.obj,0.5", None), (b"a.obj,p.json,x12.obj,1\x002", r"^t\.csv:15: .*UTF-8"), (b"a\xff.obj,p.json,x10.obj,1", r"UTF-8|a.*\.obj: "), (b'a.obj,p.json,"x11.obj,1', r"^t\.csv:17: ")]
     run.write("t.csv", b"in,lattice,out,H\n" + b"\n".join(row for row, _ in rows) + b"\n")
     batch(run, "--csv", "t.csv", "--report", "r.json", done=2, failed=[told for _, told in rows if told])
@@ -486,18 +486,18 @@ def all_missing_values_at_once(run):
     begin(run, [{"by": [{"$": "A"}, {"$": "B"}, {"$": "A"}]}, {"by": [{"$": "C"}, 0, 0]}])
     run.write("k.json", lattice(moves=[{"by": [{"$": "D"}, {"$": "B"}, 0]}]))
     deform = ["deform", "a.obj", "x.obj", "-l", "p.json"]
-    run.ffd(*deform, code=INVALID, err='p.json:/moves/0/by/0: the placeholders "A", "B", "C" have no values (--set NAME=VALUE for each)')
-    run.ffd(*deform, "--set", "A=1", code=INVALID, err='p.json:/moves/0/by/1: the placeholders "B", "C" have no values (--set NAME=VALUE for each)')
-    run.ffd(*deform, "--set", "A=1", "--set", "B=1", code=INVALID, err='p.json:/moves/1/by/0: the placeholder "C" has no value (--set C=VALUE)')
+    run.ffd(*deform, code=INVALID, err='p.json:1: /moves/0/by/0: the placeholders "A", "B", "C" have no values (--set NAME=VALUE for each)')
+    run.ffd(*deform, "--set", "A=1", code=INVALID, err='p.json:1: /moves/0/by/1: the placeholders "B", "C" have no values (--set NAME=VALUE for each)')
+    run.ffd(*deform, "--set", "A=1", "--set", "B=1", code=INVALID, err='p.json:1: /moves/1/by/0: the placeholder "C" has no value (--set C=VALUE)')
     # Of all lattices, whichever lacks one first.
-    told = 'p.json:/moves/0/by/0: the placeholders "A", "B", "C", "D" have no values (--set NAME=VALUE for each)'
+    told = 'p.json:1: /moves/0/by/0: the placeholders "A", "B", "C", "D" have no values (--set NAME=VALUE for each)'
     run.ffd(*deform, "-l", "k.json", code=INVALID, err=told)
     run.ffd(*deform, "-l", "k.json", "--set", "A=1", "--set", "B=1", "--set", "C=1", code=INVALID,
-            err='k.json:/moves/0/by/0: the placeholder "D" has no value (--set D=VALUE)')
+            err='k.json:1: /moves/0/by/0: the placeholder "D" has no value (--set D=VALUE)')
     run.ffd("check", "a.obj", "-l", "p.json", "-l", "k.json", code=INVALID, err=told)
     # What a lattice has against it else is told as before.
     run.write("k.json", "{")
-    run.ffd(*deform, "-l", "k.json", code=INVALID, err='p.json:/moves/0/by/0: the placeholders "A", "B", "C" have no values (--set NAME=VALUE for each)')
+    run.ffd(*deform, "-l", "k.json", code=INVALID, err='p.json:1: /moves/0/by/0: the placeholders "A", "B", "C" have no values (--set NAME=VALUE for each)')
     run.ffd(*deform[:3], "-l", "k.json", "-l", "p.json", code=INVALID, err=lambda said: check(said[0].startswith("k.json:1: "), said))
     many = [{"by": [{"$": f"N{i:06}"}, 0, 0]} for i in range(2000)]
     run.write("p.json", lattice(moves=many))

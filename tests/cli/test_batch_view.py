@@ -122,6 +122,19 @@ def a_picture_a_job_and_an_index(run):
 
 
 @case
+def pictures_take_the_options_of_view(run):
+    start(run, [job(0), job(1)])
+    look = ["--camera", "bottom", "--up", "z", "--no-cage", "--color", "det", "--size", "200x100", "--frames", "3"]
+    run.ffd("batch", "m.jsonl", "--view", "v", *look, err=lambda said: None)
+    run.ffd("view", "a.obj", "-l", "l.json", "-o", "p.png", *look)
+    check(run.read("v/o0.obj.png") == run.read("p.png") == run.read("v/o1.obj.png"), "the picture of view")
+    for option in (["--camera", "front"], ["--up", "y"], ["--no-cage"], ["--color", "plain"], ["--size", "20x20"], ["--frames", "2"],
+                   ["--animation", "x"]):
+        run.ffd("batch", "m.jsonl", *option, code=USAGE, err=re.compile(f"{option[0]} needs --view"))
+    run.ffd("batch", "m.jsonl", "--view", "w", "--up", "w", code=USAGE, err=re.compile("--up"))
+
+
+@case
 def torn_edges_have_their_column(run):
     """The box ends between the cube's sides and holds its edges there at full strength."""
     start(run, [job(0)])

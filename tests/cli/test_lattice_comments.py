@@ -79,7 +79,8 @@ def words_of_other_programs_are_hinted_at(run):
                                ({"rotate": {"axis": "z", "angle": 10}}, "angle", "degrees"),
                                ({"twist": {"axis": "z", "angle": 10}}, "angle", "degrees"),
                                ({"bend": {"axis": "z", "toward": [1, 0, 0], "angle": 10}}, "angle", "degrees"),
-                               ({"reflect": "x", "by": [1, 0, 0]}, "reflect", "mirror"), ({"drag": {}}, "drag", "pull"),
+                               ({"reflect": "x", "by": [1, 0, 0]}, "reflect", "mirror"), ({"grab": {}}, "grab", "pull"),
+                               ({"select": "top", "by": [1, 0, 0]}, "select", "at"), ({"//": "up", "by": [1, 0, 0]}, "//", "comment"),
                                ({"fade": {}, "by": [1, 0, 0]}, "fade", "falloff"), ({"pull": {"center": [0, 0, 0]}}, "center", "point"),
                                ({"falloff": {"about": [0, 0, 0], "radius": 1}, "by": [1, 0, 0]}, "about", "center"),
                                ({"falloff": {"axis": "x", "start": 0, "end": 1}, "by": [1, 0, 0]}, "start", "from"),
@@ -106,7 +107,7 @@ def keys_of_another_kind_of_box(run):
                               ({"min": [0, 0, 0], "max": [1, 1, 1], "margin": 0.1}, "margin", ("round meshes",))):
         run.write("l.json", lattice(rest={"box": box}))
         done = run.ffd("check", "a.obj", "-l", "l.json", code=INVALID)
-        check(done.err[0].startswith(f"l.json:/rest/box/{wrong}: ") and "unknown key" not in done.err[0]
+        check(done.err[0].startswith(f"l.json:1: /rest/box/{wrong}: ") and "unknown key" not in done.err[0]
               and all(word in done.err[0] for word in words), done.err)
 
 

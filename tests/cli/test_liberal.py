@@ -67,7 +67,7 @@ def numbers_beyond_double_where_nothing_reads_them(run):
         run.write("m.gltf", model.text(uri).replace(b"1e+99", b"1e999"))
         pointer, expected = (key, "a mode from 0 to 6") if key.endswith("mode") else (key + "/0", "a finite number")
         run.ffd("deform", "m.gltf", "o.gltf", "-l", "l.json", code=INVALID,
-                err=f"m.gltf:/{pointer}: {expected} is expected, not 1e999")
+                err=f"m.gltf:1: /{pointer}: {expected} is expected, not 1e999")
 
 
 @case
@@ -143,7 +143,7 @@ def base64_as_browsers_read_it(run):
     for head in ("text/plain;xbase64,", "text/plain;base64x,", "text/plainbase64,", ";base65,", ";base-64,", "base64,", ",",
                  "application/octet-stream;charset=utf-8,"):
         run.write("m.gltf", model.text("data:" + head + text))
-        one_line(deform(run, "m.gltf", "n.gltf", code=INVALID), 'm.gltf:/buffers/0/uri: ', 'must say ";base64"')
+        one_line(deform(run, "m.gltf", "n.gltf", code=INVALID), 'm.gltf:1: /buffers/0/uri: ', 'must say ";base64"')
         check(not run.exists("n.gltf"), head)
 
 
@@ -194,7 +194,7 @@ def a_buffer_with_less_than_its_byte_length(run):
     equal(glb_split(run.read("o.glb"))[1][:12], struct.pack("<3f", *SHIFTED[0]))
     run.write("m.gltf", model.set("buffers/0/byteLength", len(model.data) + 1).text("m.bin"))
     run.write("m.bin", bytes(model.data)[:90])
-    deform(run, "m.gltf", "n.gltf", code=INVALID, err="m.gltf:/buffers/0: the buffer has 90 bytes, less than its byteLength 229")
+    deform(run, "m.gltf", "n.gltf", code=INVALID, err="m.gltf:1: /buffers/0: the buffer has 90 bytes, less than its byteLength 229")
 
 
 @case

@@ -140,9 +140,9 @@ BROKEN = [
     ('{"jobs": [\n{"a": [1}]\n}]}', "all.json:2: not valid JSON: ',' or ']' is expected, found '}' (column 9)"),
     ('{"jobs": [%s %s]}', "all.json:1: not a report: ',' or ']' is expected after an entry, found '{'"),
     ('{"jobs": [%s,]}', "all.json:1: not a report: an entry is expected after ',', found ']'"),
-    ('{"jobs": [%s,\n\n{"input": "a",\n"input": "b"}]}', 'all.json:4: not valid JSON: duplicate key "input" in an object (column 1)'),
+    ('{"jobs": [%s,\n\n{"input": "a",\n"input": "b"}]}', 'all.json:4: /jobs/1/input: not valid JSON: duplicate key "input" in an object (column 1)'),
     ('{"jobs": [%s, {"input": "\xff"}]}', "all.json:1: not valid JSON: a string is not valid UTF-8, found byte 0xff (column 100)"),
-    ('{"jobs": [{}]}', 'all.json:/jobs/0: "input" is missing'),
+    ('{"jobs": [{}]}', 'all.json:1: /jobs/0: "input" is missing'),
 ]
 
 
@@ -168,11 +168,11 @@ def entries_must_say_what_became_of_the_job(run):
                              ("exit", -1, "a whole number from 0 to 7"), ("exit", 0.5, "a whole number from 0 to 7"),
                              ("exit", "0", "a whole number from 0 to 7"), ("error", [], "a text or null")):
         run.write("r.json", report(ENTRY, entry(**{key: wrong})))
-        run.ffd("report", "merge", "r.json", code=INVALID, err=f"r.json:/jobs/1/{key}: must be {must}, not {json.dumps(wrong)}")
+        run.ffd("report", "merge", "r.json", code=INVALID, err=f"r.json:1: /jobs/1/{key}: must be {must}, not {json.dumps(wrong)}")
         less = entry()
         del less[key]
         run.write("r.json", report(less))
-        run.ffd("report", "merge", "r.json", code=INVALID, err=f'r.json:/jobs/0: "{key}" is missing')
+        run.ffd("report", "merge", "r.json", code=INVALID, err=f'r.json:1: /jobs/0: "{key}" is missing')
 
 
 @case

@@ -11,7 +11,7 @@ import shutil
 
 from gltf_build import Scene
 from gltf_reader import Gltf
-from harness import INVALID, NO, case, check, equal, lattice, main, near
+from harness import INVALID, NO, case, check, equal, lattice, main, near, obj_vertices
 from messages import anything, counts, entry, one_line
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -204,6 +204,51 @@ def artist_06_nothing_moved_no_word(run):
     equal(run.read("o.obj"), run.read("face.obj"))
     run.write("m.jsonl", json.dumps({"in": "face.obj", "lattice": "pull.json", "out": "b.obj"}) + "\n")
     one_line(run.ffd("batch", "m.jsonl", err=anything), *why)
+
+
+@case
+def artist_04_taller_foot_rises(run):
+    """The sample lattice does what its page says, with its own margin and with another."""
+    use(run, "artist-04-taller-foot-rises")
+    with open(os.path.join(HERE, "..", "..", "data", "lattices", "taller.json"), encoding="utf-8") as file:
+        taller = json.load(file)
+    rest = run.ffd("info", "cube.obj", "--json", err=anything).json["bounds"]
+    for margin in (taller["rest"]["margin"], 0.25):
+        taller["rest"]["margin"] = margin
+        run.write("taller.json", json.dumps(taller))
+        bounds = entry(run, "check", "cube.obj", "-l", "taller.json")["bounds"]["after"]
+        near(bounds["min"], rest["min"], 1e-15, "the foot")
+        near(bounds["max"], [x if c != 1 else rest["min"][1] + 1.4 * (x - rest["min"][1]) for c, x in enumerate(rest["max"])], 1e-14)
+
+
+@case
+def artist_08_mirror_beside_the_model(run):
+    """A sword at x = 3 puts the middle of the box beside the model: one line tells the plane. With the plane both ears move."""
+    use(run, "artist-08-mirror-beside-the-model")
+    one_line(run.ffd("deform", "face.obj", "o.obj", "-l", "ears.json", err=anything), '"mirror": "x" in ears.json', "the plane x = 1,")
+    with open(run.path("ears.json"), encoding="utf-8") as file:
+        ears = json.load(file)
+    ears["moves"][0]["mirror"] = {"axis": "x", "at": 0}
+    run.write("plane.json", json.dumps(ears))
+    run.ffd("deform", "face.obj", "p.obj", "-l", "plane.json")
+    rest, moved = obj_vertices(run.text("face.obj")), obj_vertices(run.text("p.obj"))
+    found = []
+    for x in (0.9, -0.9):
+        ear = min(range(len(rest)), key=lambda k: abs(rest[k][0] - x) + abs(rest[k][1] - 0.5))
+        found.append(moved[ear][2] - rest[ear][2])
+    check(min(found) > 0.25, found)
+    near(found[:1], found[1:], 0.01, "the layers are not those of the plane")
+
+
+@case
+def artist_15_names_of_animations(run):
+    """What view --animation and --clip ask for."""
+    use(run, "artist-15-names-of-animations")
+    told = run.ffd("info", "arm.glb", "--json").json
+    equal((told["animations"], told["joints"], told["contents"]["animations"]),
+          ([{"name": "bend", "seconds": 1.0}], ["shoulder", "elbow", "hand"], 1))
+    text = run.ffd("info", "arm.glb", data=True).text
+    check("\nanimations\n  bend " in text and " shoulder, elbow, hand\n" in text, text)
 
 
 main()

@@ -35,7 +35,7 @@ POINTER = b"version https://git-lfs.github.com/spec/v1\noid sha256:" + b"0" * 64
 def wild3_01_a_pointer_is_no_buffer(run):
     """A Git LFS pointer where the buffer should be: refused by every command, whatever its length."""
     use(run, "wild3-01-lfs-pointer-as-buffer")
-    why = re.compile(r'^model\.gltf:/buffers/0/uri: the buffer "model\.bin" seems to be a Git LFS pointer: the file itself is not there$')
+    why = re.compile(r'^model\.gltf:\d+: /buffers/0/uri: the buffer "model\.bin" seems to be a Git LFS pointer: the file itself is not there$')
     for words in (["deform", "model.gltf", "out.gltf", "-l"], ["check", "model.gltf", "-l"], ["embed", "model.gltf", "-o", "e.npy", "-l"],
                   ["view", "model.gltf", "-o", "v.html", "-l"], ["deform", "model.gltf", "out.obj", "-l"]):
         run.ffd(*words, "twist.json", code=INVALID, err=why)
@@ -132,7 +132,7 @@ def positions_are_where_the_accessor_says(run):
         code = INVALID if name == "m" else 0
         done = run.ffd("deform", name + ".gltf", "o.gltf", "-l", "l.json", "--force", "--report", "r.json", code=code, err=anything)
         if name == "m":
-            one_line(done, r"^m\.gltf:/accessors/0: a coordinate of -2e\+15 is more than 1e15 times the largest number of min and max, 1: ")
+            one_line(done, r"^m\.gltf:1: /accessors/0: a coordinate of -2e\+15 is more than 1e15 times the largest number of min and max, 1: ")
         elif name == "t":
             no_line(done, "min|max")
     run.write("m.bin", struct.pack("<9f", 0, 0, 0, 3.5, 0, 0, 0, 1, 0))
@@ -469,7 +469,7 @@ def artist_10_hints_name_what_is_meant(run):
     """An axis in capitals, with a sign, a word for an index: the hint is what the user meant, or all that there is."""
     run.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n")
     sign = 'the axis "{}" has a sign; write [{}] for that direction'
-    index = 'is the text "{}", not an index (0 is the first layer, -1 the last), a range [lo, hi] or "all"'
+    index = 'is the text "{}", not an index (0, "first" or "bottom": the first layer; -1, "last" or "top": the last), a range [lo, hi] or "all"'
     axes = 'unknown word "{}"; known ones are "x", "y", "z"'
     nearest = 'unknown word "{}"; the nearest known one is "{}"'
     for word, why in (("Y", nearest.format("Y", "y")), ("Z", nearest.format("Z", "z")), ("-y", sign.format("-y", "0, -1, 0")),
@@ -478,16 +478,22 @@ def artist_10_hints_name_what_is_meant(run):
         for move, at in (({"twist": {"axis": word, "degrees": 90}}, "twist/axis"),
                          ({"bend": {"axis": "x" if word[-1] in "Yy" else "y", "toward": word, "degrees": 9}}, "bend/toward")):
             run.write("l.json", lattice(moves=[move]))
-            run.ffd("check", "m.obj", "-l", "l.json", code=INVALID, err=f"l.json:/moves/0/{at}: {why}")
-    for word in ("top", "al", "ALL", "last", "-1"):
+            run.ffd("check", "m.obj", "-l", "l.json", code=INVALID, err=f"l.json:1: /moves/0/{at}: {why}")
+    for word in ("Top", "al", "ALL", "lst", "-1"):
         run.write("l.json", lattice(moves=[{"at": ["all", word, "all"], "by": [0, 1, 0]}]))
-        run.ffd("check", "m.obj", "-l", "l.json", code=INVALID, err="l.json:/moves/0/at/1: " + index.format(word))
+        run.ffd("check", "m.obj", "-l", "l.json", code=INVALID, err="l.json:1: /moves/0/at/1: " + index.format(word))
+    for word, layer in (("top", -1), ("last", -1), ("bottom", 0), ("first", 0)):
+        for at in (word, [word, word]):
+            for name, chosen in (("w.obj", at), ("i.obj", layer)):
+                run.write("l.json", lattice(moves=[{"at": ["all", chosen, "all"], "by": [0, 1, 0]}]))
+                run.ffd("deform", "m.obj", name, "-l", "l.json", "--force", err=anything)
+            check(run.read("w.obj") == run.read("i.obj") != run.read("m.obj"), word)
     for members, at, why in (({"rest": {"box": "Mesh"}}, "rest/box", nearest.format("Mesh", "mesh")), ({"units": "BOX"}, "units", nearest.format("BOX", "box")),
                              ({"knots": ["Clamped"] * 3}, "knots/0", nearest.format("Clamped", "clamped")),
                              ({"moves": [{"By": [1, 0, 0]}]}, "moves/0/By", 'unknown key "By"; the nearest known one is "by"'),
                              ({"moves": [{"by": [1, 0, 0], "mirror": "X"}]}, "moves/0/mirror", nearest.format("X", "x"))):
         run.write("l.json", lattice(**members))
-        run.ffd("check", "m.obj", "-l", "l.json", code=INVALID, err=f"l.json:/{at}: {why}")
+        run.ffd("check", "m.obj", "-l", "l.json", code=INVALID, err=f"l.json:1: /{at}: {why}")
     run.write("l.json", LIFT)
     for words, why in ((["--outside", "Keep"], '--outside: "Keep" is not one of keep, extend, error (nearest: keep)'),
                        (["--normals", "none"], '--normals: "none" is not one of transform, keep, recompute'),
@@ -497,7 +503,7 @@ def artist_10_hints_name_what_is_meant(run):
                        (["--widgets"], "unknown option --widgets (--help lists the known ones)")):
         run.ffd("check", "m.obj", "-l", "l.json", *words, code=USAGE, err=why)
     run.ffd("view", "m.obj", "-o", "v.png", "--camera", "Front", code=USAGE,
-            err='--camera: "Front" is not front, back, left, right, top, iso or a direction like 1,0.5,2 (nearest: front)')
+            err='--camera: "Front" is not front, back, left, right, top, bottom, iso or a direction like 1,0.5,2 (nearest: front)')
     for words, why in ((["--axis", "Y"], "x, y, z or a direction like 0,1,1 (nearest: y)"), (["--axis", "up"], "x, y, z or a direction like 0,1,1"),
                        (["--axis", "-Y"], "x, y, z or a direction like 0,1,1 (that direction is 0,-1,0)"),
                        (["--knots", "open,Closed,open"], "three of clamped, open, uniform, closed (nearest: closed)")):
@@ -787,10 +793,10 @@ def of_what_there_is_none_is_said_so(run):
     for name, content, told_ in (
             ("m.off", "OFF\n0 1 0\n3 0 1 2\n", "m.off:3: there is no vertex 0: the file has none"),
             ("m.ply", head + "property list uchar int vertex_indices\nend_header\n3 0 1 2\n", "m.ply:10: face 0: there is no vertex 0: the file has none"),
-            ("m.gltf", asset, "m.gltf:/nodes/0/mesh: there is no mesh 0: the file has none"),
-            ("m.gltf", {**asset, "meshes": [], "nodes": [{"skin": 0}]}, "m.gltf:/nodes/0/skin: there is no skin 0: the file has none"),
-            ("m.gltf", {**asset, **mesh, "accessors": []}, "m.gltf:/meshes/0/primitives/0/attributes/POSITION: there is no accessor 0: the file has none"),
-            ("m.gltf", {"asset": {"version": "2.0"}, "scene": 2}, "m.gltf:/scene: there is no scene 2: the file has none")):
+            ("m.gltf", asset, "m.gltf:1: /nodes/0/mesh: there is no mesh 0: the file has none"),
+            ("m.gltf", {**asset, "meshes": [], "nodes": [{"skin": 0}]}, "m.gltf:1: /nodes/0/skin: there is no skin 0: the file has none"),
+            ("m.gltf", {**asset, **mesh, "accessors": []}, "m.gltf:1: /meshes/0/primitives/0/attributes/POSITION: there is no accessor 0: the file has none"),
+            ("m.gltf", {"asset": {"version": "2.0"}, "scene": 2}, "m.gltf:1: /scene: there is no scene 2: the file has none")):
         run.write(name, content)
         run.ffd("info", name, code=INVALID, err=told_)
 

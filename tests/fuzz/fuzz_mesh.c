@@ -58,15 +58,25 @@ static void check_description(const mesh_document *document)
     ffd_buffer_free(&out);
 }
 
+static void check_texture(const mesh_materials *materials, const mesh_texture *t)
+{
+    PROMISE(t->image >= MATERIAL_LOST || t->image < materials->image_count, "image %u of %zu", t->image,
+            materials->image_count);
+    PROMISE(t->wrap[0] <= TEXTURE_CLAMP && t->wrap[1] <= TEXTURE_CLAMP, "a wrap of %d and %d", t->wrap[0],
+            t->wrap[1]);
+}
+
 static void check_material(const mesh_materials *materials, const mesh_material *m)
 {
     for (int c = 0; c < 4; c++)
         PROMISE(m->color[c] >= 0 && m->color[c] <= 1, "a colour has %g", m->color[c]);
     PROMISE(m->name && m->alpha_cutoff >= 0 && isfinite(m->alpha_cutoff), "the cutoff %g", m->alpha_cutoff);
-    PROMISE(m->image >= MATERIAL_LOST || m->image < materials->image_count, "image %u of %zu", m->image,
-            materials->image_count);
-    PROMISE(m->wrap[0] <= TEXTURE_CLAMP && m->wrap[1] <= TEXTURE_CLAMP, "a wrap of %d and %d", m->wrap[0],
-            m->wrap[1]);
+    PROMISE(m->alpha <= MATERIAL_BLEND, "the alpha mode %d", (int)m->alpha);
+    for (int c = 0; c < 3; c++)
+        PROMISE(m->emission[c] >= 0 && isfinite(m->emission[c]), "an emission has %g", m->emission[c]);
+    check_texture(materials, &m->base);
+    check_texture(materials, &m->glow);
+    check_texture(materials, &m->opacity);
 }
 
 static void check_line(void *user, ffd_log_level level, const char *line)

@@ -94,7 +94,7 @@ def link(machine, folder):
         return [os.path.join(folder, target + ".p", name) for target in targets
                 for name in sorted(os.listdir(os.path.join(folder, target + ".p"))) if name.endswith(".o")]
 
-    core = objects("libffd_core.a", "libffd_unversioned.a", "libffd_kernels_scalar.a")
+    core = objects("libffd_core.a", "libffd_small.a", "libffd_unversioned.a", "libffd_kernels_scalar.a")
     program, archive = os.path.join(folder, "ffd"), os.path.join(folder, "core.a")
     libraries = ["-lm", "-lpthread", "-ldl"]
     subprocess.run([machine + "-gcc", "-o", program, *core, *objects("libffd_loading.a", "libffd_cli.a", "ffd"),

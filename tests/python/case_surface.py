@@ -100,7 +100,7 @@ class Declarations(unittest.TestCase):
                   "print(open('/proc/self/maps').read())")
         maps = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout
         self.assertIn("ffd_mesh/libffd.so", maps)
-        self.assertIsNone(re.search("OpenMesh|libpng|libjpeg|draco|meshopt|tinygltf", maps))
+        self.assertIsNone(re.search("OpenMesh|libpng|libjpeg|libwebp|draco|meshopt|tinygltf", maps))
 
 
 class Pages(unittest.TestCase):

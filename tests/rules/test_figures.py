@@ -154,7 +154,7 @@ def against_pages(rows):
     listed = re.search(r"STATUS_NAMES = \[(.*)\]", tree.read("src/view/page/decode.js"))[1]
     if tuple(re.findall(r"'(\w+)'", listed)) != names_of("ffd_vertex_status"):
         yield "src/view/page/decode.js: STATUS_NAMES are not those of src/base/names.c"
-    listed = re.search(r"color_names\[\] = \{(.*), NULL\}", tree.read("src/cli/view.c"))[1]
+    listed = re.search(r"color_names\[\] = \{(.*), NULL\}", tree.read("src/cli/look.c"))[1]
     if tuple(re.findall(r'"(\w+)"', listed)) != names_of("ffd_view_color"):
         yield "src/cli/view.c: color_names are not those of src/base/names.c"
 

@@ -26,7 +26,7 @@ LAYERS = {
     "mesh/resource": {"base", "base/file", "base/memory", "base/system", "base/text", "mesh"},
     "picture/image": {"base", "base/memory", "base/system", "mesh"},
     "picture": {
-        "base", "base/memory", "base/system", "base/text", "base/vector", "mesh", "picture/image",
+        "base", "base/memory", "base/system", "base/vector", "mesh", "picture/image",
     },
     "io/gltf/file": {"base", "base/file", "base/memory", "base/text", "json"},
     "io/gltf/read": {
@@ -45,7 +45,7 @@ LAYERS = {
     },
     "io/gltf": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/edit", "io/gltf/file",
-        "io/gltf/model", "io/gltf/read", "io/gltf/write", "json", "mesh", "mesh/resource",
+        "io/gltf/model", "io/gltf/read", "io/gltf/write", "json", "mesh", "mesh/resource", "splat",
     },
     "io/openmesh": {"base/memory", "base/system", "base/vector", "mesh"},
     "io/text": {"base/file", "base/memory", "base/text", "mesh"},
@@ -98,7 +98,7 @@ LAYERS = {
         "base", "base/memory", "base/system", "base/vector", "deform", "io/openmesh", "job/chain", "job/figures", "job/input",
         "lattice", "mesh",
     },
-    "job/judge": {"base", "base/text", "job/chain", "job/figures", "lattice"},
+    "job/judge": {"base", "base/memory", "base/text", "job/chain", "job/figures", "lattice"},
     "job/measure": {
         "base", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/frame", "io/openmesh",
         "job/chain", "job/figures", "job/input", "job/pass", "lattice", "mesh",
@@ -137,7 +137,7 @@ OUTSIDE = [
     (r"tiny_gltf\.h|nlohmann/", {"io/gltf/read"}),
     (r"draco/", {"io/gltf/read"}),
     (r"meshoptimizer\.h", {"mesh/meshopt"}),
-    (r"png\.h|jpeglib\.h|jerror\.h", {"picture/image"}),
+    (r"png\.h|jpeglib\.h|jerror\.h|webp/", {"picture/image"}),
     (r"Python\.h", {"python"}),
     (r"xxhash\.h|xxh3\.h", {"base/memory"}),
     (r"sys/platform/", {"base/vector"}),

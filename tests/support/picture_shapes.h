@@ -6,6 +6,18 @@
 #include "base/vector/trig.h"
 #include "picture/picture.h"
 #include <stdlib.h>
+#include <string.h>
+
+/* The camera of a named side; of "iso" too. */
+static inline camera shape_camera(const char *side)
+{
+    double direction[3];
+    camera made = ffd_camera_iso(FFD_UP_Y);
+    if (strcmp(side, "iso") != 0 &&
+        !(ffd_camera_side(side, FFD_UP_Y, direction) && ffd_camera_from(direction, FFD_UP_Y, &made)))
+        abort();
+    return made;
+}
 
 typedef struct shape {
     double *positions;

@@ -237,7 +237,7 @@ static void messages_name_their_place_in_one_line(void **state)
                      FFD_E_INVALID);
     ffd_error_format(&error, line, sizeof line);
     assert_string_equal(line, "a?b.obj:7: bad \"x?y\"");
-    ffd_fail_at(&error, FFD_E_INVALID, "l.json", "/moves/0", "needs an action");
+    ffd_fail_at(&error, FFD_E_INVALID, "l.json", 0, "/moves/0", "needs an action");
     ffd_error_format(&error, line, sizeof line);
     assert_string_equal(line, "l.json:/moves/0: needs an action");
     ffd_fail(&error, FFD_E_ARGUMENT, "no lattice");

@@ -198,7 +198,8 @@ static void what_would_be_no_circle_is_refused(void **state)
         ffd_lattice *l;
         ffd_error error;
         const ffd_status status = parse(refusals[i].rest, refusals[i].moves, &l, &error);
-        if (status != FFD_E_INVALID || strcmp(message_of(&error) + strlen("t.json:"), refusals[i].words) != 0)
+        if (status != FFD_E_INVALID ||
+            strcmp(message_of(&error) + strlen("t.json:1: "), refusals[i].words) != 0)
             fail_msg("%s: %d, %s\nexpected %s", refusals[i].moves, (int)status, message_of(&error),
                      refusals[i].words);
     }

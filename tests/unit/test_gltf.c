@@ -64,106 +64,110 @@ static void check_refusals(const refusal *cases, size_t count)
 
 static const refusal broken_values[] = {
     {"[]", "t.gltf: is not glTF: the JSON is not an object", FFD_E_INVALID},
-    {"{}", "t.gltf: \"asset\" is missing", FFD_E_INVALID},
-    {"{\"asset\":{\"version\":\"1.0\"}}", "t.gltf:/asset/version: glTF version \"1.0\" is not known, only 2",
-     FFD_E_UNSUPPORTED},
-    {"{" ASSET ",\"nodes\":{}}", "t.gltf:/nodes: an array of objects is expected, not {}", FFD_E_INVALID},
-    {"{" ASSET ",\"nodes\":[3]}", "t.gltf:/nodes/0: an object is expected, not 3", FFD_E_INVALID},
+    {"{}", "t.gltf:1: \"asset\" is missing", FFD_E_INVALID},
+    {"{\"asset\":{\"version\":\"1.0\"}}",
+     "t.gltf:1: /asset/version: glTF version \"1.0\" is not known, only 2", FFD_E_UNSUPPORTED},
+    {"{" ASSET ",\"nodes\":{}}", "t.gltf:1: /nodes: an array of objects is expected, not {}", FFD_E_INVALID},
+    {"{" ASSET ",\"nodes\":[3]}", "t.gltf:1: /nodes/0: an object is expected, not 3", FFD_E_INVALID},
     {"{" ASSET ",\"nodes\":[{\"mesh\":-1}]}",
-     "t.gltf:/nodes/0/mesh: an integer from 0 to 2147483647 is expected, not -1", FFD_E_INVALID},
+     "t.gltf:1: /nodes/0/mesh: an integer from 0 to 2147483647 is expected, not -1", FFD_E_INVALID},
     {"{" ASSET ",\"nodes\":[{\"mesh\":0.5}]}",
-     "t.gltf:/nodes/0/mesh: an integer from 0 to 2147483647 is expected, not 0.5", FFD_E_INVALID},
+     "t.gltf:1: /nodes/0/mesh: an integer from 0 to 2147483647 is expected, not 0.5", FFD_E_INVALID},
     {"{" ASSET ",\"nodes\":[{\"mesh\":4294967296}]}",
-     "t.gltf:/nodes/0/mesh: an integer from 0 to 2147483647 is expected, not 4294967296", FFD_E_INVALID},
-    {"{" ASSET ",\"nodes\":[{\"mesh\":0}]}", "t.gltf:/nodes/0/mesh: there is no mesh 0: the file has none",
+     "t.gltf:1: /nodes/0/mesh: an integer from 0 to 2147483647 is expected, not 4294967296", FFD_E_INVALID},
+    {"{" ASSET ",\"nodes\":[{\"mesh\":0}]}", "t.gltf:1: /nodes/0/mesh: there is no mesh 0: the file has none",
      FFD_E_INVALID},
-    {"{" ASSET ",\"nodes\":[{\"scale\":[1,2]}]}", "t.gltf:/nodes/0/scale: 3 numbers are expected, not 2",
+    {"{" ASSET ",\"nodes\":[{\"scale\":[1,2]}]}", "t.gltf:1: /nodes/0/scale: 3 numbers are expected, not 2",
      FFD_E_INVALID},
     {"{" ASSET ",\"nodes\":[{\"scale\":[1,2,1e999]}]}",
-     "t.gltf:/nodes/0/scale/2: a finite number is expected, not 1e999", FFD_E_INVALID},
+     "t.gltf:1: /nodes/0/scale/2: a finite number is expected, not 1e999", FFD_E_INVALID},
     {"{" ASSET ",\"nodes\":[{\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,2]}]}",
-     "t.gltf:/nodes/0/matrix: the matrix's last row is 0 0 0 2, not 0 0 0 1", FFD_E_INVALID},
+     "t.gltf:1: /nodes/0/matrix: the matrix's last row is 0 0 0 2, not 0 0 0 1", FFD_E_INVALID},
     {"{" ASSET ",\"nodes\":[{\"children\":[1]},{\"children\":[0]}]}",
-     "t.gltf:/nodes/0: the node is its own ancestor, or below one that is", FFD_E_INVALID},
+     "t.gltf:1: /nodes/0: the node is its own ancestor, or below one that is", FFD_E_INVALID},
     {"{" ASSET ",\"nodes\":[{\"children\":[1,2]},{\"children\":[2]},{}]}",
-     "t.gltf:/nodes/2: the node is a child of both node 0 and node 1", FFD_E_INVALID},
-    {"{" ASSET ",\"nodes\":[{\"children\":[7]}]}", "t.gltf:/nodes/0/children: there is no node 7, only 1",
+     "t.gltf:1: /nodes/2: the node is a child of both node 0 and node 1", FFD_E_INVALID},
+    {"{" ASSET ",\"nodes\":[{\"children\":[7]}]}", "t.gltf:1: /nodes/0/children: there is no node 7, only 1",
      FFD_E_INVALID},
     {"{" ASSET ",\"nodes\":[{\"scale\":[1e300,1,1],\"children\":[1]},{\"scale\":[1e300,1,1]}]}",
-     "t.gltf:/nodes/1: the node's matrix in the scene is not finite", FFD_E_INVALID},
-    {"{" ASSET ",\"scene\":2,\"scenes\":[{}]}", "t.gltf:/scene: there is no scene 2, only 1", FFD_E_INVALID},
-    {"{" ASSET ",\"buffers\":[{}]}", "t.gltf:/buffers/0: \"byteLength\" is missing", FFD_E_INVALID},
+     "t.gltf:1: /nodes/1: the node's matrix in the scene is not finite", FFD_E_INVALID},
+    {"{" ASSET ",\"scene\":2,\"scenes\":[{}]}", "t.gltf:1: /scene: there is no scene 2, only 1",
+     FFD_E_INVALID},
+    {"{" ASSET ",\"buffers\":[{}]}", "t.gltf:1: /buffers/0: \"byteLength\" is missing", FFD_E_INVALID},
     {"{" ASSET ",\"buffers\":[{\"byteLength\":1,\"uri\":\"data:x;base64,A$==\"}]}",
-     "t.gltf:/buffers/0/uri: the data URI is not valid base64", FFD_E_INVALID},
+     "t.gltf:1: /buffers/0/uri: the data URI is not valid base64", FFD_E_INVALID},
     {"{" ASSET ",\"buffers\":[{\"byteLength\":1,\"uri\":\"data:x;base64\"}]}",
-     "t.gltf:/buffers/0/uri: the data URI has no comma", FFD_E_INVALID},
+     "t.gltf:1: /buffers/0/uri: the data URI has no comma", FFD_E_INVALID},
     {"{" ASSET ",\"buffers\":[{\"byteLength\":1,\"uri\":\"data:,AA==\"}]}",
-     "t.gltf:/buffers/0/uri: the data URI of a buffer must say \";base64\" before its comma", FFD_E_INVALID},
+     "t.gltf:1: /buffers/0/uri: the data URI of a buffer must say \";base64\" before its comma",
+     FFD_E_INVALID},
     {"{" ASSET ",\"buffers\":[{\"byteLength\":1,\"uri\":\"file:///etc/passwd\"}]}",
-     "t.gltf:/buffers/0/uri: the buffer \"file:///etc/passwd\" is outside the model's folder", FFD_E_IO},
+     "t.gltf:1: /buffers/0/uri: the buffer \"file:///etc/passwd\" is outside the model's folder", FFD_E_IO},
     {"{" ASSET ",\"buffers\":[{\"byteLength\":1,\"uri\":\"/etc/passwd\"}]}",
-     "t.gltf:/buffers/0/uri: the buffer \"/etc/passwd\" is outside the model's folder", FFD_E_IO},
+     "t.gltf:1: /buffers/0/uri: the buffer \"/etc/passwd\" is outside the model's folder", FFD_E_IO},
     {"{" ASSET ",\"buffers\":[{\"byteLength\":1,\"uri\":\"a%00b\"}]}",
-     "t.gltf:/buffers/0/uri: the buffer's name holds a NUL character", FFD_E_INVALID},
+     "t.gltf:1: /buffers/0/uri: the buffer's name holds a NUL character", FFD_E_INVALID},
     {"{" ASSET "," BUFFERS ",\"bufferViews\":[{\"buffer\":1,\"byteLength\":1}]}",
-     "t.gltf:/bufferViews/0/buffer: there is no buffer 1, only 1", FFD_E_INVALID},
+     "t.gltf:1: /bufferViews/0/buffer: there is no buffer 1, only 1", FFD_E_INVALID},
     {"{" ASSET "," BUFFERS
      ",\"bufferViews\":[{\"buffer\":0,\"byteOffset\":9007199254740992,\"byteLength\":1}]}",
-     OF_2_53("t.gltf:/bufferViews/0/byteLength: bytes 9007199254740992 to 9007199254740993 are outside "
+     OF_2_53("t.gltf:1: /bufferViews/0/byteLength: bytes 9007199254740992 to 9007199254740993 are outside "
              "buffer 0 of 36 bytes",
-             FFD_E_INVALID, "t.gltf:/bufferViews/0/byteOffset: ")},
+             FFD_E_INVALID, "t.gltf:1: /bufferViews/0/byteOffset: ")},
     {"{" ASSET "," BUFFERS ",\"bufferViews\":[{\"buffer\":0,\"byteLength\":36,\"byteStride\":8}]," ACCESSORS
      "}",
-     "t.gltf:/accessors/0/bufferView: its elements have 12 bytes, more than the byteStride 8", FFD_E_INVALID},
+     "t.gltf:1: /accessors/0/bufferView: its elements have 12 bytes, more than the byteStride 8",
+     FFD_E_INVALID},
     {"{" DATA ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\"}]}",
-     "t.gltf:/accessors/0/count: 4 elements need 48 bytes of bufferView 0, which has 36", FFD_E_INVALID},
+     "t.gltf:1: /accessors/0/count: 4 elements need 48 bytes of bufferView 0, which has 36", FFD_E_INVALID},
     {"{" DATA ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":9007199254740992,\"type\":"
      "\"VEC3\"}]}",
-     OF_2_53("t.gltf:/accessors/0/count: 9007199254740992 elements need 108086391056891904 bytes of "
+     OF_2_53("t.gltf:1: /accessors/0/count: 9007199254740992 elements need 108086391056891904 bytes of "
              "bufferView 0, which has 36",
-             FFD_E_INVALID, "t.gltf:/accessors/0/count: ")},
+             FFD_E_INVALID, "t.gltf:1: /accessors/0/count: ")},
     {"{" DATA ",\"accessors\":[{\"bufferView\":3,\"componentType\":5126,\"count\":1,\"type\":\"VEC3\"}]}",
-     "t.gltf:/accessors/0/bufferView: there is no bufferView 3, only 1", FFD_E_INVALID},
+     "t.gltf:1: /accessors/0/bufferView: there is no bufferView 3, only 1", FFD_E_INVALID},
     {"{" DATA ",\"accessors\":[{\"bufferView\":0,\"componentType\":5130,\"count\":1,\"type\":\"VEC3\"}]}",
-     "t.gltf:/accessors/0/componentType: a component type (5120 to 5123, 5125, 5126) is expected, not "
+     "t.gltf:1: /accessors/0/componentType: a component type (5120 to 5123, 5125, 5126) is expected, not "
      "5130",
      FFD_E_INVALID},
     {"{" DATA ",\"extensionsUsed\":[\"KHR_a\",\"KHR_accessor_float64\"],\"accessors\":[{\"bufferView\":0,"
      "\"componentType\":5130,\"count\":1,\"type\":\"VEC3\"}]}",
-     "t.gltf:/accessors/0/componentType: component type 5130, double precision, of KHR_accessor_float64 "
+     "t.gltf:1: /accessors/0/componentType: component type 5130, double precision, of KHR_accessor_float64 "
      "is "
      "not supported",
      FFD_E_UNSUPPORTED},
     {"{" DATA ",\"accessors\":[{\"bufferView\":0,\"componentType\":5124,\"count\":1,\"type\":\"VEC3\"}]}",
-     "t.gltf:/accessors/0/componentType: a component type (5120 to 5123, 5125, 5126) is expected, not "
+     "t.gltf:1: /accessors/0/componentType: a component type (5120 to 5123, 5125, 5126) is expected, not "
      "5124",
      FFD_E_INVALID},
     {"{" DATA ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":1,\"type\":\"VEC5\"}]}",
-     "t.gltf:/accessors/0/type: \"SCALAR\", \"VEC2\" to \"VEC4\" or \"MAT2\" to \"MAT4\" is expected, "
+     "t.gltf:1: /accessors/0/type: \"SCALAR\", \"VEC2\" to \"VEC4\" or \"MAT2\" to \"MAT4\" is expected, "
      "not \"VEC5\"",
      FFD_E_INVALID},
     {"{" DATA "," ACCESSORS ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":1}}]}]}",
-     "t.gltf:/meshes/0/primitives/0/attributes/POSITION: there is no accessor 1, only 1", FFD_E_INVALID},
+     "t.gltf:1: /meshes/0/primitives/0/attributes/POSITION: there is no accessor 1, only 1", FFD_E_INVALID},
     {"{" DATA "," ACCESSORS ",\"meshes\":[{\"primitives\":[{}]}]}",
-     "t.gltf:/meshes/0/primitives/0: \"attributes\" is missing", FFD_E_INVALID},
+     "t.gltf:1: /meshes/0/primitives/0: \"attributes\" is missing", FFD_E_INVALID},
     {"{" DATA "," ACCESSORS ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"TANGENT\":0}}]}]}",
-     "t.gltf:/meshes/0/primitives/0/attributes/TANGENT: its accessor is not a VEC4", FFD_E_INVALID},
+     "t.gltf:1: /meshes/0/primitives/0/attributes/TANGENT: its accessor is not a VEC4", FFD_E_INVALID},
     {"{" DATA ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
      "{\"bufferView\":0,\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"}],"
      "\"meshes\":[{\"primitives\":[{\"attributes\":{\"NORMAL\":0,\"POSITION\":1}}]}]}",
-     "t.gltf:/meshes/0/primitives/0/attributes/POSITION: accessor 1 has 2 elements, another attribute "
+     "t.gltf:1: /meshes/0/primitives/0/attributes/POSITION: accessor 1 has 2 elements, another attribute "
      "has 3",
      FFD_E_INVALID},
     {"{" DATA
      ",\"accessors\":[{\"componentType\":5126,\"count\":9007199254740992,\"type\":\"VEC3\",\"sparse\":{"
      "\"count\":1,\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{\"bufferView\":0}}}]"
      "}",
-     OF_2_53("t.gltf:/accessors/0: needs more than the 100 MB of memory allowed (input.memory raises this)",
-             FFD_E_LIMIT, "t.gltf:/accessors/0/count: ")},
+     OF_2_53(
+         "t.gltf:1: /accessors/0: needs more than the 100 MB of memory allowed (input.memory raises this)",
+         FFD_E_LIMIT, "t.gltf:1: /accessors/0/count: ")},
     {"{" DATA ",\"accessors\":[{\"componentType\":5126,\"count\":1,\"type\":\"VEC3\",\"sparse\":{\"count\":1,"
      "\"indices\":{\"bufferView\":0,\"byteOffset\":14,\"componentType\":5121},\"values\":{\"bufferView\":"
      "0}}}]}",
-     "t.gltf:/accessors/0/sparse/indices: sparse index 128 is not below the count 1", FFD_E_INVALID},
+     "t.gltf:1: /accessors/0/sparse/indices: sparse index 128 is not below the count 1", FFD_E_INVALID},
 };
 
 static void broken_values_are_refused(void **state)
@@ -263,10 +267,10 @@ static void unsupported_things_are_named(void **state)
         {"{" ASSET
          ",\"buffers\":[{\"byteLength\":36}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}]," ACCESSORS
          "," MESHES "," SCENE "}",
-         "t.gltf:/accessors/0: an accessor without bytes is not supported", FFD_E_UNSUPPORTED},
+         "t.gltf:1: /accessors/0: an accessor without bytes is not supported", FFD_E_UNSUPPORTED},
         {"{" DATA "," ACCESSORS "," MESHES "," SCENE
          ",\"extensionsRequired\":[\"KHR_materials_x\",\"EXT_geometry\"]}",
-         "t.gltf:/extensionsRequired/1: the required extension \"EXT_geometry\" is not known "
+         "t.gltf:1: /extensionsRequired/1: the required extension \"EXT_geometry\" is not known "
          "(input.allow_extensions = EXT_geometry deforms the file all the same)",
          FFD_E_UNSUPPORTED},
     };

@@ -203,11 +203,12 @@ static void broken_samplers_are_refused_when_they_are_wanted(void **state)
 {
     (void)state;
     check_refused(ANIMATION(SAMPLER(0, 1, "LINEAR"), CHANNEL(1, 1, "scale")),
-                  "t.gltf:/animations/0/channels/0/sampler: the channel's sampler is none of the 1");
+                  "t.gltf:1: /animations/0/channels/0/sampler: the channel's sampler is none of the 1");
     check_refused(ANIMATION("{\"output\":1}", CHANNEL(0, 1, "scale")),
-                  "t.gltf:/animations/0/samplers/0: the sampler's input is none of the 14 accessors");
-    check_refused(ANIMATION("{\"input\":0,\"output\":1.5}", CHANNEL(0, 1, "scale")),
-                  "t.gltf:/animations/0/samplers/0/output: the sampler's output is none of the 14 accessors");
+                  "t.gltf:1: /animations/0/samplers/0: the sampler's input is none of the 14 accessors");
+    check_refused(
+        ANIMATION("{\"input\":0,\"output\":1.5}", CHANNEL(0, 1, "scale")),
+        "t.gltf:1: /animations/0/samplers/0/output: the sampler's output is none of the 14 accessors");
 }
 
 static void broken_keys_are_refused_when_they_are_wanted(void **state)
@@ -244,7 +245,7 @@ static void broken_keys_are_refused_when_they_are_wanted(void **state)
                  "{\"samplers\":[{\"input\":%d,\"output\":%d,\"interpolation\":\"%s\"}],\"channels\":"
                  "[{\"sampler\":0,\"target\":{\"node\":%d,\"path\":\"%s\"}}]}",
                  cases[i].input, cases[i].output, cases[i].interpolation, cases[i].node, cases[i].path);
-        snprintf(message, sizeof message, "t.gltf:/animations/0/samplers/0/%s", cases[i].message);
+        snprintf(message, sizeof message, "t.gltf:1: /animations/0/samplers/0/%s", cases[i].message);
         check_refused(animation, message);
     }
 }

@@ -1109,7 +1109,7 @@ static void choices_that_are_none_are_refused(void **state)
     view.output = "head.png";
     view.sink = take;
     view.sink_user = &b.sink;
-    view.color = (ffd_view_color)4;
+    view.color = (ffd_view_color)(FFD_VIEW_AUTO + 1);
     assert_int_equal(ffd_view_run(&view, &result, &error), FFD_E_ARGUMENT);
     assert_int_equal(b.sink.files.count, 0);
     end(&b);

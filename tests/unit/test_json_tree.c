@@ -163,7 +163,7 @@ static void broken_text_is_refused_with_its_line(void **state)
         {"1 2", "1: not valid JSON: nothing may follow the value, found '2' (column 3)"},
         {"\xef\xbb\xbf[\"\xc3\xa4\" 2", "1: not valid JSON: ',' or ']' is expected, found '2' (column 6)"},
         {"{\"a\":1,\"b\":{\"x\":1,\n\"\\u0078\":2}}",
-         "2: not valid JSON: duplicate key \"\\u0078\" in an object (column 1)"},
+         "2: /b/x: not valid JSON: duplicate key \"\\u0078\" in an object (column 1)"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         json_tree tree;

@@ -1,5 +1,5 @@
-/* test_materials.c - materials of glTF files and of OBJ libraries: base colours, visibility, and which images
-   are loaded. */
+/* test_materials.c - materials of glTF files and of OBJ libraries: base colours, opacity, emission, and which
+   images are loaded. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -87,23 +87,32 @@ static void check_colour(size_t i, double red, double green, double blue, double
             fail_msg("material %zu has %g at %zu, not %g", i, found.list[i].color[c], c, expected[c]);
 }
 
-static void check_cutoff(size_t i, double cutoff)
+static void check_alpha(size_t i, material_alpha alpha, double cutoff)
 {
+    assert_int_equal(found.list[i].alpha, alpha);
     assert_true(found.list[i].alpha_cutoff <= cutoff && found.list[i].alpha_cutoff >= cutoff);
+}
+
+static void check_emission(size_t i, double red, double green, double blue)
+{
+    const double expected[3] = {red, green, blue};
+    for (size_t c = 0; c < 3; c++)
+        if (!(fabs(found.list[i].emission[c] - expected[c]) <= 1e-7))
+            fail_msg("material %zu emits %g at %zu, not %g", i, found.list[i].emission[c], c, expected[c]);
 }
 
 static void check_wrap(size_t i, texture_wrap u, texture_wrap v)
 {
-    assert_int_equal(found.list[i].wrap[0], u);
-    assert_int_equal(found.list[i].wrap[1], v);
+    assert_int_equal(found.list[i].base.wrap[0], u);
+    assert_int_equal(found.list[i].base.wrap[1], v);
 }
 
 /* Checks that a material's image is this text, after the signature of PNG. */
 static void check_image(size_t i, const char *name, const char *text)
 {
     assert_true(i < found.count);
-    assert_true(found.list[i].image < found.image_count);
-    const mesh_image *const image = &found.images[found.list[i].image];
+    assert_true(found.list[i].base.image < found.image_count);
+    const mesh_image *const image = &found.images[found.list[i].base.image];
     assert_string_equal(image->name, name);
     assert_int_equal(image->size, PNG_SIZE + strlen(text));
     assert_memory_equal(image->bytes, PNG, PNG_SIZE);
@@ -113,13 +122,13 @@ static void check_image(size_t i, const char *name, const char *text)
 static void check_no_image(size_t i)
 {
     assert_true(i < found.count);
-    assert_int_equal(found.list[i].image, MATERIAL_NONE);
+    assert_int_equal(found.list[i].base.image, MATERIAL_NONE);
 }
 
 static void check_lost_image(size_t i)
 {
     assert_true(i < found.count);
-    assert_int_equal(found.list[i].image, MATERIAL_LOST);
+    assert_int_equal(found.list[i].base.image, MATERIAL_LOST);
 }
 
 static void put_png(const char *name, const char *text)
@@ -152,7 +161,7 @@ static void colours_of_gltf(void **state)
     assert_true(found.list[1].is_double_sided);
     for (size_t i = 0; i < 4; i++) {
         check_no_image(i);
-        check_cutoff(i, 0);
+        check_alpha(i, MATERIAL_OPAQUE, 0);
         check_wrap(i, TEXTURE_REPEAT, TEXTURE_REPEAT);
     }
 }
@@ -164,9 +173,39 @@ static void alpha_of_gltf(void **state)
               "{\"alphaMode\":\"MASK\",\"alphaCutoff\":0.25},{\"alphaMode\":\"BLEND\",\"alphaCutoff\":0.3},"
               "{\"alphaMode\":\"mask\"},{\"alphaMode\":\"MASK\",\"alphaCutoff\":-1},{\"alphaMode\":7},"
               "{\"alphaMode\":\"MASK\",\"alphaCutoff\":1e999},{\"alphaCutoff\":0.3}]");
-    static const double cutoffs[] = {0, 0.5, 0.25, 0.5, 0, 0.5, 0, 0.5, 0};
+    static const double cutoffs[] = {0, 0.5, 0.25, 0, 0, 0.5, 0, 0.5, 0};
     for (size_t i = 0; i < sizeof cutoffs / sizeof *cutoffs; i++)
-        check_cutoff(i, cutoffs[i]);
+        check_alpha(i,
+                    cutoffs[i] > 0 ? MATERIAL_MASK
+                    : i == 3       ? MATERIAL_BLEND
+                                   : MATERIAL_OPAQUE,
+                    cutoffs[i]);
+}
+
+static void light_of_gltf(void **state)
+{
+    (void)state;
+    put_png("a.png", "base");
+    put_png("b.png", "glow");
+    list_gltf(
+        "\"materials\":[{\"emissiveFactor\":[1,0.5,0.25]},{\"emissiveFactor\":[1,0.5,0.25],\"extensions\":{"
+        "\"KHR_materials_emissive_strength\":{\"emissiveStrength\":4},\"KHR_materials_unlit\":{}}},"
+        "{\"emissiveFactor\":[1,1],\"extensions\":{\"KHR_materials_emissive_strength\":{"
+        "\"emissiveStrength\":-4}}},{\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":1},"
+        "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}},{\"emissiveTexture\":{\"index\":9}}],"
+        "\"textures\":[{\"source\":0},{\"source\":1,\"sampler\":0}],\"samplers\":[{\"wrapS\":33071}],"
+        "\"images\":[{\"uri\":\"a.png\"},{\"uri\":\"b.png\"}]");
+    check_emission(0, 1, 0.5, 0.25);
+    check_emission(1, 4, 2, 1);
+    check_emission(2, 1, 1, 0);
+    assert_false(found.list[0].is_unlit || found.list[3].is_unlit);
+    assert_true(found.list[1].is_unlit);
+    check_image(3, "a.png", "base");
+    assert_string_equal(found.images[found.list[3].glow.image].name, "b.png");
+    assert_int_equal(found.list[3].glow.wrap[0], TEXTURE_CLAMP);
+    check_wrap(3, TEXTURE_REPEAT, TEXTURE_REPEAT);
+    assert_int_equal(found.list[4].glow.image, MATERIAL_LOST);
+    check_no_image(4);
 }
 
 /* A material with texture n. */
@@ -189,10 +228,10 @@ static void images_of_gltf_once_each(void **state)
     assert_int_equal(found.image_count, 3);
     check_image(0, "a.png", "file");
     check_image(1, "inner", "data");
-    assert_int_equal(found.list[2].image, 2);
+    assert_int_equal(found.list[2].base.image, 2);
     assert_string_equal(found.images[2].name, "b 1.jpg");
-    assert_int_equal(found.list[3].image, found.list[0].image);
-    assert_int_equal(found.list[4].image, found.list[0].image);
+    assert_int_equal(found.list[3].base.image, found.list[0].base.image);
+    assert_int_equal(found.list[4].base.image, found.list[0].base.image);
     check_wrap(0, TEXTURE_REPEAT, TEXTURE_REPEAT);
     check_wrap(1, TEXTURE_CLAMP, TEXTURE_MIRROR);
     check_wrap(2, TEXTURE_REPEAT, TEXTURE_REPEAT);
@@ -272,7 +311,7 @@ static void images_in_buffers(void **state)
     assert_int_equal(found.image_count, 2);
     check_image(0, "image 0", "view");
     check_image(1, "image 1", "compress");
-    assert_int_equal(found.list[2].image, found.list[0].image);
+    assert_int_equal(found.list[2].base.image, found.list[0].base.image);
     assert_int_equal(line_count, 0);
 }
 
@@ -280,17 +319,20 @@ static void only_extensions_have_the_image(void **state)
 {
     (void)state;
     put_png("a.png", "");
+    put("w.webp", "RIFF\4\0\0\0WEBP", 12);
     list_gltf("\"materials\":[" TEXTURED(0) "," TEXTURED(1) "," TEXTURED(1) "," TEXTURED(
         2) "],"
            "\"textures\":[{\"source\":0,\"extensions\":{\"EXT_texture_webp\":{\"source\":0}}},"
            "{\"extensions\":{\"KHR_texture_basisu\":{\"source\":0}}},"
-           "{\"extensions\":{\"EXT_texture_webp\":{\"source\":0}}}],\"images\":[{\"uri\":\"a.png\"}]");
+           "{\"source\":7,\"extensions\":{\"EXT_texture_webp\":{\"source\":1}}}],\"images\":[{\"uri\":\"a."
+           "png\"},"
+           "{\"uri\":\"w.webp\"}]");
     check_image(0, "a.png", "");
-    for (size_t i = 1; i < 4; i++)
+    for (size_t i = 1; i < 3; i++)
         check_lost_image(i);
-    assert_string_equal(logged,
-                        "2 images of materials cannot be shown: \"texture 1\" has an image of "
-                        "KHR_texture_basisu only, \"texture 2\" has an image of EXT_texture_webp only\n");
+    assert_string_equal(found.images[found.list[3].base.image].name, "w.webp");
+    assert_string_equal(logged, "1 image of a material cannot be shown: \"texture 1\" has an image of "
+                                "KHR_texture_basisu only\n");
 }
 
 /* Makes files that must not be read: a hidden file, a link, a FIFO, and files that are not images. */
@@ -303,7 +345,7 @@ static void put_traps(void)
     assert_int_equal(symlink("real.png", in_folder("link.png")), 0);
     assert_int_equal(mkfifo(in_folder("pipe.png"), 0600), 0);
     put_text("text.png", "no image");
-    put("w.webp", "RIFF\0\0\0\0WEBPVP8 ", 16);
+    put("t.tga", "\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\30\0\1\2\3", 21);
     put_png("secret", "");
 }
 
@@ -312,7 +354,7 @@ static const char *const traps[][2] = {{"none.png", "is missing"},
                                        {"link.png", "is reached through a link"},
                                        {"pipe.png", "cannot be read"},
                                        {"text.png", "does not have the content of an image"},
-                                       {"w.webp", "is neither PNG nor JPEG"},
+                                       {"t.tga", "is neither PNG, JPEG nor WebP"},
                                        {"secret", "does not have the ending of an image"},
                                        {"../real.png", "is outside the model's folder"}};
 #define TRAPS (sizeof traps / sizeof *traps)
@@ -399,7 +441,8 @@ static void hostile_json(void **state)
         list_gltf(text);
         assert_int_equal(found.count, 1);
         check_colour(0, 1, 1, 1, 1);
-        check_cutoff(0, 0);
+        check_alpha(0, MATERIAL_OPAQUE, 0);
+        check_emission(0, 0, 0, 0);
         assert_false(found.list[0].is_double_sided);
         assert_int_equal(line_count, 0);
     }
@@ -463,7 +506,7 @@ static void colours_of_libraries(void **state)
         assert_string_equal(found.list[i].name, names[i]);
         assert_true(found.list[i].is_double_sided);
         (i == 8 ? check_lost_image : check_no_image)(i);
-        check_cutoff(i, (i >= 2 && i <= 4) || i == 10 ? 0.5 : 0);
+        check_alpha(i, (i >= 2 && i <= 4) || i == 10 ? MATERIAL_BLEND : MATERIAL_OPAQUE, 0);
     }
     check_colour(0, half, 0, 1, 1);
     check_colour(1, 1, 1, 1, 1);
@@ -475,6 +518,74 @@ static void colours_of_libraries(void **state)
     check_colour(7, 0, 0, 0, 1);
     check_colour(8, 1, 1, 1, 1);
     check_colour(9, 1, 1, 1, 1);
+}
+
+/* Checks the opacity of the only material of a library, and whether it is opaque. */
+static void check_opacity(const char *statements, double opacity, material_alpha alpha)
+{
+    char text[300];
+    snprintf(text, sizeof text, "newmtl a\n%s\n", statements);
+    list_library(text);
+    if (!(fabs(found.list[0].color[3] - opacity) <= 1e-12) || found.list[0].alpha != alpha)
+        fail_msg("%s: %g and %d", statements, found.list[0].color[3], (int)found.list[0].alpha);
+}
+
+static void clearness_that_means_opaque(void **state)
+{
+    (void)state;
+    static const char line[] = "\"Tr 1\" of 1 material is taken for opaque: no material has another Tr\n";
+    check_opacity("Tr 1.000000", 1, MATERIAL_OPAQUE);
+    assert_string_equal(logged, line);
+    check_opacity("Tr 1.0\nTr 1", 1, MATERIAL_OPAQUE);
+    check_opacity("Tr 1\nmap_d none.png", 1, MATERIAL_BLEND);
+    check_opacity("Tr 0.999", 0.001, MATERIAL_BLEND);
+    check_opacity("Tr 0", 1, MATERIAL_OPAQUE);
+    check_opacity("d 1\nTr 1", 1, MATERIAL_OPAQUE);
+    assert_string_equal(logged, "");
+    check_opacity("d 0\nTr 0", 1, MATERIAL_OPAQUE);
+    check_opacity("d 0\nTr 1", 0, MATERIAL_BLEND);
+    check_opacity("d 0", 0, MATERIAL_BLEND);
+    check_opacity("d 0\nmap_Kd none.png", 0, MATERIAL_BLEND);
+    check_opacity("d 0\nmap_d none.png", 1, MATERIAL_BLEND);
+    list_library("newmtl a\nTr 1\nnewmtl b\nnewmtl c\nd 0.5\nTr 0.5\nnewmtl d\nTr 1\n");
+    assert_string_equal(logged, "\"Tr 1\" of 2 materials is taken for opaque: no material has another Tr\n");
+    static const double all_say_one[] = {1, 1, 0.5, 1}, one_differs[] = {0, 1, 1};
+    for (size_t i = 0; i < 4; i++)
+        check_colour(i, 1, 1, 1, all_say_one[i]);
+    /* of all libraries together */
+    put_text("n.mtl", "newmtl b\nnewmtl c\nTr 0\n");
+    put_text("m.mtl", "newmtl a\nTr 1\n");
+    list_obj("mtllib m.mtl n.mtl\nv 0 0 0\n");
+    assert_string_equal(logged, "");
+    for (size_t i = 0; i < 3; i++)
+        check_colour(i, 1, 1, 1, one_differs[i]);
+}
+
+static void light_of_libraries(void **state)
+{
+    (void)state;
+    put_png("a.png", "one");
+    put_png("b.png", "two");
+    list_library(
+        "newmtl a\nKe 0.5 0 1\nmap_Kd a.png\nmap_Ke -s 2 3 -o 0.5 -clamp on b.png\nnewmtl b\nKe 0 0 0\n"
+        "map_Ke b.png\nnewmtl c\nKe 0 0 0\nnewmtl d\nmap_Kd a.png\nmap_d ./a.png\nnewmtl e\n"
+        "map_Kd a.png\nmap_D b.png\n");
+    check_emission(0, 0.21404114048223255, 0, 1);
+    check_emission(1, 1, 1, 1);
+    check_emission(2, 0, 0, 0);
+    const mesh_texture *const glow = &found.list[0].glow;
+    assert_string_equal(found.images[glow->image].name, "b.png");
+    assert_int_equal(glow->wrap[0], TEXTURE_CLAMP);
+    assert_true(glow->scale[0] + glow->scale[1] / 10 == 2.3 && glow->offset[0] == 0.5 &&
+                glow->offset[1] == 0);
+    assert_true(found.list[0].base.scale[0] == 1 && found.list[0].base.offset[0] == 0);
+    assert_int_equal(found.list[2].glow.image, MATERIAL_NONE);
+    /* An image that is its own map of opacity counts once. */
+    assert_int_equal(found.list[3].alpha, MATERIAL_BLEND);
+    assert_int_equal(found.list[3].opacity.image, MATERIAL_NONE);
+    assert_int_equal(found.list[4].alpha, MATERIAL_BLEND);
+    assert_string_equal(found.images[found.list[4].opacity.image].name, "b.png");
+    assert_string_equal(logged, "");
 }
 
 static void maps_of_libraries(void **state)
@@ -583,6 +694,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(colours_of_gltf),
         cmocka_unit_test(alpha_of_gltf),
+        cmocka_unit_test(light_of_gltf),
         cmocka_unit_test(images_of_gltf_once_each),
         cmocka_unit_test(an_older_texture_stands_in),
         cmocka_unit_test(an_image_in_a_glb),
@@ -594,6 +706,8 @@ int main(void)
         cmocka_unit_test(hostile_json),
         cmocka_unit_test(long_names),
         cmocka_unit_test(colours_of_libraries),
+        cmocka_unit_test(clearness_that_means_opaque),
+        cmocka_unit_test(light_of_libraries),
         cmocka_unit_test(maps_of_libraries),
         cmocka_unit_test(libraries_that_cannot_be_read),
         cmocka_unit_test(images_count_in_the_budget),

@@ -334,9 +334,9 @@ static void moves_that_select_nothing_or_overflow_fail(void **state)
         const char *more, *words;
     } failures[] = {
         {"\"moves\":[{\"by\":[1,0,0]},{\"within\":{\"min\":[9,9,9],\"max\":[10,10,10]},\"by\":[1,0,0]}]",
-         "t.json:/moves/1: selects no control point: none is within these bounds at rest"},
+         "t.json:1: /moves/1: selects no control point: none is within these bounds at rest"},
         {"\"moves\":[{\"by\":[1e308,0,0]},{\"at\":[1,0,0],\"scale\":{\"factor\":10,\"about\":[0,0,0]}}]",
-         "t.json:/moves/1: moves control point 1,0,0 to a position that is not finite"},
+         "t.json:1: /moves/1: moves control point 1,0,0 to a position that is not finite"},
     };
     for (size_t i = 0; i < COUNT(failures); i++) {
         char text[1024];

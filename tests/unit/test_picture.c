@@ -26,43 +26,65 @@ static bool near(double a, double b)
     return fabs(a - b) < 1e-12;
 }
 
+static const double upwards[3][3] = {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}; /* by ffd_up */
+
+static void check_axes(const camera *c, ffd_up up)
+{
+    double cross[3];
+    vec_cross(c->right, c->up, cross);
+    for (int a = 0; a < 3; a++)
+        assert_true(near(cross[a], c->back[a]));
+    assert_true(near(vec_dot(c->right, c->right), 1) && near(vec_dot(c->up, c->up), 1));
+    /* The horizon is horizontal, and nothing is upside down. */
+    assert_true(near(vec_dot(c->right, upwards[up]), 0) && vec_dot(c->up, upwards[up]) > -1e-12);
+}
+
 static void cameras_have_axes_of_a_right_hand(void **state)
 {
-    static const char *const texts[] = {
-        "front", "back", "left", "right", "top", "iso", "1,2,3", "-1e300,0,1e-300", "0,-1,0", "0,5e-324,0"};
+    static const double directions[][3] = {{1, 2, 3}, {-1e300, 0, 1e-300}, {0, -1, 0}, {0, 5e-324, 0},
+                                           {0, 0, 1}, {0, 0, -3},          {1, 0, 0}};
     (void)state;
-    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
-        camera c;
-        double cross[3];
-        assert_true(ffd_camera_parse(texts[i], &c));
-        vec_cross(c.right, c.up, cross);
-        for (int a = 0; a < 3; a++)
-            assert_true(near(cross[a], c.back[a]));
-        assert_true(near(vec_dot(c.right, c.right), 1) && near(vec_dot(c.up, c.up), 1));
-        /* The horizon is horizontal. */
-        assert_true(near(c.right[1], 0));
+    for (int up = 0; up < 3; up++) {
+        const camera iso = ffd_camera_iso((ffd_up)up);
+        check_axes(&iso, (ffd_up)up);
+        assert_true(vec_dot(iso.back, upwards[up]) > 0.3);
+        for (size_t i = 0; i < sizeof directions / sizeof *directions; i++) {
+            camera c;
+            assert_true(ffd_camera_from(directions[i], (ffd_up)up, &c));
+            check_axes(&c, (ffd_up)up);
+            assert_true(vec_dot(c.back, directions[i]) > 0);
+        }
     }
 }
 
+/* Named sides follow what is upwards; numbers are in the axes of the scene. */
 static void cameras_look_from_where_they_say(void **state)
 {
     static const struct {
         const char *name;
-        double from[3];
-    } views[] = {{"front", {0, 0, 1}}, {"back", {0, 0, -1}}, {"left", {-1, 0, 0}},   {"right", {1, 0, 0}},
-                 {"top", {0, 1, 0}},   {"0,0,7", {0, 0, 1}}, {"3,0,4", {.6, 0, .8}}, {"0,-2,0", {0, -1, 0}}};
-    static const char *const refused[] = {"",        "bottom", "1,2",   "1,2,3,4", "0,0,0", "nan,1,1",
-                                          "inf,0,0", "1,,2",   "1,2,x", "1, 2,3 ", "Front", "1,2,3,"};
+        double from[3][3]; /* by ffd_up */
+    } views[] = {
+        {"front", {{0, 0, 1}, {0, -1, 0}, {0, 0, 1}}}, {"back", {{0, 0, -1}, {0, 1, 0}, {0, 0, -1}}},
+        {"left", {{-1, 0, 0}, {-1, 0, 0}, {0, 1, 0}}}, {"right", {{1, 0, 0}, {1, 0, 0}, {0, -1, 0}}},
+        {"top", {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}},    {"bottom", {{0, -1, 0}, {0, 0, -1}, {-1, 0, 0}}}};
+    static const double numbers[3] = {3, 0, 4};
+    static const double refused[][3] = {{0, 0, 0}, {NAN, 1, 1}, {HUGE_VAL, 0, 0}};
+    double direction[3];
     camera c;
     (void)state;
-    for (size_t i = 0; i < sizeof views / sizeof *views; i++) {
-        assert_true(ffd_camera_parse(views[i].name, &c));
-        for (int a = 0; a < 3; a++)
-            assert_true(near(c.back[a], views[i].from[a]));
+    for (int up = 0; up < 3; up++) {
+        for (size_t i = 0; i < sizeof views / sizeof *views; i++) {
+            assert_true(ffd_camera_side(views[i].name, (ffd_up)up, direction));
+            assert_true(ffd_camera_from(direction, (ffd_up)up, &c));
+            for (int a = 0; a < 3; a++)
+                assert_true(near(c.back[a], views[i].from[up][a]));
+        }
+        assert_true(ffd_camera_from(numbers, (ffd_up)up, &c));
+        assert_true(near(c.back[0], 0.6) && near(c.back[2], 0.8));
+        for (size_t i = 0; i < sizeof refused / sizeof *refused; i++)
+            assert_false(ffd_camera_from(refused[i], (ffd_up)up, &c));
     }
-    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++)
-        if (ffd_camera_parse(refused[i], &c))
-            fail_msg("'%s' is a camera", refused[i]);
+    assert_false(ffd_camera_side("Front", FFD_UP_Y, direction) || ffd_camera_side("", FFD_UP_Y, direction));
 }
 
 static void a_camera_is_fitted_to_what_it_sees(void **state)
@@ -70,7 +92,7 @@ static void a_camera_is_fitted_to_what_it_sees(void **state)
     shape ball = shape_ball(40, 20, 3, 0.3);
     camera c;
     (void)state;
-    assert_true(ffd_camera_parse("2,1,3", &c));
+    assert_true(ffd_camera_from((double[]){2, 1, 3}, FFD_UP_Y, &c));
     for (int wide = 0; wide < 2; wide++) {
         ffd_bounds seen = ffd_bounds_empty(), found = ffd_bounds_empty();
         const double width = wide ? 300 : 100, height = 200;
@@ -96,9 +118,8 @@ static void nothing_and_one_point_have_a_projection_too(void **state)
                      huge = {.min = {-1e308, -1e308, -1e308}, .max = {1e308, 1e308, 1e308}},
                      point = {.min = {5, 5, 5}, .max = {5, 5, 5}};
     const ffd_bounds *const all[] = {&none, &huge, &point};
-    camera c;
+    const camera c = shape_camera("front");
     (void)state;
-    assert_true(ffd_camera_parse("front", &c));
     for (int i = 0; i < 3; i++) {
         const projection to = ffd_camera_fit(&c, all[i], 50, 60, 100, 100);
         double at[3];
@@ -291,7 +312,7 @@ static void what_hides_a_line_lets_a_little_through(void **state)
             .points = ends, .point_count = 2, .segments = line, .segment_count = 1, .width = 3, .radius = -1};
         const picture_panel panel = {.meshes = &square, .mesh_count = 1, .cages = &cage, .cage_count = 1};
         picture p = {.width = 100, .height = 100, .panels = &panel, .panel_count = 1, .threads = 1};
-        assert_true(ffd_camera_parse("front", &p.camera));
+        p.camera = shape_camera("front");
         uint8_t *const pixels = draw_all(&p);
         reds[i] = red_at(&p, pixels, 50, 50);
         assert_true(red_at(&p, pixels, 50, 30) > 200);
@@ -366,8 +387,13 @@ static void make_scene(scene *s, int which)
         s->ball.mesh.colors = s->ball.colors;
     s->both[0] = which == 0 ? s->cube.mesh : s->ball.mesh;
     s->both[1] = s->cube.mesh;
-    s->panels[0] = (picture_panel){which == 2 ? "before" : NULL, &s->both[0], 1, &s->cage.cage, which == 2};
-    s->panels[1] = (picture_panel){"after", &s->both[1], 1, &s->cage.cage, 1};
+    s->panels[0] = (picture_panel){.caption = which == 2 ? "before" : NULL,
+                                   .meshes = &s->both[0],
+                                   .mesh_count = 1,
+                                   .cages = &s->cage.cage,
+                                   .cage_count = which == 2};
+    s->panels[1] = (picture_panel){
+        .caption = "after", .meshes = &s->both[1], .mesh_count = 1, .cages = &s->cage.cage, .cage_count = 1};
     s->scale = (picture_scale){which == 1 ? "moved" : NULL, (const uint8_t(*)[3])s->ramp, which == 3 ? 2 : 64,
                                which == 3 ? kinds : steps,  which == 3 ? 2 : 3,           which == 3};
     s->picture = (picture){.width = 160,
@@ -376,7 +402,7 @@ static void make_scene(scene *s, int which)
                            .panel_count = which == 2 ? 2 : 1,
                            .scale = which % 2 ? &s->scale : NULL,
                            .threads = 1};
-    assert_true(ffd_camera_parse(which == 3 ? "front" : "iso", &s->picture.camera));
+    s->picture.camera = shape_camera(which == 3 ? "front" : "iso");
 }
 
 static void free_scene(scene *s)
@@ -416,7 +442,7 @@ static void save(const picture *p, const char *path)
     uint8_t *const pixels = draw_all(p);
     FILE *const file = fopen(path, "wb");
     assert_non_null(file);
-    assert_int_equal(ffd_png_write(pixels, p->width, p->height, append, file, NULL), FFD_OK);
+    assert_int_equal(ffd_png_write(pixels, p->width, p->height, 3, append, file, NULL), FFD_OK);
     assert_int_equal(fclose(file), 0);
     ffd_free(pixels);
 }

@@ -1,6 +1,7 @@
-/* test_picture_image.c - PNG and JPEG: pixels of all variants; corrupt, truncated and too large files.
+/* test_picture_image.c - PNG, JPEG and WebP: pixels of all variants; corrupt, truncated and too large files.
 
-       test_picture_image CORPUS      the folder tests/fuzz/corpus (make_images.py) */
+       test_picture_image CORPUS webp|no-webp      the folder tests/fuzz/corpus (make_images.py); whether the
+   build has libwebp */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -22,6 +23,7 @@ typedef struct file {
 } file;
 
 static const char *corpus;
+static bool has_webp;
 
 static void load(file *f, const char *name)
 {
@@ -136,6 +138,61 @@ static void all_kinds_of_jpeg_show_their_pixels(void **state)
     }
 }
 
+/* Lossless images, and images with red across and green down up to the loss of the format. */
+static void all_kinds_of_webp_show_their_pixels(void **state)
+{
+    static const struct {
+        const char *name;
+        pixel_function pixel; /* NULL: lossy */
+        int width, height;
+        bool has_alpha;
+    } kinds[] = {{"webp/rgba-lossless.webp", color_alpha, 11, 9, true},
+                 {"webp/palette.webp", two_colors, 11, 9, true},
+                 {"webp/gray-lossless.webp", gray, 11, 9, false},
+                 {"webp/lossy.webp", NULL, 35, 21, false},
+                 {"webp/lossy-alpha.webp", NULL, 33, 17, true}};
+    (void)state;
+    if (!has_webp)
+        skip();
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        file f;
+        image found;
+        ffd_error error;
+        const int width = kinds[i].width, height = kinds[i].height;
+        load(&f, kinds[i].name);
+        if (ffd_image_decode(f.bytes, f.size, NULL, &found, &error))
+            fail_msg("%s: %s", kinds[i].name, error.message);
+        assert_true(found.width == (uint32_t)width && found.height == (uint32_t)height);
+        for (int p = 0; p < width * height; p++) {
+            const int x = p % width, y = p / width, tolerance = kinds[i].pixel ? 0 : 12;
+            uint8_t wanted[4] = {(uint8_t)(x * 255 / width), (uint8_t)(y * 255 / height), 128, 255};
+            if (kinds[i].has_alpha)
+                wanted[3] = (uint8_t)(255 - 7 * x);
+            if (kinds[i].pixel)
+                kinds[i].pixel(x, y, wanted);
+            for (int c = 0; c < 4; c++)
+                if (abs(found.pixels[4 * p + c] - wanted[c]) > (c == 3 ? 0 : tolerance))
+                    fail_msg("%s: %d at %d,%d, not %d", kinds[i].name, found.pixels[4 * p + c], x, y,
+                             wanted[c]);
+        }
+        ffd_free(found.pixels);
+    }
+}
+
+static void a_build_without_libwebp_says_so(void **state)
+{
+    file f;
+    image found;
+    ffd_error error;
+    (void)state;
+    if (has_webp)
+        skip();
+    load(&f, "webp/lossy.webp");
+    assert_int_equal(ffd_image_decode(f.bytes, f.size, NULL, &found, &error), FFD_E_UNSUPPORTED);
+    assert_string_equal(error.message, "this build has no libwebp, which reads WebP images");
+    assert_null(found.pixels);
+}
+
 static void expect(const file *f, size_t size, const memory_budget *budget, ffd_status wanted,
                    const char *what)
 {
@@ -155,13 +212,15 @@ static void expect(const file *f, size_t size, const memory_budget *budget, ffd_
 
 static void what_is_cut_off_is_told(void **state)
 {
-    static const char *const names[] = {"png/rgba8.png", "png/interlaced.png", "png/palette.png",
-                                        "jpeg/gray.jpg", "jpeg/rgb420.jpg",    "jpeg/progressive.jpg"};
+    static const char *const names[] = {
+        "png/rgba8.png",   "png/interlaced.png",    "png/palette.png",
+        "jpeg/gray.jpg",   "jpeg/rgb420.jpg",       "jpeg/progressive.jpg",
+        "webp/lossy.webp", "webp/lossy-alpha.webp", "webp/rgba-lossless.webp"};
     (void)state;
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    for (size_t i = 0; i < (has_webp ? sizeof names / sizeof *names : 6); i++) {
         file f;
         load(&f, names[i]);
-        for (size_t size = 8; size < f.size; size++)
+        for (size_t size = i < 6 ? 8 : 12; size < f.size; size++)
             expect(&f, size, NULL, FFD_E_INVALID, names[i]);
         for (size_t size = 0; size < 3; size++)
             expect(&f, size, NULL, FFD_E_UNSUPPORTED, names[i]);
@@ -185,6 +244,9 @@ static void what_is_damaged_is_told(void **state)
     }
     load(&f, "jpeg/cmyk.jpg");
     expect(&f, f.size, NULL, FFD_E_UNSUPPORTED, "CMYK");
+    load(&f, "webp/animation.webp");
+    expect(&f, f.size, NULL, FFD_E_UNSUPPORTED, "an animation");
+    load(&f, "jpeg/gray.jpg");
     memcpy(f.bytes, "GIF89a", 6);
     expect(&f, f.size, NULL, FFD_E_UNSUPPORTED, "GIF");
 }
@@ -212,13 +274,23 @@ static void sizes_are_checked_before_memory_is_taken(void **state)
     assert_int_equal(ffd_image_check(0, 5, 4, NULL, &error), FFD_E_INVALID);
     assert_int_equal(ffd_image_check(32767, 4096, 4, NULL, &error), FFD_OK);
     assert_int_equal(ffd_image_check(32767, 4097, 4, NULL, &error), FFD_E_LIMIT);
+    if (!has_webp)
+        return;
+    load(&f, "webp/lossy.webp");
+    budget.most = 35 * 21 * 8 - 1;
+    expect(&f, f.size, &budget, FFD_E_LIMIT, "WebP");
+    budget.most++;
+    expect(&f, f.size, &budget, FFD_OK, "WebP");
+    load(&f, "webp/large.webp");
+    expect(&f, f.size, NULL, FFD_E_LIMIT, "16383 x 16383");
 }
 
 static void memory_may_run_out_anywhere(void **state)
 {
-    static const char *const names[] = {"png/interlaced.png", "png/palette.png", "jpeg/progressive.jpg"};
+    static const char *const names[] = {"png/interlaced.png", "png/palette.png", "jpeg/progressive.jpg",
+                                        "webp/lossy.webp"};
     (void)state;
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    for (size_t i = 0; i < (has_webp ? 4 : 3); i++) {
         file f;
         ffd_status status;
         long successes = 0;
@@ -255,22 +327,22 @@ static void what_is_written_reads_back(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof pixels; i++)
         pixels[i] = (uint8_t)(i * i / 7);
-    assert_int_equal(ffd_png_write(pixels, 40, 30, keep, &f, &error), FFD_OK);
-    assert_int_equal(ffd_png_write(pixels, 40, 30, keep, &again, &error), FFD_OK);
+    assert_int_equal(ffd_png_write(pixels, 40, 30, 3, keep, &f, &error), FFD_OK);
+    assert_int_equal(ffd_png_write(pixels, 40, 30, 3, keep, &again, &error), FFD_OK);
     assert_true(f.size == again.size && memcmp(f.bytes, again.bytes, f.size) == 0);
     assert_int_equal(ffd_image_decode(f.bytes, f.size, NULL, &found, &error), FFD_OK);
     for (size_t i = 0; i < 40 * 30; i++)
         assert_memory_equal(found.pixels + 4 * i, pixels + 3 * i, 3);
     ffd_free(found.pixels);
     f.size = MOST_BYTES - 100;
-    assert_int_equal(ffd_png_write(pixels, 40, 30, keep, &f, &error), FFD_E_IO);
+    assert_int_equal(ffd_png_write(pixels, 40, 30, 3, keep, &f, &error), FFD_E_IO);
     assert_string_equal(error.message, "it is full");
     long successes = 0;
     ffd_status status;
     do {
         f.size = 0;
         ffd_alloc_fail_after(successes++);
-        status = ffd_png_write(pixels, 40, 30, keep, &f, &error);
+        status = ffd_png_write(pixels, 40, 30, 3, keep, &f, &error);
         ffd_alloc_fail_after(-1);
         assert_true(status == FFD_OK || status == FFD_E_MEMORY);
     } while (status);
@@ -281,14 +353,17 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(all_kinds_of_png_show_their_pixels),
         cmocka_unit_test(all_kinds_of_jpeg_show_their_pixels),
+        cmocka_unit_test(all_kinds_of_webp_show_their_pixels),
+        cmocka_unit_test(a_build_without_libwebp_says_so),
         cmocka_unit_test(what_is_cut_off_is_told),
         cmocka_unit_test(what_is_damaged_is_told),
         cmocka_unit_test(sizes_are_checked_before_memory_is_taken),
         cmocka_unit_test(memory_may_run_out_anywhere),
         cmocka_unit_test(what_is_written_reads_back),
     };
-    if (argc != 2)
+    if (argc != 3)
         return 2;
     corpus = argv[1];
+    has_webp = strcmp(argv[2], "webp") == 0;
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

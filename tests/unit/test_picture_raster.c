@@ -36,7 +36,7 @@ static void begin(size_t vertex_count, size_t triangle_count)
                           .triangle_count = triangle_count};
     drawn =
         (surface){.mesh = &mesh, .vertices = vertices, .vertex_count = vertex_count, .triangles = triangles};
-    into = (samples){0, 0, WIDTH, HEIGHT, depth, color, NULL};
+    into = (samples){0, 0, WIDTH, HEIGHT, depth, color, NULL, NULL};
     ffd_linear_fill(&tables);
     for (size_t i = 0; i < SAMPLES * PIXELS; i++) {
         depth[i] = SAMPLE_EMPTY;

@@ -381,11 +381,11 @@ static void too_few_points_round_a_cylinder_are_refused(void **state)
         "{\"cylinder\":{\"center\":[0,0,0],\"axis\":\"z\",\"radius\":[0,1],\"height\":1}}";
     check_refused(
         "[2,2,2]", "[1,1,1]", "[\"clamped\",\"closed\",\"clamped\"]", rest,
-        "t.json:/rest/cylinder: 2 control points of degree 1 along v are too few for this angle of the "
+        "t.json:1: /rest/cylinder: 2 control points of degree 1 along v are too few for this angle of the "
         "cylinder");
     check_refused(
         "[2,3,2]", "[1,2,1]", "[\"clamped\",\"clamped\",\"clamped\"]", rest,
-        "t.json:/rest/cylinder: 3 control points of degree 2 along v are too few for this angle of the "
+        "t.json:1: /rest/cylinder: 3 control points of degree 2 along v are too few for this angle of the "
         "cylinder");
 }
 

@@ -149,15 +149,14 @@ static void a_mirrored_move_does_the_same_on_the_other_side(void **state)
         "\"twist\":{\"axis\":[1,2,3],\"degrees\":33}",
         "\"taper\":{\"axis\":[1,2,3],\"factor\":0.3}",
         "\"bend\":{\"axis\":[1,2,3],\"toward\":\"x\",\"degrees\":33}",
-        "\"pull\":{\"point\":[2.5,0.1,0.3],\"by\":[1,2,3],\"radius\":2}",
-        "\"weight\":0.3,\"falloff\":{\"center\":[2.5,0.1,0.3],\"radius\":3},\"by\":[1,2,3]",
-        "\"falloff\":{\"axis\":[1,2,3],\"from\":4,\"to\":-3},\"rotate\":{\"axis\":\"z\",\"degrees\":70}",
     };
+    static const char *const planes[] = {"\"x\"", "{\"axis\":\"x\",\"at\":0}", "{\"axis\":[-3,0,0],\"at\":0}",
+                                         "{\"point\":[0,7,8],\"normal\":[2,0,0]}"};
     for (size_t a = 0; a < COUNT(actions); a++) {
         char plain[512], mirrored[512];
         snprintf(plain, sizeof plain, "{\"at\":[[-2,-1],\"all\",\"all\"],%s}", actions[a]);
-        snprintf(mirrored, sizeof mirrored, "{\"at\":[[-2,-1],\"all\",\"all\"],\"mirror\":\"x\",%s}",
-                 actions[a]);
+        snprintf(mirrored, sizeof mirrored, "{\"at\":[[-2,-1],\"all\",\"all\"],\"mirror\":%s,%s}",
+                 planes[a % COUNT(planes)], actions[a]);
         ffd_lattice *one = make(bar, plain), *both = make(bar, mirrored);
         assert_true(count_moved(one) > 0);
         for (size_t i = 0; i < 5; i++)
@@ -172,6 +171,97 @@ static void a_mirrored_move_does_the_same_on_the_other_side(void **state)
         ffd_lattice_destroy(&one);
         ffd_lattice_destroy(&both);
     }
+}
+
+/* Fails unless two moves give the same points within rounding. */
+static void check_same(const char *rest, const char *move, const char *others)
+{
+    ffd_lattice *one = make(rest, move), *two = make(rest, others);
+    size_t size[3];
+    ffd_lattice_get_size(one, size);
+    assert_true(count_moved(one) > 0);
+    for (size_t i = 0; i < 3 * size[0] * size[1] * size[2]; i++)
+        if (!(fabs(one->deformed[i] - two->deformed[i]) < 1e-14))
+            fail_msg("%s: number %zu: %.17g, by %s %.17g", move, i, one->deformed[i], others,
+                     two->deformed[i]);
+    ffd_lattice_destroy(&one);
+    ffd_lattice_destroy(&two);
+}
+
+/* 5 x 3 x 3 points that are no mirror images of each other in the planes below. */
+static const char skew[] =
+    "\"size\":[5,3,3],\"degree\":[1,1,1],\"knots\":[[0,0,1,2,5,6,6],\"clamped\",\"clamped\"],"
+    "\"rest\":{\"box\":{\"min\":[-2,-1,-1],\"max\":[3,1,1]}}";
+
+static void weights_by_position_are_mirrored(void **state)
+{
+    (void)state;
+    check_same(skew,
+               "{\"mirror\":{\"axis\":\"x\",\"at\":0.1},\"pull\":{\"point\":[1,0.1,0.3],\"by\":[1,2,3],"
+               "\"radius\":2.5}}",
+               "{\"pull\":{\"point\":[1,0.1,0.3],\"by\":[1,2,3],\"radius\":2.5}},"
+               "{\"pull\":{\"point\":[-0.8,0.1,0.3],\"by\":[-1,2,3],\"radius\":2.5}}");
+    /* Only on what the move selects. */
+    check_same(skew,
+               "{\"at\":[[2,4],\"all\",\"all\"],\"weight\":0.5,\"mirror\":{\"axis\":\"x\",\"at\":0.1},"
+               "\"falloff\":{\"center\":[1,0.1,0.3],\"radius\":3},\"by\":[1,2,3]}",
+               "{\"at\":[[2,4],\"all\",\"all\"],\"weight\":0.5,\"falloff\":{\"center\":[1,0.1,0.3],"
+               "\"radius\":3},\"by\":[1,2,3]},"
+               "{\"at\":[[2,4],\"all\",\"all\"],\"weight\":0.5,\"falloff\":{\"center\":[-0.8,0.1,0.3],"
+               "\"radius\":3},\"by\":[-1,2,3]}");
+    /* Any plane: normal (3, 4, 0)/5 through (0, 0.5, 0). The image of (1, 0, 0) is (0.76, -0.32, 0), and that
+       of (1, 0.1, 0.3) is (0.808, -0.156 ..): n.p = 0.68, offset 0.4, so 0.56 n is taken off. */
+    check_same(skew,
+               "{\"mirror\":{\"point\":[0,0.5,0],\"normal\":[3,4,0]},\"pull\":{\"point\":[1,0.1,0.3],\"by\":["
+               "1,0,3],\"radius\":2.5}}",
+               "{\"pull\":{\"point\":[1,0.1,0.3],\"by\":[1,0,3],\"radius\":2.5}},"
+               "{\"pull\":{\"point\":[0.664,-0.348,0.3],\"by\":[0.28,-0.96,3],\"radius\":2.5}}");
+    /* A falloff along an axis; a turn goes the other way. */
+    check_same(skew,
+               "{\"mirror\":{\"axis\":\"x\",\"at\":0.1},\"falloff\":{\"axis\":\"x\",\"from\":3,\"to\":0},"
+               "\"rotate\":{\"axis\":\"z\",\"degrees\":70,\"about\":[1,0,0]}}",
+               "{\"falloff\":{\"axis\":\"x\",\"from\":3,\"to\":0},\"rotate\":{\"axis\":\"z\",\"degrees\":70,"
+               "\"about\":[1,0,0]}},"
+               "{\"falloff\":{\"axis\":\"x\",\"from\":-2.8,\"to\":0.2},\"rotate\":{\"axis\":\"z\","
+               "\"degrees\":-70,\"about\":[-0.8,0,0]}}");
+    /* Fractions: `at` counts along the axis from the region's lower corner. x = -2 + 5/2. */
+    check_same("\"units\":\"box\",\"size\":[5,3,3],\"rest\":{\"box\":{\"min\":[-2,-1,-1],\"max\":[3,1,1]}}",
+               "{\"mirror\":{\"axis\":\"x\",\"at\":0.5},\"pull\":{\"point\":[0.8,0.5,0.5],\"by\":[0.1,0.2,0],"
+               "\"radius\":0.4}}",
+               "{\"pull\":{\"point\":[0.8,0.5,0.5],\"by\":[0.1,0.2,0],\"radius\":0.4}},"
+               "{\"pull\":{\"point\":[0.2,0.5,0.5],\"by\":[-0.1,0.2,0],\"radius\":0.4}}");
+    check_same("\"units\":\"box\",\"size\":[5,3,3],\"rest\":{\"box\":{\"min\":[-2,-1,-1],\"max\":[3,1,1]}}",
+               "{\"mirror\":{\"point\":[0.5,0.1,0.2],\"normal\":\"x\"},\"pull\":{\"point\":[0.8,0.5,0.5],"
+               "\"by\":[0.1,0.2,0],\"radius\":0.4}}",
+               "{\"mirror\":{\"axis\":\"x\",\"at\":0.5},\"pull\":{\"point\":[0.8,0.5,0.5],\"by\":[0.1,0.2,0],"
+               "\"radius\":0.4}}");
+}
+
+/* Images in an oblique plane: the points of a cube, of which the plane swaps x and y. */
+static void any_plane_has_images(void **state)
+{
+    (void)state;
+    static const char cube[] =
+        "\"size\":[3,3,3],\"degree\":[1,1,1],\"rest\":{\"box\":{\"min\":[-1,-1,-1],\"max\":[1,1,1]}}";
+    check_same(cube,
+               "{\"at\":[2,0,\"all\"],\"mirror\":{\"point\":[0.5,0.5,0],\"normal\":[1,-1,0]},\"by\":[1,0,2]}",
+               "{\"at\":[2,0,\"all\"],\"by\":[1,0,2]},{\"at\":[0,2,\"all\"],\"by\":[0,1,2]}");
+    check_same(cube,
+               "{\"at\":[2,0,\"all\"],\"mirror\":{\"axis\":[1,-1,0],\"at\":0},\"twist\":{\"axis\":\"z\","
+               "\"degrees\":90,\"about\":[1,-1,0]}}",
+               "{\"at\":[2,0,\"all\"],\"twist\":{\"axis\":\"z\",\"degrees\":90,\"about\":[1,-1,0]}},"
+               "{\"at\":[0,2,\"all\"],\"twist\":{\"axis\":\"z\",\"degrees\":-90,\"about\":[-1,1,0]}}");
+    check_same(cube, "{\"at\":[2,0,\"all\"],\"mirror\":{\"axis\":[1,-1,0],\"at\":0},\"to\":[3,4,5]}",
+               "{\"at\":[2,0,\"all\"],\"to\":[3,4,5]},{\"at\":[0,2,\"all\"],\"to\":[4,3,5]}");
+    ffd_lattice *l;
+    ffd_error error;
+    assert_int_equal(parse(cube,
+                           "{\"at\":[2,1,1],\"mirror\":{\"axis\":[0.6,0,-0.8],\"at\":1},\"by\":[1,0,0]}", &l,
+                           &error),
+                     FFD_E_INVALID);
+    assert_string_equal(message_of(&error),
+                        "t.json:1: /moves/0: control point 2,1,1 has no mirror image: no other rests "
+                        "across the plane 0.6 x - 0.8 z = 1");
 }
 
 static void a_point_selected_by_both_gets_both_in_order(void **state)
@@ -235,9 +325,8 @@ static void images_are_found_within_1e_9_and_rounding(void **state)
     snprintf(rest, sizeof rest, format, "1.8e-9");
     assert_int_equal(parse(rest, "{\"at\":[0,0,0],\"mirror\":\"x\",\"by\":[0,1,0]}", &l, &error),
                      FFD_E_INVALID);
-    assert_string_equal(message_of(&error),
-                        "t.json:/moves/0: control point 0,0,0 has no mirror image in x: no "
-                        "other rests across the plane x = 0.5");
+    assert_string_equal(message_of(&error), "t.json:1: /moves/0: control point 0,0,0 has no mirror image: no "
+                                            "other rests across the plane x = 0.5");
     /* Doubles are 1/8192 apart there. Of the two points in the middle, neither is exactly the other's mirror
        image. */
     l = make(
@@ -268,7 +357,7 @@ static void selections_are_as_all_pairs_say(void **state)
         }
         const ffd_lattice lattice = {.rest = rest, .count = N};
         const int axis = round % 3;
-        const mirror_plane plane = ffd_mirror_plane(&lattice, axis);
+        const mirror_plane plane = ffd_mirror_middle(&lattice, axis);
         mirror_tree all = {0};
         for (size_t i = 0; i < N; i++) {
             draw = draw * 1664525u + 1013904223u;
@@ -305,6 +394,8 @@ int main(void)
         cmocka_unit_test(a_falloff_changes_neither_extent_nor_centroid),
         cmocka_unit_test(a_falloff_in_box_units_runs_along_the_region),
         cmocka_unit_test(a_mirrored_move_does_the_same_on_the_other_side),
+        cmocka_unit_test(weights_by_position_are_mirrored),
+        cmocka_unit_test(any_plane_has_images),
         cmocka_unit_test(a_point_selected_by_both_gets_both_in_order),
         cmocka_unit_test(the_plane_goes_through_the_middle_of_the_rest),
         cmocka_unit_test(images_are_found_within_1e_9_and_rounding),

@@ -72,6 +72,31 @@ static const sample samples[] = {
                       "5}}",
      3,
      {0.3, -0.2, 0.1}},
+    {BOX,
+     "{\"by\":[0.1,0.05,0]},{\"mirror\":{\"axis\":\"x\",\"at\":0.2},\"pull\":{\"point\":" A
+     ",\"by\":[0.3,0.1,0],\"radius\":3}}",
+     3,
+     {0.6, 1, 1}},
+    {BOX,
+     "{\"by\":[0.1,0.05,0]},{\"mirror\":{\"point\":[0,1,1],\"normal\":[1,2,-2]},\"falloff\":{\"center\":[0,1,"
+     "1],\"radius\":" A "},\"rotate\":{\"axis\":\"z\",\"degrees\":40}}",
+     1,
+     {2.5}},
+    {BOX,
+     "{\"drag\":[{\"point\":[0.1,1,0.4],\"by\":" A "},{\"point\":[-0.5,1.9,2],\"by\":[0,0.1,0]}]}",
+     3,
+     {0.3, -0.2, 0.1}},
+    {BOX,
+     "{\"by\":" A "},{\"mirror\":\"y\",\"drag\":[{\"point\":[0.1,1,0.4],\"by\":" A
+     "}]},{\"twist\":{\"axis\":\"z\",\"degrees\":30}}",
+     3,
+     {0.3, -0.2, 0.1}},
+    {BOX ",\"units\":\"box\"",
+     "{\"radius\":0.9,\"drag\":[{\"point\":[0.5,0.5,0.2],\"by\":[0,{\"$\":\"-A\"},0]},{\"point\":[0.5,0.5,0."
+     "2],\"by\":[" A ",0,0]}]}",
+     1,
+     {0.3}},
+    {MESH ",\"units\":\"mesh\"", TWO("\"scale\":{\"factor\":2,\"about\":" A "}"), 3, {0.1, 1, 0.4}},
     {MESH, TWO("\"twist\":{\"axis\":\"z\",\"degrees\":" A "}"), 1, {80}},
     {BOX ",\"units\":\"box\"", TWO("\"by\":" A), 3, {0.3, -0.2, 0.1}},
     {BOX ",\"units\":\"box\"", TWO("\"to\":" A), 3, {0.3, -0.2, 0.1}},
@@ -100,7 +125,7 @@ static const sample samples[] = {
 /* Builds the lattice with one component of the value increased by `by`. */
 static ffd_lattice *built(const sample *s, size_t component, double by, bool derives)
 {
-    static const double min[3] = {-1, 0.5, -1}, max[3] = {1, 2, 3};
+    static const fit_extent extent = {{-1, 0.5, -1}, {1, 2, 3}, {-0.9, 0.6, -1}, {1, 2, 2.5}};
     double value[3];
     char text[4096], set[200];
     bool used;
@@ -118,7 +143,7 @@ static ffd_lattice *built(const sample *s, size_t component, double by, bool der
     const ffd_setting setting = {"A", set};
     const spec_settings settings = {.values = &setting, .used = &used, .count = 1, .derives = derives};
     if (ffd_spec_parse(text, (size_t)size, "t", &settings, &spec, &error) ||
-        ffd_spec_build(spec, min, max, &lattice, &error))
+        ffd_spec_build(spec, &extent, &lattice, &error))
         fail_msg("%s %s: %s", error.pointer, error.message, s->moves);
     return lattice;
 }

@@ -165,7 +165,7 @@ static void no_text_of_a_file_is_markup(void **state)
     hand_part(&scene, evil, 0, 8);
     hand_cage(&scene, evil, 2, 2, 2, box[0], box[1], wave);
     scene.materials.list = hand_array(1, sizeof *scene.materials.list);
-    scene.materials.list[0] = (mesh_material){.name = hand_text(evil), .image = MATERIAL_NONE};
+    scene.materials.list[0] = (mesh_material){.name = hand_text(evil), .base = ffd_texture_none()};
     scene.materials.count = 1;
     scene.parts[0].material = 0;
     char *const page = page_of(&scene, false), *const report = block_of(page, "report"),
@@ -427,10 +427,10 @@ static void a_page_opens_as_it_is_told(void **state)
 {
     (void)state;
     view_scene scene = hand_grid(1);
-    const view_page_options options = {.color = FFD_VIEW_DET, .camera = {0, -2, 0.5}};
+    const view_page_options options = {.color = FFD_VIEW_DET, .camera = {0, -2, 0.5}, .up = FFD_UP_Z};
     assert_int_equal(write_page(&scene, &options), FFD_OK);
     char *const page = read_page();
-    assert_non_null(strstr(page, "\"view\": {\"color\": \"det\", \"camera\": [0, -2, 0.5]}"));
+    assert_non_null(strstr(page, "\"view\": {\"color\": \"det\", \"camera\": [0, -2, 0.5], \"up\": \"z\"}"));
     ffd_free(page);
     ffd_view_scene_free(&scene);
 }

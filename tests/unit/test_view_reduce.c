@@ -9,6 +9,7 @@
 #include "../support/repetitions.h"
 #include "../support/view_by_hand.h"
 #include "view/page_reduce.h"
+#include "view/page_texcoords.h"
 
 static void take(const view_scene *scene, page_mesh *mesh)
 {
@@ -63,6 +64,73 @@ static void a_reduced_mesh_keeps_parts_marks_and_tears(void **state)
     for (size_t i = 0; i < 101; i++)
         assert_true(seam[0][i] && seam[1][i]);
     assert_true(flipped > 20 && flipped < mesh.parts[0].triangle_count);
+    ffd_page_mesh_free(&mesh);
+    ffd_view_scene_free(&scene);
+}
+
+/* A grid with one texture, whose coordinates are x and y; right of the middle u is 2 larger. */
+static view_scene textured_grid(void)
+{
+    view_scene scene = hand_grid(100);
+    static const mesh_texture none = {.image = MATERIAL_NONE};
+    hand_part(&scene, "", 0, scene.triangle_count);
+    scene.parts[0].material = 0;
+    scene.materials.list = hand_array(1, sizeof *scene.materials.list);
+    scene.materials.count = 1;
+    scene.materials.list[0] = (mesh_material){.name = hand_text(""), .glow = none, .opacity = none};
+    scene.materials.images = hand_array(1, sizeof *scene.materials.images);
+    scene.materials.image_count = 1;
+    scene.texcoords = hand_array(scene.triangle_count, 6 * sizeof *scene.texcoords);
+    for (size_t t = 0; t < scene.triangle_count; t++) {
+        double middle = 0;
+        for (size_t c = 3 * t; c < 3 * t + 3; c++)
+            middle += scene.before[3 * (size_t)scene.triangles[c]] / 3;
+        for (size_t c = 3 * t; c < 3 * t + 3; c++) {
+            const double *const p = scene.before + 3 * (size_t)scene.triangles[c];
+            scene.texcoords[2 * c] = (float)(p[0] + (middle > 0.5 ? 2 : 0));
+            scene.texcoords[2 * c + 1] = (float)p[1];
+        }
+    }
+    return scene;
+}
+
+/* Each corner of what is left has the coordinates that its vertex has on that side of the seam, and no
+   triangle is of both sides. */
+static void a_texture_is_not_torn_at_its_seam(void **state)
+{
+    (void)state;
+    view_scene scene = textured_grid();
+    page_mesh mesh;
+    ffd_error error;
+    take(&scene, &mesh);
+    assert_int_equal(mesh.texcoord_width, 2);
+    assert_int_equal(ffd_page_reduce(&mesh, 2000, &error), FFD_OK);
+    assert_in_range(ffd_page_mesh_mark(&mesh), 1000, 2000);
+    for (size_t t = 0; t < mesh.triangle_count; t++) {
+        const float *const uv = mesh.texcoords + 6 * t;
+        const bool is_right = uv[0] > 1.5;
+        for (size_t c = 0; c < 3; c++) {
+            const double *const p = scene.before + 3 * (size_t)mesh.triangles[3 * t + c];
+            assert_true(is_right ? p[0] >= 0.5 : p[0] <= 0.5);
+            assert_true(fabs(uv[2 * c] - (p[0] + (is_right ? 2 : 0))) < 1e-6 &&
+                        fabs(uv[2 * c + 1] - p[1]) < 1e-6);
+        }
+    }
+    page_texcoords texcoords;
+    assert_int_equal(ffd_page_mesh_index(&mesh, &error), FFD_OK);
+    assert_int_equal(ffd_page_texcoords_make(&mesh, &texcoords, &error), FFD_OK);
+    /* A wedge more for each vertex of the seam. */
+    size_t seam = 0;
+    for (size_t v = 0; v < mesh.vertex_count; v++)
+        seam += scene.before[3 * (size_t)mesh.vertices[v]] == 0.5;
+    assert_true(seam > 10);
+    assert_int_equal(texcoords.count, mesh.vertex_count + seam);
+    for (size_t i = 0; i < texcoords.corner_count; i++) {
+        assert_int_equal(texcoords.vertices[texcoords.corners[i]], mesh.triangles[i]);
+        assert_memory_equal(texcoords.values + 2 * (size_t)texcoords.corners[i], mesh.texcoords + 2 * i,
+                            2 * sizeof(float));
+    }
+    ffd_page_texcoords_free(&texcoords);
     ffd_page_mesh_free(&mesh);
     ffd_view_scene_free(&scene);
 }
@@ -146,6 +214,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_reduced_mesh_keeps_parts_marks_and_tears),
+        cmocka_unit_test(a_texture_is_not_torn_at_its_seam),
         cmocka_unit_test(a_soup_is_reduced_too),
         cmocka_unit_test(segments_and_points_are_thinned_out),
         cmocka_unit_test(no_allocation_may_fail_unseen),

@@ -61,7 +61,7 @@ static void add_materials(view_scene *scene)
     scene->materials.list = hand_array(scene->part_count, sizeof *scene->materials.list);
     for (size_t i = 0; i < scene->part_count; i++) {
         const double turn = 2.4 * (double)i;
-        scene->materials.list[i] = (mesh_material){.name = hand_text("paint"), .image = MATERIAL_NONE};
+        scene->materials.list[i] = (mesh_material){.name = hand_text("paint"), .base = ffd_texture_none()};
         for (int c = 0; c < 3; c++)
             scene->materials.list[i].color[c] = 0.3 + 0.25 * cos(turn + 2.1 * c);
         scene->materials.list[i].color[3] = 1;

@@ -83,7 +83,7 @@ async function sliderGoesFromBeforeToAfter() {
 
 async function coloursAndMarksAreChosen() {
   const {page, end} = await open('fold');
-  const colours = [['status', /inside\s+11.533/], ['det', /relative to before[^]*at most 0: folded/], ['plain', /Base colours/],
+  const colours = [['status', /inside\s+11.533/], ['det', /relative to before[^]*at most 0: folded/], ['plain', /colours of the materials/],
     ['displacement', /units of the file[^]*0\.89/]].map(([key, words]) => [key,
     () => page.locator('#color-' + key).check({force: true}), async () => assert.match(await text(page, '#legend'), words)]);
   const marks = ['showCage', 'showRest', 'showFlipped', 'showEdges', 'isSmooth'].map((key) => [key,
@@ -167,7 +167,7 @@ async function aRealFoldIsPicked() {
   const {page, end} = await open('real_fold');
   const job = await page.evaluate(() => JSON.parse(document.getElementById('report').textContent).jobs[0]);
   assert.ok(job.folds.verdict === 'some' && job.flipped_faces > 1000, 'the report');
-  assert.match(await text(page, '#verdicts'), /The volume folds[^]*flipped faces/);
+  assert.match(await text(page, '#verdicts'), /The volume folds[^]*faces\s+turned over/);
   const pin = await page.locator('#witness').boundingBox();
   await changes(page, 'the witness', () => page.mouse.click(pin.x + pin.width / 2, pin.y + pin.height / 2));
   const said = await text(page, '#said');
@@ -221,12 +221,78 @@ async function aMeshAloneHasNoSlider() {
   await end();
 }
 
+// A body whose z points upwards looks from each side as the same one whose y does.
+async function whatPointsUpwardsStandsUpright() {
+  const [upright, turned, lying] = await Promise.all(['real_upright', 'real_turned', 'real_lying'].map((kind) => open(kind)));
+  const drawn = async ({page}) => {
+    await settled(page);
+    return (await pixels(page)).evaluate((all) => Array.from(all));
+  };
+  const differ = (a, b) => a.filter((pixel, i) => pixel !== b[i]).length / a.length;
+  for (const side of [null, 'left', 'top']) {
+    for (const {page} of [upright, turned, lying]) {
+      if (side) await page.locator(`[data-view=${side}]`).click();
+    }
+    const all = [await drawn(upright), await drawn(turned), await drawn(lying)];
+    assert.ok(differ(all[0], all[1]) < 0.002, `${side}: ${differ(all[0], all[1])} of the pixels differ`);
+    assert.ok(differ(all[0], all[2]) > 0.02, `${side}: without --up it lies`);
+  }
+  for (const {end} of [upright, turned, lying]) await end();
+}
+
 async function farControlPointsLeaveTheMeshItsSize() {
   const {page, end} = await open('real_far');
   await page.locator('[data-view=front]').click();
   await page.locator('#show-showCage').uncheck();
   const seen = await (await pixels(page)).evaluate((all) => all.filter((pixel) => pixel >>> 24).length);
   assert.ok(seen > 500, `${seen} pixels of the mesh`);
+  await end();
+}
+
+// Colours at places of the picture, shares of the box of all that is drawn, in its order from the left and from the top.
+async function coloursAt(page, places) {
+  const width = await page.evaluate(() => document.getElementById('view').width);
+  return (await pixels(page)).evaluate((all, {places, width}) => {
+    let [left, top, right, bottom] = [Infinity, Infinity, -1, -1];
+    all.forEach((pixel, i) => {
+      if (pixel >>> 24 < 128) return;
+      const x = i % width, y = Math.floor(i / width);
+      [left, top, right, bottom] = [Math.min(left, x), Math.min(top, y), Math.max(right, x), Math.max(bottom, y)];
+    });
+    return places.map(([across, down]) => {
+      const pixel = all[width * Math.round(top + down * (bottom - top)) + Math.round(left + across * (right - left))];
+      return [pixel & 255, pixel >>> 8 & 255, pixel >>> 16 & 255];
+    });
+  }, {places, width});
+}
+
+async function materialsLookAsTheyAre() {
+  const {page, end} = await open('real_looks');
+  assert.ok(await page.locator('#color-plain').isChecked(), 'a page opens in the colours of the model');
+  assert.match(await text(page, '#legend'), /textures/);
+  await page.locator('#show-showCage').uncheck();
+  // Once the textures are decoded, nothing changes any more.
+  await page.waitForFunction(() => document.querySelectorAll('[id^=data-image]').length === 0);
+  let seen;
+  const square = (i, x, y) => [(1.2 * i + x) / 5.8, y];
+  const isLike = ([r, g, b], [high, low]) => high.every((c) => [r, g, b][c] > 120) && low.every((c) => [r, g, b][c] < 110);
+  const wanted = [['red', square(0, 0.25, 0.25), [[0], [1, 2]]], ['green', square(0, 0.75, 0.25), [[1], [0, 2]]],
+    ['blue', square(0, 0.25, 0.75), [[2], [0, 1]]], ['yellow', square(0, 0.75, 0.75), [[0, 1], [2]]],
+    ['the right half alone', square(1, 0.2, 0.5), [[1], [0, 2]]], ['the right half at its end', square(1, 0.8, 0.5), [[1], [0, 2]]],
+    ['light of a texture', square(2, 0.2, 0.5), [[1], [0, 2]]], ['red behind the glass', square(4, 0.5, 0.5), [[0], [1]]]];
+  for (let tries = 0; tries < 40; tries++) {
+    seen = await coloursAt(page, [...wanted.map(([, place]) => place), square(3, 0.5, 0.5)]);
+    if (wanted.every(([, , like], i) => isLike(seen[i], like))) break;
+    await new Promise((done) => setTimeout(done, 50));
+  }
+  wanted.forEach(([what, , like], i) => assert.ok(isLike(seen[i], like), `${what}: ${seen[i]}`));
+  assert.ok(seen[7][2] > 40, `the glass has a colour: ${seen[7]}`);
+  // sRGB of 0, 0.2, 0.9: exactly, as no light falls on it.
+  [0, 124, 243].forEach((c, a) => assert.ok(Math.abs(seen[8][a] - c) <= 2, `no light: ${seen[8]}`));
+  await page.locator('#view').focus();
+  await changes(page, 'key d', () => page.keyboard.press('d'));
+  assert.ok(await page.locator('#color-displacement').isChecked());
+  await changes(page, 'key d again', () => page.keyboard.press('d'));
   await end();
 }
 
@@ -352,6 +418,6 @@ const tests = {
     hostileNamesAreText, largeAndEmptyMeshesOpen, aCutPageSaysSo, withoutWebGLThereAreFigures, phonesAndDarkAreServed,
     thePolicyForbidsRequests],
   real: [aRealFoldIsPicked, realTearsAreListed, filesAreColouredByDisplacement, aMeshAloneHasNoSlider,
-    farControlPointsLeaveTheMeshItsSize, realHostileNamesAreText, animationsArePlayed],
+    farControlPointsLeaveTheMeshItsSize, materialsLookAsTheyAre, whatPointsUpwardsStandsUpright, realHostileNamesAreText, animationsArePlayed],
 };
 await runAll(browser, tests[process.argv[5]]);

@@ -22,6 +22,7 @@ from browser import find_browser, run_script
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
 from gltf_arm import arm  # noqa: E402 (a neighbour of this folder)
+from png_make import make_png  # noqa: E402
 
 KINDS = ("torn", "fold", "hostile", "large", "empty")
 # Control points of a real mesh: two that turn its middle inside out; one at the border of a box that ends in the mesh.
@@ -52,6 +53,48 @@ def hostile_gltf():
             "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64," + corners}]}
 
 
+def looks_gltf():
+    """Unit squares from left to right, with their materials: a texture of four colours; one of the right half alone; one
+    that emits, of which the texture has other coordinates; one without light; and glass in front of red."""
+    red, green, blue, yellow, grey = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 0), (128, 128, 128)
+    four = make_png([[red] * 32 + [green] * 32] * 32 + [[blue] * 32 + [yellow] * 32] * 32)
+    halves = make_png([[grey] * 32 + [green] * 32] * 64)
+    squares = [(0, 0), (1.2, 0), (2.4, 0), (3.6, 0), (4.8, 0), (4.8, -0.5)]
+    corners = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    places = [(x + dx, dy, z) for x, z in squares for dx, dy in corners]
+    texcoords = [(dx, 1 - dy) for _ in squares for dx, dy in corners]
+    data = b"".join(struct.pack("<3f", *place) for place in places) + b"".join(struct.pack("<2f", *uv) for uv in texcoords)
+    indices = struct.pack("<6B2x", 0, 1, 2, 0, 2, 3)
+    whole = data + indices + four + bytes(-len(four) % 4) + halves
+    views = [{"buffer": 0, "byteOffset": 0, "byteLength": 12 * len(places)},
+             {"buffer": 0, "byteOffset": 12 * len(places), "byteLength": 8 * len(places)},
+             {"buffer": 0, "byteOffset": len(data), "byteLength": 6},
+             {"buffer": 0, "byteOffset": len(data) + 8, "byteLength": len(four)},
+             {"buffer": 0, "byteOffset": len(data) + 8 + len(four) + -len(four) % 4, "byteLength": len(halves)}]
+    accessors = [{"bufferView": 2, "componentType": 5121, "count": 6, "type": "SCALAR"}]
+    meshes = []
+    for i in range(len(squares)):
+        own = places[4 * i:4 * i + 4]
+        accessors += [{"bufferView": 0, "byteOffset": 48 * i, "componentType": 5126, "count": 4, "type": "VEC3",
+                       "min": [min(p[a] for p in own) for a in range(3)], "max": [max(p[a] for p in own) for a in range(3)]},
+                      {"bufferView": 1, "byteOffset": 32 * i, "componentType": 5126, "count": 4, "type": "VEC2"}]
+        meshes.append({"primitives": [{"attributes": {"POSITION": 2 * i + 1, "TEXCOORD_0": 2 * i + 2}, "indices": 0, "material": i}]})
+    right = {"KHR_texture_transform": {"offset": [0.5, 0], "scale": [0.5, 1]}}
+    materials = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}},
+                 {"pbrMetallicRoughness": {"baseColorTexture": {"index": 1, "extensions": right}}},
+                 {"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]}, "emissiveFactor": [1, 1, 1],
+                  "emissiveTexture": {"index": 1, "extensions": right}},
+                 {"pbrMetallicRoughness": {"baseColorFactor": [0, 0.2, 0.9, 1]}, "extensions": {"KHR_materials_unlit": {}}},
+                 {"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 1, 0.3]}, "alphaMode": "BLEND"},
+                 {"pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}}]
+    return {"asset": {"version": "2.0"}, "extensionsUsed": ["KHR_texture_transform", "KHR_materials_unlit"], "scene": 0,
+            "scenes": [{"nodes": list(range(len(meshes)))}], "nodes": [{"mesh": i} for i in range(len(meshes))], "meshes": meshes,
+            "materials": materials, "textures": [{"source": 0}, {"source": 1}],
+            "images": [{"bufferView": 3, "mimeType": "image/png"}, {"bufferView": 4, "mimeType": "image/png"}],
+            "accessors": accessors, "bufferViews": views,
+            "buffers": [{"byteLength": len(whole), "uri": "data:application/octet-stream;base64," + base64.b64encode(whole).decode()}]}
+
+
 def make_real(ffd, model, folder):
     """Pages as users make them."""
     def write(name, content):
@@ -71,6 +114,18 @@ def make_real(ffd, model, folder):
             file.write(f"v 0 0 0\nv 1 0 0\nv 0 {height} 0\nf 1 2 3\n")
     subprocess.run([ffd, "view", "low.obj", "high.obj", "--color", "det", "-o", "real_pair.html", "-q"], cwd=folder, check=True)
     subprocess.run([ffd, "view", "high.obj", "-o", "real_alone.html", "-q"], cwd=folder, check=True)
+    body = [(x * 0.5, y + 0.25 * x, z * (1 + y / 4)) for x in (0, 1) for y in (0, 3) for z in (0, 2)]
+    for name, turn in (("y.obj", lambda x, y, z: (x, y, z)), ("z.obj", lambda x, y, z: (x, -z, y))):
+        with open(os.path.join(folder, name), "w", encoding="ascii") as file:
+            file.write("".join("v {} {} {}\n".format(*turn(*point)) for point in body) +
+                       "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n")
+    for page, mesh, up in (("real_upright", "y.obj", "y"), ("real_turned", "z.obj", "z"), ("real_lying", "z.obj", "y")):
+        subprocess.run([ffd, "view", mesh, "--up", up, "-o", page + ".html", "-q"], cwd=folder, check=True)
+    write("looks.gltf", looks_gltf())
+    up = write("up.json", {"format": "ffd-lattice", "version": 1, "size": [2, 2, 2], "degree": [1, 1, 1],
+                           "rest": {"box": {"min": [-1, -1, -1], "max": [7, 2, 1]}}, "moves": [{"at": ["all", "all", "all"], "by": [0, 0.25, 0]}]})
+    subprocess.run([ffd, "view", "looks.gltf", "-l", os.path.basename(up), "--camera", "front", "-o", "real_looks.html", "-q"],
+                   cwd=folder, check=True)
     write("arm.gltf", arm(names=("turn", "</script><img src=x onerror=alert(4)>\n\u202e")))
     wide = write("wide.json", {"format": "ffd-lattice", "version": 1, **WIDE})
     subprocess.run([ffd, "view", "arm.gltf", "-l", wide, "--animation", "turn", "-o", "real_arm.html", "-q"], cwd=folder, check=True)

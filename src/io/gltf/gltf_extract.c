@@ -11,6 +11,7 @@
 #include "io/gltf/read/gltf_elements.h"
 #include "io/gltf/read/gltf_textures.h"
 #include "mesh/srgb.h"
+#include "splat/splat_color.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -42,7 +43,8 @@ typedef struct drawn {
     size_t part; /* the part of its positions */
     uint32_t *corners;
     size_t count;
-    size_t position, normal, texcoord; /* index in the model of its first one; GLTF_NONE: none */
+    /* Index in the model of its first one; GLTF_NONE: none. glow: the texture coordinates of the emission. */
+    size_t position, normal, texcoord, glow;
     /* The node's transform mirrors, so that its triangles would face inward. */
     bool mirrored;
 } drawn;
@@ -82,15 +84,21 @@ static void name_set(unsigned long long set, char name[SET_NAME])
     snprintf(name, SET_NAME, "TEXCOORD_%llu", set);
 }
 
+/* Which of a material's textures is meant. */
+typedef enum texcoord_use { BASE_TEXCOORDS, GLOW_TEXCOORDS } texcoord_use;
+
 /* Finds the texture coordinates of a primitive under a node. */
-static shown_texcoords texcoords_of(const extractor *e, const gltf_instance *instance)
+static shown_texcoords texcoords_of(const extractor *e, const gltf_instance *instance, texcoord_use use)
 {
     const gltf_document *const d = e->document;
     const gltf_primitive *const primitive = instance->primitive;
     shown_texcoords found = {.primitive = GLTF_NONE, .node = GLTF_NONE, .set = GLTF_NONE};
     char name[SET_NAME];
     bool stands_in;
-    const size_t set = ffd_gltf_texcoords(d, primitive, &found.taken, &stands_in);
+    const size_t set = use == BASE_TEXCOORDS ? ffd_gltf_texcoords(d, primitive, &found.taken, &stands_in)
+                                             : ffd_gltf_glow_texcoords(d, primitive, &found.taken);
+    if (set == GLTF_NONE)
+        found.taken.accessor = GLTF_NONE;
     name_set(set, name);
     if (found.taken.accessor == GLTF_NONE || e->state == MESH_STORED ||
         !ffd_gltf_add_shapes(d, primitive, instance->node, name,
@@ -102,11 +110,11 @@ static shown_texcoords texcoords_of(const extractor *e, const gltf_instance *ins
     return found;
 }
 
-/* Interns the texture coordinates of a primitive under a node, and counts new ones. */
-static ffd_status add_texcoords(extractor *e, const gltf_instance *instance)
+/* Interns texture coordinates of a primitive under a node, and counts new ones. */
+static ffd_status add_used_texcoords(extractor *e, const gltf_instance *instance, texcoord_use use)
 {
     const gltf_document *d = e->document;
-    const shown_texcoords texcoords = texcoords_of(e, instance);
+    const shown_texcoords texcoords = texcoords_of(e, instance, use);
     size_t *const count = &e->texcoord_count;
     uint32_t index;
     if (texcoords.taken.accessor == GLTF_NONE || *count > MODEL_VALUES_MAX)
@@ -124,10 +132,16 @@ static ffd_status add_texcoords(extractor *e, const gltf_instance *instance)
     return FFD_OK;
 }
 
-/* Returns the index of a primitive's first texture coordinate, GLTF_NONE if it has none. */
-static size_t find_texcoords(const extractor *e, const gltf_instance *instance)
+static ffd_status add_texcoords(extractor *e, const gltf_instance *instance)
 {
-    const shown_texcoords texcoords = texcoords_of(e, instance);
+    TRY(add_used_texcoords(e, instance, BASE_TEXCOORDS));
+    return e->model->wants_details ? add_used_texcoords(e, instance, GLOW_TEXCOORDS) : FFD_OK;
+}
+
+/* Returns the index of a primitive's first texture coordinate, GLTF_NONE if it has none. */
+static size_t find_texcoords(const extractor *e, const gltf_instance *instance, texcoord_use use)
+{
+    const shown_texcoords texcoords = texcoords_of(e, instance, use);
     uint32_t index;
     return ffd_intern_find(&e->texcoords, &texcoords, sizeof texcoords, &index) ? e->first_texcoord[index]
                                                                                 : GLTF_NONE;
@@ -237,13 +251,11 @@ static void fill_values(const extractor *e)
 
 /* Reads the colours of a primitive, which are linear, and clamps them to 0 to 1 as viewers do (glTF 2.0,
    3.9.2 and 3.7.2.1). */
-static ffd_status take_colours(extractor *e, const gltf_instance *instance, const drawn *drawing)
+static ffd_status take_vertex_colours(extractor *e, const gltf_instance *instance, const drawn *drawing,
+                                      size_t a)
 {
     const gltf_document *d = e->document;
     const gltf_primitive *const primitive = instance->primitive;
-    const size_t a = ffd_gltf_attribute(d, primitive, "COLOR_0", 3, 4);
-    if (a == GLTF_NONE || a == e->colours[drawing->part])
-        return FFD_OK;
     e->colours[drawing->part] = a;
     const size_t count = (size_t)d->model.accessors[primitive->accessor[GLTF_POSITION]].count;
     const size_t components = (size_t)d->model.accessors[a].rows, node = instance->node;
@@ -268,6 +280,55 @@ static ffd_status take_colours(extractor *e, const gltf_instance *instance, cons
             colour[c] = ffd_srgb_from_linear(colour[c]);
     }
     return FFD_OK;
+}
+
+/* Whether the colours of splats are linear, not sRGB. */
+static bool has_linear_splats(const gltf_document *d, const gltf_primitive *primitive)
+{
+    const uint32_t splatting = ffd_gltf_extension(d, primitive->value, "KHR_gaussian_splatting");
+    const uint32_t space = ffd_json_tree_member(&d->tree, splatting, "colorSpace");
+    return space != JSON_NONE && d->tree.values[space].kind == JSON_STRING &&
+           ffd_json_tree_string_is(&d->tree, space, "lin_rec709_display");
+}
+
+/* Reads the colours and opacities of Gaussian splats. a: the accessor of the harmonics of degree 0. */
+static ffd_status take_splat_colours(extractor *e, const gltf_primitive *primitive, const drawn *drawing,
+                                     size_t a)
+{
+    const gltf_document *d = e->document;
+    e->colours[drawing->part] = a;
+    const size_t opacity = ffd_gltf_attribute(d, primitive, "KHR_gaussian_splatting:OPACITY", 1, 1);
+    const size_t count = (size_t)d->model.accessors[primitive->accessor[GLTF_POSITION]].count;
+    const bool is_linear = has_linear_splats(d, primitive);
+    TRY(ffd_model_make_colours(e->model, e->error));
+    double *const colours = e->model->colours + 4 * drawing->position;
+    for (size_t i = 0; i < count; i++) {
+        double *const colour = colours + 4 * i;
+        ffd_gltf_read(d, a, i, 1, 3, colour);
+        for (int c = 0; c < 3; c++) {
+            const double shown = splat_color(colour[c]);
+            colour[c] = is_linear ? ffd_srgb_from_linear(shown) : shown;
+        }
+        if (opacity != GLTF_NONE)
+            ffd_gltf_read(d, opacity, i, 1, 1, &colour[3]);
+        colour[3] = colour[3] > 0 ? lesser_of(colour[3], 1) : 0;
+    }
+    return FFD_OK;
+}
+
+static ffd_status take_colours(extractor *e, const gltf_instance *instance, const drawn *drawing)
+{
+    const gltf_document *d = e->document;
+    const gltf_primitive *const primitive = instance->primitive;
+    const size_t splats =
+        e->model->wants_details
+            ? ffd_gltf_attribute(d, primitive, "KHR_gaussian_splatting:SH_DEGREE_0_COEF_0", 3, 3)
+            : GLTF_NONE;
+    const size_t a = splats == GLTF_NONE ? ffd_gltf_attribute(d, primitive, "COLOR_0", 3, 4) : splats;
+    if (a == GLTF_NONE || a == e->colours[drawing->part])
+        return FFD_OK;
+    return splats == GLTF_NONE ? take_vertex_colours(e, instance, drawing, a)
+                               : take_splat_colours(e, primitive, drawing, a);
 }
 
 static model_corner corner_at(const drawn *drawing, uint32_t vertex)
@@ -345,8 +406,11 @@ static char *object_name(const gltf_document *d, size_t mesh, size_t node)
     return by_mesh ? name_of(d, &d->mesh_values, mesh, "mesh") : name_of(d, &d->node_values, node, "node");
 }
 
-static ffd_status begin_run(extractor *e, const gltf_primitive *primitive, size_t node)
+static ffd_status begin_run(extractor *e, const drawn *drawing, size_t node)
 {
+    const gltf_primitive *const primitive = drawing->primitive;
+    const int64_t glow_step =
+        drawing->glow == GLTF_NONE ? 0 : (int64_t)drawing->glow - (int64_t)drawing->texcoord;
     const gltf_document *d = e->document;
     double number;
     const bool has_material =
@@ -358,7 +422,7 @@ static ffd_status begin_run(extractor *e, const gltf_primitive *primitive, size_
                 ? ffd_model_begin_run(e->model, object, NULL, material, e->error)
                 : ffd_fail_memory(e->error));
     if (e->model->wants_details && has_material && number >= 0 && number < MODEL_NONE)
-        TRY_END(ffd_model_set_material(e->model, (uint32_t)number, e->error));
+        TRY_END(ffd_model_set_material(e->model, (uint32_t)number, glow_step, e->error));
 end:
     ffd_free(object);
     ffd_free(material);
@@ -390,11 +454,15 @@ static ffd_status add_instance(extractor *e, const gltf_instance *instance)
                      .part = part,
                      .position = e->first_position[part],
                      .normal = normals == GLTF_NONE ? GLTF_NONE : e->first_normal[normals],
-                     .texcoord = find_texcoords(e, instance),
+                     .texcoord = find_texcoords(e, instance, BASE_TEXCOORDS),
+                     .glow =
+                         e->model->wants_details ? find_texcoords(e, instance, GLOW_TEXCOORDS) : GLTF_NONE,
                      .mirrored = is_mirrored(d, part)};
+    if (drawing.texcoord == GLTF_NONE)
+        drawing.texcoord = drawing.glow;
     ffd_status status;
     TRY_END(ffd_gltf_read_corners(d, primitive, &drawing.corners, &drawing.count, e->error));
-    TRY_END(begin_run(e, primitive, instance->node));
+    TRY_END(begin_run(e, &drawing, instance->node));
     TRY_END(take_colours(e, instance, &drawing));
     TRY_END(drawing.primitive->mode == MODE_POINTS     ? add_points(e, &drawing)
             : drawing.primitive->mode < MODE_TRIANGLES ? add_lines(e, &drawing)

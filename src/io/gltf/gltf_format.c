@@ -125,5 +125,6 @@ const mesh_format ffd_gltf_format = {
     .rig = &rig,
     .splats = &splats,
     .describe = ffd_gltf_describe,
+    .list_names = ffd_gltf_list_names,
     .compare = ffd_gltf_compare,
 };

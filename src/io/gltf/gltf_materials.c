@@ -1,5 +1,4 @@
-/* gltf_materials.c - the materials of a file: base colours, their textures, and where surfaces are cut out.
- */
+/* gltf_materials.c - the materials of a file: base colours, opacity, emission, and their textures. */
 #include "base/file/input.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
@@ -121,7 +120,7 @@ end:
     return status;
 }
 
-/* The default of alphaCutoff, also used for blended surfaces. */
+/* The default of alphaCutoff. */
 #define HALF 0.5
 
 typedef struct reader {
@@ -152,30 +151,31 @@ static base_colour find_colour(const gltf_document *d, uint32_t material)
 }
 
 /* Reads a colour factor: components that are not numbers stay, those outside 0 to 1 become 1. */
-static void read_factor(const json_tree *tree, uint32_t array, double color[4])
+static void read_factor(const json_tree *tree, uint32_t array, int count, double *color)
 {
     double number;
     if (array == JSON_NONE || tree->values[array].kind != JSON_ARRAY)
         return;
     uint32_t value = ffd_json_tree_first(tree, array);
-    for (int c = 0; c < 4 && value != JSON_NONE; c++, value = ffd_json_tree_after(tree, value))
+    for (int c = 0; c < count && value != JSON_NONE; c++, value = ffd_json_tree_after(tree, value))
         if (ffd_json_tree_number(tree, value, &number))
             color[c] = material_share(number);
 }
 
-static double read_cutoff(const gltf_document *d, uint32_t material)
+static void read_alpha(const gltf_document *d, uint32_t value, mesh_material *material)
 {
-    const uint32_t mode = ffd_json_tree_member(&d->tree, material, "alphaMode");
-    const uint32_t cutoff = ffd_json_tree_member(&d->tree, material, "alphaCutoff");
+    const uint32_t mode = ffd_json_tree_member(&d->tree, value, "alphaMode");
+    const uint32_t cutoff = ffd_json_tree_member(&d->tree, value, "alphaCutoff");
     double number;
     if (mode == JSON_NONE || d->tree.values[mode].kind != JSON_STRING)
-        return 0;
+        return;
     if (ffd_json_tree_string_is(&d->tree, mode, "BLEND"))
-        return HALF;
+        material->alpha = MATERIAL_BLEND;
     if (!ffd_json_tree_string_is(&d->tree, mode, "MASK"))
-        return 0;
+        return;
     const bool is_valid = ffd_json_tree_number(&d->tree, cutoff, &number) && number >= 0 && number <= DBL_MAX;
-    return is_valid ? number : HALF;
+    material->alpha = MATERIAL_MASK;
+    material->alpha_cutoff = is_valid ? number : HALF;
 }
 
 static texture_wrap read_wrap(const gltf_document *d, uint32_t sampler, const char *key)
@@ -185,18 +185,30 @@ static texture_wrap read_wrap(const gltf_document *d, uint32_t sampler, const ch
     return mode == CLAMP_TO_EDGE ? TEXTURE_CLAMP : mode == MIRRORED_REPEAT ? TEXTURE_MIRROR : TEXTURE_REPEAT;
 }
 
-/* Returns why a texture whose source is absent or not valid has no image. */
+/* Returns the image of a texture: its source, or else that of EXT_texture_webp; GLTF_NONE: neither is valid.
+   A file with both has the same picture twice, the first for programs that cannot read the second. */
+static size_t find_image(const gltf_document *d, uint32_t texture)
+{
+    const uint32_t webp = ffd_gltf_extension(d, texture, "EXT_texture_webp");
+    const size_t count = d->image_values.count;
+    const size_t image = ffd_gltf_index(d, ffd_json_tree_member(&d->tree, texture, "source"), count);
+    return image != GLTF_NONE ? image
+                              : ffd_gltf_index(d, ffd_json_tree_member(&d->tree, webp, "source"), count);
+}
+
+/* Returns why a texture has no image. */
 static const char *why_no_image(const gltf_document *d, uint32_t texture)
 {
     static const char *const extensions[][2] = {
         {"KHR_texture_basisu", "has an image of KHR_texture_basisu only"},
-        {"EXT_texture_webp", "has an image of EXT_texture_webp only"},
         {"EXT_texture_avif", "has an image of EXT_texture_avif only"},
         {"MSFT_texture_dds", "has an image of MSFT_texture_dds only"}};
+    const uint32_t webp = ffd_gltf_extension(d, texture, "EXT_texture_webp");
     for (size_t i = 0; i < sizeof extensions / sizeof *extensions; i++)
         if (ffd_gltf_has_extension(d, texture, extensions[i][0]))
             return extensions[i][1];
-    return ffd_json_tree_member(&d->tree, texture, "source") == JSON_NONE
+    return ffd_json_tree_member(&d->tree, texture, "source") == JSON_NONE &&
+                   ffd_json_tree_member(&d->tree, webp, "source") == JSON_NONE
                ? "has no image"
                : "names an image that is not there";
 }
@@ -215,24 +227,36 @@ static ffd_status leave_texture(reader *r, size_t index, const char *why, uint32
     return FFD_OK;
 }
 
-static ffd_status read_texture(reader *r, uint32_t info, mesh_material *material)
+/* info: a textureInfo; JSON_NONE leaves the texture as it is. */
+static ffd_status read_texture(reader *r, uint32_t info, mesh_texture *to)
 {
+    if (info == JSON_NONE)
+        return FFD_OK;
     const gltf_document *const d = r->document;
     const size_t index =
         ffd_gltf_index(d, ffd_json_tree_member(&d->tree, info, "index"), d->texture_values.count);
     if (index == GLTF_NONE)
-        return leave_texture(r, GLTF_NONE, "that a material names is not there", &material->image);
+        return leave_texture(r, GLTF_NONE, "that a material names is not there", &to->image);
     const uint32_t texture = d->texture_values.values[index];
     const size_t sampler =
         ffd_gltf_index(d, ffd_json_tree_member(&d->tree, texture, "sampler"), d->sampler_values.count);
-    const size_t image =
-        ffd_gltf_index(d, ffd_json_tree_member(&d->tree, texture, "source"), d->image_values.count);
+    const size_t image = find_image(d, texture);
     if (sampler != GLTF_NONE) {
-        material->wrap[0] = read_wrap(d, d->sampler_values.values[sampler], "wrapS");
-        material->wrap[1] = read_wrap(d, d->sampler_values.values[sampler], "wrapT");
+        to->wrap[0] = read_wrap(d, d->sampler_values.values[sampler], "wrapS");
+        to->wrap[1] = read_wrap(d, d->sampler_values.values[sampler], "wrapT");
     }
-    return image == GLTF_NONE ? leave_texture(r, index, why_no_image(d, texture), &material->image)
-                              : load_image(d, &r->images, image, &material->image, r->error);
+    return image == GLTF_NONE ? leave_texture(r, index, why_no_image(d, texture), &to->image)
+                              : load_image(d, &r->images, image, &to->image, r->error);
+}
+
+static void read_emission(const gltf_document *d, uint32_t material, double emission[3])
+{
+    const uint32_t stronger = ffd_gltf_extension(d, material, "KHR_materials_emissive_strength");
+    double strength = 1;
+    read_factor(&d->tree, ffd_json_tree_member(&d->tree, material, "emissiveFactor"), 3, emission);
+    ffd_json_tree_number(&d->tree, ffd_json_tree_member(&d->tree, stronger, "emissiveStrength"), &strength);
+    for (int c = 0; c < 3 && strength >= 0 && strength <= DBL_MAX; c++)
+        emission[c] *= strength;
 }
 
 static char *name_of(const gltf_document *d, uint32_t material)
@@ -250,10 +274,13 @@ static ffd_status read_material(reader *r, uint32_t value)
     mesh_material *const m = &materials->list[materials->count - 1];
     const base_colour colour = find_colour(d, value);
     const uint32_t sides = ffd_json_tree_member(&d->tree, value, "doubleSided");
-    read_factor(&d->tree, colour.factor, m->color);
-    m->alpha_cutoff = read_cutoff(d, value);
+    read_factor(&d->tree, colour.factor, 4, m->color);
+    read_alpha(d, value, m);
+    read_emission(d, value, m->emission);
     m->is_double_sided = sides != JSON_NONE && d->tree.values[sides].kind == JSON_TRUE;
-    return colour.texture == JSON_NONE ? FFD_OK : read_texture(r, colour.texture, m);
+    m->is_unlit = ffd_gltf_has_extension(d, value, "KHR_materials_unlit");
+    TRY(read_texture(r, colour.texture, &m->base));
+    return read_texture(r, ffd_json_tree_member(&d->tree, value, "emissiveTexture"), &m->glow);
 }
 
 ffd_status ffd_gltf_list_materials(mesh_document *document, const mesh_log *log, mesh_materials *materials,

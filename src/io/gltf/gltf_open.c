@@ -72,7 +72,10 @@ static ffd_status find_json(gltf_document *d, ffd_format format, ffd_error *erro
     }
     if (d->input.mapped)
         TRY(copy_json(d, &text, size, error));
-    const json_input json = {.text = text, .size = size, .name = d->name, .rules = JSON_ALLOW_MARK};
+    const json_input json = {.text = text,
+                             .size = size,
+                             .name = d->name,
+                             .rules = JSON_ALLOW_MARK | (d->binary ? JSON_NO_LINES : 0)};
     TRY(ffd_json_parse(&json, &d->tree, error));
     return ffd_budget_take(&d->base.budget, d->tree.count, sizeof *d->tree.values, error);
 }

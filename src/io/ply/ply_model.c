@@ -3,6 +3,7 @@
 #include "base/system/deadline.h"
 #include "io/ply/ply_document.h"
 #include "io/ply/ply_textures.h"
+#include "splat/splat_color.h"
 #include <string.h>
 
 /* What the model takes of a vertex besides its position and normal. */
@@ -12,6 +13,7 @@ typedef struct extractor {
     const ply_document *document;
     mesh_model *model;
     const ply_property *roles[ROLE_COUNT]; /* NULL: absent */
+    bool has_harmonics;                    /* the colours are those of splats */
     const ply_property *face_texcoords;    /* the list texcoord of the faces; NULL: none */
     size_t taken_texcoords;                /* of the faces so far */
     const ply_property *face_colours[4];   /* red, green, blue, alpha of the faces; red NULL: none */
@@ -24,6 +26,20 @@ static const ply_property *find_scalar(const ply_element *element, const char *n
 {
     const ply_property *found = ffd_ply_find_property(element, name);
     return found && !found->is_list ? found : NULL;
+}
+
+/* Finds the colours of Gaussian splats, where whoever shows the model wants them. */
+static void find_harmonics(extractor *e)
+{
+    static const char *const names[] = {"f_dc_0", "f_dc_1", "f_dc_2", "opacity"};
+    const ply_property *found[4];
+    if (e->roles[ROLE_RED] || !e->model->wants_details)
+        return;
+    for (size_t c = 0; c < 4; c++)
+        found[c] = find_scalar(e->document->vertex, names[c]);
+    for (int c = 0; c < 4 && found[0] && found[1] && found[2]; c++)
+        e->roles[ROLE_RED + c] = found[c];
+    e->has_harmonics = e->roles[ROLE_RED];
 }
 
 /* Finds texture coordinates and colours by the names that programs use. Both coordinates, or all three
@@ -46,6 +62,7 @@ static void find_roles(extractor *e)
         for (int c = 0; c < 4 && found[0] && found[1] && found[2]; c++)
             e->roles[ROLE_RED + c] = found[c];
     }
+    find_harmonics(e);
     const ply_element *face = e->document->face;
     for (size_t i = 0; face && i < sizeof colours / sizeof *colours && !e->face_colours[0]; i++) {
         const ply_property *found[4];
@@ -83,7 +100,10 @@ static ffd_status set_value(extractor *e, const ply_walk *walk, size_t vertex, i
                              "%.*s of vertex %zu (counted from 0) is not a number: \"%.*s\"",
                              ffd_text_display_size(e->roles[role]->name), e->roles[role]->name.first, vertex,
                              ffd_text_display_size(word), word.first);
-    if (role >= ROLE_RED)
+    if (role >= ROLE_RED && e->has_harmonics)
+        e->model->colours[4 * vertex + (size_t)(role - ROLE_RED)] =
+            role == ROLE_ALPHA ? splat_opacity(value) : splat_color(value);
+    else if (role >= ROLE_RED)
         e->model->colours[4 * vertex + (size_t)(role - ROLE_RED)] = value / scale_of(type);
     else if (!e->face_texcoords)
         e->model->texcoords[2 * vertex + (size_t)role] = value;

@@ -42,7 +42,7 @@ static void write_name(model_sink *sink, const char *keyword, const char *name)
 
 static void write_names(model_sink *sink, const mesh_model *model, size_t r)
 {
-    static const model_run nothing = {MODEL_NONE, MODEL_NONE, MODEL_NONE, {0}, MODEL_NONE};
+    static const model_run nothing = {MODEL_NONE, MODEL_NONE, MODEL_NONE, {0}, MODEL_NONE, 0};
     const model_run *run = &model->runs[r], *before = r > 0 ? run - 1 : &nothing;
     if (run->object != before->object)
         write_name(sink, "o", model_name(model, run->object));

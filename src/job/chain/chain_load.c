@@ -35,7 +35,7 @@ static ffd_status fit(const chain_files *files, ffd_job_cache *cache, chain_link
 {
     const bool names_meshes = ffd_lattice_get_mesh_count(link->lattice) > 0;
     mesh_boxes own = {0};
-    ffd_bounds box;
+    fit_extent extent;
     ffd_status status = FFD_OK;
     *fitted = !ffd_lattice_needs_bounds(link->lattice);
     if (*fitted || (!names_meshes && !files->shared))
@@ -43,11 +43,11 @@ static ffd_status fit(const chain_files *files, ffd_job_cache *cache, chain_link
     *fitted = true;
     if (names_meshes)
         status = ffd_mesh_box_find(cache ? ffd_job_cache_mesh_boxes(cache) : &own, link->lattice, files->mesh,
-                                   &box, &link->box_files, files->log, error);
+                                   &extent, &link->box_files, files->log, error);
     else
-        box = ffd_shown_box_bounds(&files->shared->box);
+        extent = ffd_shown_box_extent(&files->shared->box);
     ffd_mesh_boxes_free(&own);
-    return status ? status : ffd_lattice_fit(link->lattice, box.min, box.max, error);
+    return status ? status : ffd_lattice_fit_extent(link->lattice, &extent, error);
 }
 
 /* Adds to open the placeholders of a lattice that have no value, if it can be read once more. */

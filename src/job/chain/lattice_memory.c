@@ -39,7 +39,7 @@ ffd_status ffd_lattice_memory_load(const ffd_lattice_source *source, const spec_
     ffd_status status;
     TRY_END(ffd_spec_load(source, settings, &spec, &size, error));
     TRY_END(ffd_lattice_memory_take(budget, spec, size, error));
-    TRY_END(ffd_spec_build(spec, NULL, NULL, lattice, error));
+    TRY_END(ffd_spec_build(spec, NULL, lattice, error));
 end:
     if (status)
         ffd_spec_free(spec);

@@ -89,14 +89,14 @@ static ffd_status measure(mesh_box *box, const ffd_source *like, ffd_error *erro
     box->rules = ffd_source_rules(like);
     for (size_t i = 0; i < box->meshes.count; i++)
         TRY(add_mesh(box, box->meshes.paths[i], like, &shown, error));
-    box->bounds = ffd_shown_box_bounds(&shown);
+    box->extent = ffd_shown_box_extent(&shown);
     return FFD_OK;
 }
 
-static ffd_status copy(const mesh_box *box, ffd_bounds *bounds, path_list *files, const mesh_log *log,
+static ffd_status copy(const mesh_box *box, fit_extent *extent, path_list *files, const mesh_log *log,
                        ffd_error *error)
 {
-    *bounds = box->bounds;
+    *extent = box->extent;
     for (size_t i = 0; i < box->warnings.count; i++)
         ffd_log_line(log, FFD_LOG_WARNING, "%s", box->warnings.paths[i]);
     for (size_t i = 0; i < box->files.count; i++)
@@ -105,7 +105,7 @@ static ffd_status copy(const mesh_box *box, ffd_bounds *bounds, path_list *files
 }
 
 ffd_status ffd_mesh_box_find(mesh_boxes *kept, const ffd_lattice *lattice, const ffd_source *like,
-                             ffd_bounds *bounds, path_list *files, const mesh_log *log, ffd_error *error)
+                             fit_extent *extent, path_list *files, const mesh_log *log, ffd_error *error)
 {
     mesh_box made = {0};
     ffd_status status;
@@ -113,10 +113,10 @@ ffd_status ffd_mesh_box_find(mesh_boxes *kept, const ffd_lattice *lattice, const
     const mesh_box *const known = find(kept, &made.meshes, like);
     if (known) {
         free_box(&made);
-        return copy(known, bounds, files, log, error);
+        return copy(known, extent, files, log, error);
     }
     TRY_END(measure(&made, like, error));
-    TRY_END(copy(&made, bounds, files, log, error));
+    TRY_END(copy(&made, extent, files, log, error));
     free_box(&kept->boxes[kept->next]);
     kept->boxes[kept->next] = made;
     kept->next = (kept->next + 1) % MESH_BOXES;

@@ -6,6 +6,7 @@
 #include "base/file/input.h"
 #include "base/file/path_list.h"
 #include "base/memory/hash.h"
+#include "lattice/lattice.h"
 #include "mesh/mesh_log.h"
 #include <ffd/job.h>
 #include <ffd/lattice.h>
@@ -17,7 +18,7 @@ typedef struct mesh_box {
     path_list files;    /* read for this box */
     file_stamp *stamps; /* files.count entries */
     size_t stamp_count, stamp_capacity;
-    ffd_bounds bounds;
+    fit_extent extent;
     path_list warnings; /* about flaws of the meshes */
 } mesh_box;
 
@@ -30,11 +31,11 @@ typedef struct mesh_boxes {
     size_t next; /* index of the one to replace next */
 } mesh_boxes;
 
-/* Finds the bounds of the meshes that a lattice file names. Adds the files read to `files`, and logs flaws of
+/* Finds the extent of the meshes that a lattice file names. Adds the files read to `files`, and logs flaws of
    the meshes in `log` (may be NULL). like: options for reading them; its path and format are ignored. Errors:
    those of reading the meshes. */
 ffd_status ffd_mesh_box_find(mesh_boxes *kept, const ffd_lattice *lattice, const ffd_source *like,
-                             ffd_bounds *bounds, path_list *files, const mesh_log *log, ffd_error *error);
+                             fit_extent *extent, path_list *files, const mesh_log *log, ffd_error *error);
 /* Frees all boxes. */
 void ffd_mesh_boxes_free(mesh_boxes *kept);
 

@@ -8,6 +8,9 @@
 #include "job/input/source.h"
 #include "mesh/bounds.h"
 
+/* Vertices that are read at once. */
+#define BLOCK 256
+
 static bool is_empty(const ffd_bounds *box)
 {
     return !(box->min[0] <= box->max[0]);
@@ -23,13 +26,15 @@ static void join(ffd_bounds *box, const ffd_bounds *other)
 
 void ffd_shown_box_clear(shown_box *box)
 {
-    box->shown = box->all = ffd_bounds_empty();
+    box->shown = box->all = box->shape_shown = box->shape_all = ffd_bounds_empty();
 }
 
 void ffd_shown_box_join(shown_box *box, const shown_box *other)
 {
     join(&box->shown, &other->shown);
     join(&box->all, &other->all);
+    join(&box->shape_shown, &other->shape_shown);
+    join(&box->shape_all, &other->shape_all);
 }
 
 /* A part, and the box of its positions. */
@@ -38,15 +43,34 @@ typedef struct part_box {
     shown_box *box;
 } part_box;
 
+static void widen_by(const part_box *of, size_t vertex, const double place[3], ffd_bounds *all,
+                     ffd_bounds *shown)
+{
+    if (!ffd_part_selects(of->part, vertex) || !vec_is_finite(place))
+        return;
+    ffd_bounds_widen(all, place);
+    if (ffd_part_shows(of->part, vertex))
+        ffd_bounds_widen(shown, place);
+}
+
 static bool widen(void *context, size_t vertex, const double place[3])
 {
     const part_box *const of = context;
-    if (!ffd_part_selects(of->part, vertex) || !vec_is_finite(place))
-        return true;
-    ffd_bounds_widen(&of->box->all, place);
-    if (ffd_part_shows(of->part, vertex))
-        ffd_bounds_widen(&of->box->shown, place);
+    widen_by(of, vertex, place, &of->box->all, &of->box->shown);
     return true;
+}
+
+/* Widens the bounds of the shape shown. */
+static void widen_shape(const mesh_document *document, size_t part, const part_box *of)
+{
+    const size_t vertices = of->part->vertex_count;
+    double xyz[3 * BLOCK];
+    for (size_t first = 0; first < vertices; first += BLOCK) {
+        const size_t left = vertices - first, count = left < BLOCK ? left : BLOCK;
+        ffd_source_positions(document, MESH_SHOWN, part, first, count, xyz);
+        for (size_t i = 0; i < count; i++)
+            widen_by(of, first + i, xyz + 3 * i, &of->box->shape_all, &of->box->shape_shown);
+    }
 }
 
 ffd_status ffd_shown_box_add(shown_box *box, const ffd_source *source, const char *const *only,
@@ -63,8 +87,10 @@ ffd_status ffd_shown_box_add(shown_box *box, const ffd_source *source, const cha
     TRY_END(ffd_mesh_mark_used(document, error));
     for (size_t i = 0; i < document->part_count; i++) {
         part_box of = {&document->parts[i], box};
-        if (!of.part->repeats_positions)
-            ffd_source_visit_places(document, i, widen, &of);
+        if (of.part->repeats_positions)
+            continue;
+        ffd_source_visit_places(document, i, widen, &of);
+        widen_shape(document, i, &of);
     }
     if (files)
         TRY_END(ffd_source_files(source, document, files, error));
@@ -77,12 +103,17 @@ end:
     return status;
 }
 
-ffd_bounds ffd_shown_box_bounds(const shown_box *box)
+static const ffd_bounds *choose(const ffd_bounds *shown, const ffd_bounds *all)
 {
     static const ffd_bounds unit = {{0, 0, 0}, {1, 1, 1}};
-    if (!is_empty(&box->shown))
-        return box->shown;
-    return is_empty(&box->all) ? unit : box->all;
+    if (!is_empty(shown))
+        return shown;
+    return is_empty(all) ? &unit : all;
+}
+
+fit_extent ffd_shown_box_extent(const shown_box *box)
+{
+    return ffd_fit_extent(choose(&box->shown, &box->all), choose(&box->shape_shown, &box->shape_all));
 }
 
 ffd_status ffd_shared_box_create(ffd_shared_box **box, ffd_error *error)

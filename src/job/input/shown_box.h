@@ -4,6 +4,7 @@
 #define FFD_JOB_INPUT_SHOWN_BOX_H
 
 #include "base/file/path_list.h"
+#include "lattice/lattice.h"
 #include "mesh/mesh_log.h"
 #include <ffd/job.h>
 
@@ -11,12 +12,27 @@
 typedef struct shown_box {
     ffd_bounds shown; /* of the selected vertices that are visible */
     ffd_bounds all;   /* of all selected vertices */
+    /* The same of one shape only, that which default weights of morph targets show. */
+    ffd_bounds shape_shown, shape_all;
 } shown_box;
 
 struct ffd_shared_box {
     shown_box box;
     path_list files; /* read for this box */
 };
+
+/* Joins the bounds of all shapes and of the shape shown. */
+static inline fit_extent ffd_fit_extent(const ffd_bounds *all, const ffd_bounds *shown)
+{
+    fit_extent extent;
+    for (int a = 0; a < 3; a++) {
+        extent.min[a] = all->min[a];
+        extent.max[a] = all->max[a];
+        extent.shown_min[a] = shown->min[a];
+        extent.shown_max[a] = shown->max[a];
+    }
+    return extent;
+}
 
 /* Makes the box empty. */
 void ffd_shown_box_clear(shown_box *box);
@@ -28,6 +44,6 @@ ffd_status ffd_shown_box_add(shown_box *box, const ffd_source *source, const cha
                              size_t only_count, path_list *files, const mesh_log *log, ffd_error *error);
 /* Returns the bounds that a lattice goes round: of the visible vertices; if there are none, of all selected
    ones; without vertices, the unit cube. */
-ffd_bounds ffd_shown_box_bounds(const shown_box *box);
+fit_extent ffd_shown_box_extent(const shown_box *box);
 
 #endif

@@ -192,7 +192,7 @@ static ffd_status load_changed(const jacobian *j, const spec_variable *variable,
         const ffd_lattice *const like = j->job.chain.links[l].lattice;
         if (chain->links[l].locator)
             continue;
-        TRY_END(ffd_lattice_fit(chain->links[l].lattice, like->fitted_min, like->fitted_max, error));
+        TRY_END(ffd_lattice_fit_extent(chain->links[l].lattice, &like->fitted, error));
         TRY_END(ffd_chain_prepare(chain, l, error));
     }
 end:

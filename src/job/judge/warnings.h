@@ -1,5 +1,6 @@
 /* warnings.h - what a job says of its figures: of vertices (vertices.c), folds (folds.c), torn edges
-   (tears.c), what stays behind (behind.c), and of moves that move nothing (still.c). */
+   (tears.c), what stays behind (behind.c), and of moves that move nothing (still.c) or less than they say
+   (places.c). */
 #ifndef FFD_JOB_JUDGE_WARNINGS_H
 #define FFD_JOB_JUDGE_WARNINGS_H
 
@@ -31,6 +32,12 @@ void ffd_tears_warn(const ffd_job_result *result, bool selects, const mesh_log *
 /* Logs one line for each kind of thing left behind; with FFD_RIG_KEEP none for joints, pivots and sockets
    (ffd_rig_warn). */
 void ffd_behind_warn(const ffd_job_result *result, ffd_rig rig, const mesh_log *log);
+
+/* Warns, for each lattice, of a pull or a falloff with a centre that moves its place by less than half of
+   what was asked, which sets *falls_short, and of a drag that misses places. Errors: FFD_E_MEMORY, and those
+   of searches. */
+ffd_status ffd_places_warn(const lattice_chain *chain, const mesh_log *log, bool *falls_short,
+                           ffd_error *error);
 
 /* Warns of lattices whose moves move no control point; and if no vertex moves, though lattices hold vertices
    and move control points, that none of these acts on a vertex, or that the floats of the output are too

@@ -2,6 +2,7 @@
 #include "job/chain/chain_boxes.h"
 #include "job/chain/chain_load.h"
 #include "job/chain/seams.h"
+#include "job/input/shown_box.h"
 #include "job/pass/pass.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
@@ -33,19 +34,19 @@ static bool is_empty(const ffd_bounds *box)
     return false;
 }
 
-/* The box of the selected visible vertices as the first `links` links leave them; if no selected vertex is
+/* The bounds of the selected visible vertices as the first `links` links leave them; if no selected vertex is
    visible, of all selected ones. */
-static ffd_status find_box(const lattice_chain *chain, size_t links, mesh_document *document, int threads,
-                           ffd_bounds *box, ffd_error *error)
+static ffd_status find_bounds(const lattice_chain *chain, size_t links, mesh_document *document,
+                              mesh_state state, int threads, ffd_bounds *box, ffd_error *error)
 {
     mesh_pass pass = {.document = document,
+                      .state = state,
                       .chain = chain,
                       .links = links,
                       .threads = threads,
-                      .bounds_shapes = true,
+                      .bounds_shapes = state == MESH_STORED,
                       .bounds_of = PASS_BOUNDS_SHOWN};
     pass_totals totals;
-    TRY(ffd_mesh_mark_used(document, error));
     TRY(ffd_pass_over_mesh(&pass, &totals, error));
     pass.bounds_of = PASS_BOUNDS_ALL;
     if (is_empty(&totals.after) && is_empty(&totals.shapes))
@@ -60,11 +61,33 @@ static ffd_status find_box(const lattice_chain *chain, size_t links, mesh_docume
     return FFD_OK;
 }
 
-static ffd_status fit_link(lattice_chain *chain, size_t l, const ffd_bounds *box, ffd_error *error)
+static bool has_shapes(const mesh_document *document)
+{
+    for (size_t i = 0; i < document->part_count; i++)
+        if (document->parts[i].shape_count > 0)
+            return true;
+    return false;
+}
+
+static ffd_status find_extent(const lattice_chain *chain, size_t link, mesh_document *document, int threads,
+                              fit_extent *extent, ffd_error *error)
+{
+    const size_t links = chain->blocks ? 0 : link;
+    ffd_bounds all, shown;
+    TRY(ffd_mesh_mark_used(document, error));
+    TRY(find_bounds(chain, links, document, MESH_STORED, threads, &all, error));
+    shown = all;
+    if (has_shapes(document) && chain->links[link].lattice->spec->units == UNITS_MESH)
+        TRY(find_bounds(chain, links, document, MESH_SHOWN, threads, &shown, error));
+    *extent = ffd_fit_extent(&all, &shown);
+    return FFD_OK;
+}
+
+static ffd_status fit_link(lattice_chain *chain, size_t l, const fit_extent *extent, ffd_error *error)
 {
     ffd_lattice *const lattice = chain->links[l].lattice;
     ffd_status status;
-    TRY_END(ffd_lattice_fit(lattice, box->min, box->max, error));
+    TRY_END(ffd_lattice_fit_extent(lattice, extent, error));
     TRY_END(ffd_chain_prepare(chain, l, error));
 end:
     if (status)
@@ -78,10 +101,10 @@ ffd_status ffd_chain_fit(lattice_chain *chain, mesh_document *document, int thre
     for (size_t l = 0; l < chain->count; l++) {
         if (chain->links[l].locator)
             continue;
-        ffd_bounds box;
+        fit_extent extent;
         TRY(check_reach(NULL, l, document, error));
-        TRY(find_box(chain, chain->blocks ? 0 : l, document, usable, &box, error));
-        TRY(fit_link(chain, l, &box, error));
+        TRY(find_extent(chain, l, document, usable, &extent, error));
+        TRY(fit_link(chain, l, &extent, error));
     }
     TRY(ffd_chain_boxes(chain, error));
     TRY(ffd_seams_find(chain, error));

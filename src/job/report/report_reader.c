@@ -178,11 +178,10 @@ static ffd_status check_members(const json_tree *tree, const char *name, ffd_err
     return FFD_OK;
 }
 
-/* Turns a pointer into an entry into one into the report or, for JSON Lines, adds the line. */
+/* Turns a pointer into an entry into one into the report. That into a line of JSON Lines stays. */
 static void extend_pointer(const report_reader *reader, const report_entry_text *entry, ffd_error *error)
 {
     if (reader->lines) {
-        error->pointer[0] = 0;
         error->line = line_of(reader, entry->bytes);
         return;
     }

@@ -40,7 +40,7 @@ typedef struct view_work {
 
 void ffd_view_desc_init(ffd_view_desc *desc, size_t size)
 {
-    const ffd_view_desc defaults = {.struct_size = sizeof defaults};
+    const ffd_view_desc defaults = {.struct_size = sizeof defaults, .color = FFD_VIEW_AUTO};
     ffd_struct_give(&defaults, sizeof defaults, desc, size);
 }
 
@@ -63,8 +63,9 @@ static view_picture_options describe_picture(const view_work *work)
                                   .height = desc->height,
                                   .frames = has_poses && !desc->frames ? VIEW_POSES : desc->frames,
                                   .rows = has_poses ? has_after(desc) ? 2 : 1 : 0,
-                                  .color = desc->color,
+                                  .color = desc->color == FFD_VIEW_AUTO ? FFD_VIEW_DISPLACEMENT : desc->color,
                                   .camera = {desc->camera[0], desc->camera[1], desc->camera[2]},
+                                  .up = desc->up,
                                   .threads = work->job.threads,
                                   .budget = work->job.document ? &work->job.document->budget : NULL,
                                   .log = &work->job.log};
@@ -76,7 +77,9 @@ static ffd_status check_desc(const view_work *work, ffd_error *error)
     if (!desc->output || (desc->deformed && !desc->deformed->path))
         return ffd_fail(error, FFD_E_ARGUMENT, "the view's description is not complete");
     const view_picture_options picture = describe_picture(work);
-    if ((int)desc->color < FFD_VIEW_DISPLACEMENT || desc->color > FFD_VIEW_PLAIN)
+    if ((int)desc->up < FFD_UP_Y || desc->up > FFD_UP_X)
+        return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a value of up", (int)desc->up);
+    if ((int)desc->color < FFD_VIEW_DISPLACEMENT || desc->color > FFD_VIEW_AUTO)
         return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a value of color", (int)desc->color);
     for (int a = 0; a < 3; a++)
         if (!isfinite(desc->camera[a]))
@@ -109,17 +112,14 @@ static ffd_status read_model(view_work *work, ffd_error *error)
     work->model_bytes = document->budget.taken - before;
     if (status || !document->format->list_materials)
         return status;
-    /* A page shows no images. */
-    const mesh_log *const log = is_page(work->desc->output) ? NULL : &work->job.log;
-    return document->format->list_materials(document, log, &work->scene.materials, error);
+    return document->format->list_materials(document, &work->job.log, &work->scene.materials, error);
 }
 
 /* Makes the report of this job alone, without times: the same job makes the same page. */
 static ffd_status make_report(view_work *work, const ffd_job_result *result, ffd_error *error)
 {
     byte_buffer text = {0};
-    const report_entry entry = {
-        .input = ffd_source_name(&work->desc->job->input), .result = result, .stable = true};
+    const report_entry entry = {.input = work->scene.name, .result = result, .stable = true};
     ffd_buffer_text(&text, "{\"format\": \"ffd-report\", \"version\": 1, \"jobs\": [");
     ffd_report_entry_text(&entry, &text);
     ffd_buffer_text(&text, "]}");
@@ -127,11 +127,13 @@ static ffd_status make_report(view_work *work, const ffd_job_result *result, ffd
     return work->scene.report ? FFD_OK : ffd_fail_memory(error);
 }
 
+/* Names of files without their folders: a page is sent to people who need not know where its maker keeps
+   things. */
 static ffd_status name_scene(view_work *work, ffd_error *error)
 {
     const ffd_source *const deformed = work->desc->deformed;
-    work->scene.name = ffd_text_copy(ffd_source_name(&work->desc->job->input));
-    work->scene.output = deformed ? ffd_text_copy(ffd_source_name(deformed)) : NULL;
+    work->scene.name = ffd_text_copy(ffd_path_name(ffd_source_name(&work->desc->job->input)));
+    work->scene.output = deformed ? ffd_text_copy(ffd_path_name(ffd_source_name(deformed))) : NULL;
     return work->scene.name && (work->scene.output || !deformed) ? FFD_OK : ffd_fail_memory(error);
 }
 
@@ -160,7 +162,9 @@ static ffd_status take_findings(view_work *work, const ffd_job_result *result, f
     TRY(ffd_view_take_mesh(&work->model, &work->scene, &work->faces, &job->log, error));
     TRY(ffd_view_place_after(&work->model, work->details.deformed, &work->scene, error));
     TRY(ffd_view_add_marks(job, result, &work->model, work->faces, &work->scene, error));
-    TRY(ffd_view_add_cages(&job->chain, work->desc->job->lattices, &work->scene, error));
+    TRY(ffd_view_add_splats(job->document, NULL, work->details.gradients, &work->scene, error));
+    if (!work->desc->no_cage)
+        TRY(ffd_view_add_cages(&job->chain, work->desc->job->lattices, &work->scene, error));
     TRY(make_rigs(work, true, error));
     return make_report(work, result, error);
 }
@@ -216,7 +220,8 @@ static ffd_status load_cages(view_work *work, ffd_error *error)
     TRY(ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(&desc->input), job->document,
                             error));
     TRY(ffd_chain_fit(&job->chain, job->document, job->threads, error));
-    return ffd_view_add_cages(&job->chain, desc->lattices, &work->scene, error);
+    return work->desc->no_cage ? FFD_OK
+                               : ffd_view_add_cages(&job->chain, desc->lattices, &work->scene, error);
 }
 
 /* Reads the positions of all vertices, in the order of `ffd embed`. */
@@ -269,6 +274,7 @@ static ffd_status read_files(view_work *work, ffd_error *error)
     TRY(ffd_view_take_mesh(&work->model, &work->scene, &work->faces, &work->job.log, error));
     TRY(work->desc->deformed ? read_deformed(work, error)
                              : ffd_view_place_after(&work->model, NULL, &work->scene, error));
+    TRY(ffd_view_add_splats(work->job.document, work->other, NULL, &work->scene, error));
     TRY(load_cages(work, error));
     return make_rigs(work, false, error);
 }
@@ -279,6 +285,8 @@ static ffd_status write_page(const view_work *work, file_output *output, ffd_err
     const view_page_options options = {.full = desc->full,
                                        .color = desc->color,
                                        .camera = {desc->camera[0], desc->camera[1], desc->camera[2]},
+                                       .up = desc->up,
+                                       .budget = work->job.document ? &work->job.document->budget : NULL,
                                        .log = &work->job.log};
     return ffd_view_page_write(&work->scene, &options, output, error);
 }

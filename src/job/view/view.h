@@ -1,6 +1,7 @@
 /* view.h - the steps in which `ffd view` makes its scene, each in a source of its own: the inputs that the
    output must not replace (view_inputs.c), the geometry (view_mesh.c), which vertices of two files are the
-   same (view_order.c), marks and control lattices (view_marks.c), animations (view_rigs.c). */
+   same (view_order.c), marks and control lattices (view_marks.c), animations (view_rigs.c), Gaussian splats
+   (view_splats.c). */
 #ifndef FFD_JOB_VIEW_VIEW_H
 #define FFD_JOB_VIEW_VIEW_H
 
@@ -67,5 +68,11 @@ typedef struct view_rigs_desc {
 /* Fills the scene's rigs and animations, and finds the one to show. Errors: FFD_E_ARGUMENT (there is no such
    animation), those of reading its keys, FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_view_make_rigs(const view_rigs_desc *desc, view_scene *scene, ffd_error *error);
+
+/* Adds the Gaussian splats of the mesh before, if it has any. After they are those of the other mesh, or are
+   carried by the gradients of the deformation (9 for each vertex of the mesh; NULL: none). Errors:
+   FFD_E_LIMIT, FFD_E_MEMORY. */
+ffd_status ffd_view_add_splats(mesh_document *before, mesh_document *after, const double *gradients,
+                               view_scene *scene, ffd_error *error);
 
 #endif

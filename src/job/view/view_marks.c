@@ -138,7 +138,7 @@ ffd_status ffd_view_add_cages(const lattice_chain *chain, const ffd_lattice_sour
             cage->size[a] = lattice->size[a];
             cage->closed[a] = ffd_knots_closed(&lattice->knots[a]);
         }
-        cage->name = ffd_text_copy(ffd_lattice_name(&sources[l]));
+        cage->name = ffd_text_copy(ffd_path_name(ffd_lattice_name(&sources[l])));
         cage->rest = copy_points(lattice->rest, lattice->count);
         cage->deformed = copy_points(lattice->deformed, lattice->count);
         if (!cage->name || !cage->rest || !cage->deformed)

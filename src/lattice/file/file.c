@@ -16,7 +16,7 @@
 /* Makes the lattice of a spec. Takes ownership of the spec, also after a failure. */
 static ffd_status build(lattice_spec *spec, ffd_lattice **lattice, ffd_error *error)
 {
-    const ffd_status status = ffd_spec_build(spec, NULL, NULL, lattice, error);
+    const ffd_status status = ffd_spec_build(spec, NULL, lattice, error);
     if (status)
         ffd_spec_free(spec);
     return status;
@@ -215,13 +215,23 @@ ffd_status ffd_lattice_get_mesh(const ffd_lattice *lattice, size_t i, char **pat
 
 ffd_status ffd_lattice_fit(ffd_lattice *lattice, const double min[3], const double max[3], ffd_error *error)
 {
+    fit_extent extent;
+    for (int c = 0; c < 3; c++) {
+        extent.min[c] = extent.shown_min[c] = min[c];
+        extent.max[c] = extent.shown_max[c] = max[c];
+    }
+    return ffd_lattice_fit_extent(lattice, &extent, error);
+}
+
+ffd_status ffd_lattice_fit_extent(ffd_lattice *lattice, const fit_extent *extent, ffd_error *error)
+{
     if (!ffd_lattice_needs_bounds(lattice))
         return FFD_OK;
     /* Builds a new lattice first, so that a failure leaves the old one unchanged. */
     ffd_lattice *fitted;
     const lattice_spec now = edited_spec(lattice);
     lattice_spec *const spec = lattice->edited ? ffd_spec_copy(&now) : lattice->spec;
-    const ffd_status status = spec ? ffd_spec_build(spec, min, max, &fitted, error) : ffd_fail_memory(error);
+    const ffd_status status = spec ? ffd_spec_build(spec, extent, &fitted, error) : ffd_fail_memory(error);
     if (status) {
         if (lattice->edited)
             ffd_spec_free(spec);

@@ -200,16 +200,36 @@ static ffd_status read_deformed(json_cursor cursor, lattice_spec *spec)
 
 static ffd_status read_units(json_cursor cursor, lattice_spec *spec)
 {
-    static const char *const names[] = {"world", "box"};
+    static const char *const names[] = {"world", "box", "mesh"};
+    static const lattice_units units[] = {UNITS_WORLD, UNITS_BOX, UNITS_MESH};
     size_t index;
-    const ffd_status status = ffd_json_read_word(cursor, names, COUNT_OF(names), &index);
-    spec->box_units = index == 1;
-    return status;
+    TRY(ffd_json_read_word(cursor, names, COUNT_OF(names), &index));
+    spec->units = units[index];
+    if (spec->units != UNITS_MESH || spec->rest == SPEC_BOX_MESH)
+        return FFD_OK;
+    return ffd_cursor_fail(
+        cursor, "\"mesh\" needs a rest box round a mesh: {\"box\": \"mesh\"} or {\"meshes\": [..]}");
 }
 
 static ffd_status read_rest_weights(json_cursor cursor, lattice_spec *spec)
 {
     return read_weights(cursor, spec->count, &spec->weights);
+}
+
+static size_t line_of(json_cursor cursor)
+{
+    return ffd_cursor_exists(cursor) ? ffd_cursor_line(cursor) : 0;
+}
+
+/* Notes the lines of what is judged when the lattice is built. */
+static void note_lines(json_cursor root, lattice_spec *spec)
+{
+    json_cursor knots = ffd_cursor_first(ffd_cursor_member(root, "knots"));
+    for (int a = 0; a < 3 && ffd_cursor_exists(knots); a++, knots = ffd_cursor_next(knots))
+        spec->knots_line[a] = ffd_cursor_line(knots);
+    const json_cursor rest = ffd_cursor_member(root, "rest");
+    spec->rest_line = line_of(ffd_cursor_first(rest));
+    spec->units_line = line_of(ffd_cursor_member(root, "units"));
 }
 
 /* Reads all members except the moves, in the order of their dependencies. Only size and rest are required;
@@ -237,6 +257,7 @@ static ffd_status read_members(json_cursor root, lattice_spec *spec)
         if (ffd_cursor_exists(cursor) || member->has_default)
             TRY(member->read(cursor, spec));
     }
+    note_lines(root, spec);
     return FFD_OK;
 }
 
@@ -252,6 +273,7 @@ static ffd_status check_kind(json_cursor root)
 static ffd_status read_root(json_cursor root, bool with_moves, lattice_spec *spec)
 {
     const json_cursor moves = ffd_cursor_member(root, "moves");
+    TRY(ffd_spec_refuse_actions(root));
     TRY(ffd_spec_read_object(root, top_keys, COUNT_OF(top_keys)));
     TRY(read_members(root, spec));
     if (with_moves && ffd_cursor_exists(moves))

@@ -2,16 +2,32 @@
 #include "base/memory/memory.h"
 #include "base/text/number.h"
 #include "base/vector/direction.h"
+#include "lattice/drag.h"
 #include "lattice/file/spec_values.h"
 #include <stdio.h>
 #include <string.h>
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
 
-/* Reads an index of control points; a negative one counts from the end. */
+/* Finds the index that a word stands for. */
+static bool find_layer(json_cursor cursor, size_t size, size_t *index)
+{
+    static const char *const firsts[] = {"first", "bottom"}, *const lasts[] = {"last", "top"};
+    for (size_t i = 0; i < COUNT_OF(firsts); i++) {
+        const bool is_last = ffd_json_tree_string_is(cursor.tree, cursor.value, lasts[i]);
+        *index = is_last ? size - 1 : 0;
+        if (is_last || ffd_json_tree_string_is(cursor.tree, cursor.value, firsts[i]))
+            return true;
+    }
+    return false;
+}
+
+/* Reads an index of control points, or a word for one; a negative one counts from the end. */
 static ffd_status read_index(json_cursor cursor, size_t size, size_t *index)
 {
     double number;
+    if (ffd_cursor_is(cursor, JSON_STRING) && find_layer(cursor, size, index))
+        return FFD_OK;
     TRY(ffd_json_read_integer(cursor, &number));
     const double resolved = number < 0 ? number + (double)size : number;
     if (resolved < 0 || resolved >= (double)size)
@@ -38,15 +54,14 @@ static ffd_status read_indices(json_cursor cursor, size_t size, size_t *first, s
 {
     if (ffd_cursor_is(cursor, JSON_ARRAY))
         return read_range(cursor, size, first, last);
-    if (ffd_cursor_is(cursor, JSON_STRING)) {
+    if (ffd_cursor_is(cursor, JSON_STRING) && !find_layer(cursor, size, first)) {
         *first = 0;
         *last = size - 1;
         if (!ffd_json_tree_string_is(cursor.tree, cursor.value, "all"))
-            return ffd_cursor_fail(
-                cursor,
-                "is %s, not an index (0 is the first layer, -1 the last), a range [lo, hi] "
-                "or \"all\"",
-                ffd_json_describe(cursor).text);
+            return ffd_cursor_fail(cursor,
+                                   "is %s, not an index (0, \"first\" or \"bottom\": the first layer; -1, "
+                                   "\"last\" or \"top\": the last), a range [lo, hi] or \"all\"",
+                                   ffd_json_describe(cursor).text);
         return FFD_OK;
     }
     const ffd_status status = read_index(cursor, size, first);
@@ -191,21 +206,73 @@ static ffd_status read_pull(json_cursor cursor, lattice_move *move)
     return ffd_spec_read_positive(cursor, "radius", &move->radius);
 }
 
+/* Sets the place of each member of the list, of which move->drags has room for all. */
+static ffd_status read_drag(json_cursor cursor, lattice_move *move)
+{
+    static const char *const keys[] = {"point", "by", SPEC_NOTES};
+    const size_t most = move->mirror.kind == MIRROR_NONE ? FFD_MAX_DRAGGED : FFD_MAX_DRAGGED / 2;
+    if (!ffd_cursor_is(cursor, JSON_ARRAY) || ffd_cursor_count(cursor) == 0)
+        return ffd_cursor_fail(cursor, "must be an array of {\"point\": [..], \"by\": [..]}, not %s",
+                               ffd_json_describe(cursor).text);
+    if (ffd_cursor_count(cursor) > most)
+        return ffd_cursor_fail_as(cursor, FFD_E_LIMIT, "drags %zu places, more than %zu",
+                                  ffd_cursor_count(cursor), most);
+    json_cursor drag = ffd_cursor_first(cursor);
+    for (; ffd_cursor_exists(drag); drag = ffd_cursor_next(drag)) {
+        spec_drag *const to = &move->drags[move->drag_count++];
+        TRY(ffd_spec_read_object(drag, keys, COUNT_OF(keys)));
+        TRY(ffd_json_member_doubles(drag, "point", 3, to->point));
+        to->line = ffd_cursor_line(ffd_cursor_member(drag, "point"));
+        TRY(ffd_json_member_doubles(drag, "by", 3, to->by));
+    }
+    return FFD_OK;
+}
+
+/* form: of an action that is an object, for who writes a number or an array. */
 static const struct action_reader {
     const char *key;
     move_action action;
     ffd_status (*read)(json_cursor cursor, lattice_move *move);
+    const char *form;
 } actions[] = {
-    {"by", MOVE_BY, read_by},
-    {"to", MOVE_TO, read_by},
-    {"scale", MOVE_SCALE, read_scale},
-    {"rotate", MOVE_ROTATE, read_turn},
-    {"matrix", MOVE_MATRIX, read_matrix},
-    {"twist", MOVE_TWIST, read_turn},
-    {"taper", MOVE_TAPER, read_taper},
-    {"bend", MOVE_BEND, read_bend},
-    {"pull", MOVE_PULL, read_pull},
+    {"by", MOVE_BY, read_by, NULL},
+    {"to", MOVE_TO, read_by, NULL},
+    {"scale", MOVE_SCALE, read_scale, "{\"factor\": %s}"},
+    {"rotate", MOVE_ROTATE, read_turn, "{\"axis\": \"y\", \"degrees\": %s}"},
+    {"matrix", MOVE_MATRIX, read_matrix, NULL},
+    {"twist", MOVE_TWIST, read_turn, "{\"axis\": \"y\", \"degrees\": %s}"},
+    {"taper", MOVE_TAPER, read_taper, "{\"axis\": \"y\", \"factor\": %s}"},
+    {"bend", MOVE_BEND, read_bend, "{\"axis\": \"y\", \"toward\": \"x\", \"degrees\": %s}"},
+    {"pull", MOVE_PULL, read_pull, "{\"point\": [x, y, z], \"by\": %s, \"radius\": r}"},
+    {"drag", MOVE_DRAG, read_drag, NULL},
 };
+
+/* Refuses a number or an array in place of an object; shows where it belongs. */
+static ffd_status check_form(json_cursor cursor, const struct action_reader *reader)
+{
+    const json_value *const value = &cursor.tree->values[cursor.value];
+    const uint32_t length = value->end - value->begin;
+    char own[60], form[160];
+    if (!reader->form || !(ffd_cursor_is(cursor, JSON_NUMBER) || ffd_cursor_is(cursor, JSON_ARRAY)))
+        return FFD_OK;
+    snprintf(own, sizeof own, "%.*s", length < sizeof own ? (int)length : 3,
+             length < sizeof own ? cursor.tree->text + value->begin : "...");
+    const char *const place = strstr(reader->form, "%s");
+    snprintf(form, sizeof form, "%.*s%s%s", (int)(place - reader->form), reader->form, own, place + 2);
+    return ffd_cursor_fail(cursor, "must be an object, not %s; write {\"%s\": %s}",
+                           ffd_json_describe(cursor).text, reader->key, form);
+}
+
+ffd_status ffd_spec_refuse_actions(json_cursor root)
+{
+    for (size_t i = 0; i < COUNT_OF(actions); i++) {
+        const json_cursor member = ffd_cursor_member(root, actions[i].key);
+        if (ffd_cursor_exists(member))
+            return ffd_cursor_fail(member, "\"%s\" is an action of a move; write \"moves\": [{\"%s\": ..}]",
+                                   actions[i].key, actions[i].key);
+    }
+    return FFD_OK;
+}
 
 static ffd_status read_action(json_cursor cursor, lattice_move *move)
 {
@@ -222,9 +289,10 @@ static ffd_status read_action(json_cursor cursor, lattice_move *move)
         action = member;
     }
     if (!chosen)
-        return ffd_cursor_fail(cursor,
-                               "has no action: by, to, scale, rotate, matrix, twist, taper, bend or pull");
+        return ffd_cursor_fail(
+            cursor, "has no action: by, to, scale, rotate, matrix, twist, taper, bend, pull or drag");
     move->action = chosen->action;
+    TRY(check_form(action, chosen));
     return chosen->read(action, move);
 }
 
@@ -297,23 +365,72 @@ static ffd_status read_falloff(json_cursor cursor, move_falloff *falloff)
     return ffd_spec_read_positive(cursor, "radius", &falloff->radius);
 }
 
+/* Reads the plane of a mirror: a coordinate along an axis, or a point and the normal. */
+static ffd_status read_plane(json_cursor cursor, move_mirror *mirror)
+{
+    static const char *const keys[] = {"axis", "at", "point", "normal", SPEC_NOTES};
+    TRY(ffd_spec_read_object(cursor, keys, COUNT_OF(keys)));
+    const char *const along = first_member(cursor, keys, 2), *const through =
+                                                                 first_member(cursor, keys + 2, 2);
+    const bool is_along = ffd_cursor_exists(ffd_cursor_member(cursor, along));
+    const bool is_through = ffd_cursor_exists(ffd_cursor_member(cursor, through));
+    if (is_along && is_through)
+        return ffd_cursor_fail(cursor,
+                               "has both \"%s\" and \"%s\"; a plane has axis and at, or point and normal",
+                               along, through);
+    if (!is_along && !is_through)
+        return ffd_cursor_fail(cursor, "is empty; a plane has axis and at, or point and normal");
+    mirror->kind = is_along ? MIRROR_AT : MIRROR_POINT;
+    TRY(ffd_spec_read_axis(cursor, is_along ? "axis" : "normal", mirror->normal));
+    return is_along ? ffd_json_member_double(cursor, "at", &mirror->at)
+                    : ffd_json_member_doubles(cursor, "point", 3, mirror->point);
+}
+
 static ffd_status read_mirror(json_cursor cursor, lattice_move *move)
 {
     static const char *const names[] = {"x", "y", "z"};
     size_t axis;
     if (!ffd_cursor_exists(cursor))
         return FFD_OK;
+    if (ffd_cursor_is(cursor, JSON_OBJECT))
+        return read_plane(cursor, &move->mirror);
+    if (!ffd_cursor_is(cursor, JSON_STRING))
+        return ffd_cursor_fail(cursor,
+                               "must be \"x\", \"y\", \"z\", or a plane by axis and at, or point and "
+                               "normal, not %s",
+                               ffd_json_describe(cursor).text);
     TRY(ffd_json_read_word(cursor, names, COUNT_OF(names), &axis));
-    move->has_mirror = true;
-    move->mirror = (int)axis;
+    move->mirror.kind = MIRROR_MIDDLE;
+    move->mirror.normal[axis] = 1;
     return FFD_OK;
+}
+
+/* Reads what stands beside a drag: the radius, which no other move has. A drag goes as far as it says:
+   weights would contradict that. */
+static ffd_status read_reach(json_cursor cursor, lattice_move *move)
+{
+    static const char *const keys[] = {"weight", "falloff"};
+    const json_cursor radius = ffd_cursor_member(cursor, "radius");
+    if (move->action != MOVE_DRAG)
+        return !ffd_cursor_exists(radius)
+                   ? FFD_OK
+                   : ffd_cursor_fail(radius,
+                                     "a radius beside the action is one of \"drag\"; that of a pull or a "
+                                     "falloff is within it");
+    for (size_t i = 0; i < COUNT_OF(keys); i++) {
+        const json_cursor member = ffd_cursor_member(cursor, keys[i]);
+        if (ffd_cursor_exists(member))
+            return ffd_cursor_fail(member, "a drag has no \"%s\": its places move by exactly what it says",
+                                   keys[i]);
+    }
+    return ffd_cursor_exists(radius) ? ffd_spec_read_positive(cursor, "radius", &move->radius) : FFD_OK;
 }
 
 static ffd_status read_move(json_cursor cursor, const lattice_spec *spec, lattice_move *move)
 {
-    static const char *const keys[] = {"at",    "within", "weight", "falloff", "mirror",
-                                       "by",    "to",     "scale",  "rotate",  "matrix",
-                                       "twist", "taper",  "bend",   "pull",    SPEC_NOTES};
+    static const char *const keys[] = {"at",   "within", "weight", "falloff", "mirror",  "by",
+                                       "to",   "scale",  "rotate", "matrix",  "twist",   "taper",
+                                       "bend", "pull",   "drag",   "radius",  SPEC_NOTES};
     const json_cursor exact = ffd_cursor_member(cursor, "exact");
     if (ffd_cursor_exists(exact)) /* a suggestion of the most similar key would mislead */
         return ffd_cursor_fail(exact, "unknown key \"exact\" of a move; it is one of \"bend\"");
@@ -322,7 +439,21 @@ static ffd_status read_move(json_cursor cursor, const lattice_spec *spec, lattic
     TRY(read_weight(cursor, move));
     TRY(read_falloff(ffd_cursor_member(cursor, "falloff"), &move->falloff));
     TRY(read_mirror(ffd_cursor_member(cursor, "mirror"), move));
-    return read_action(cursor, move);
+    TRY(read_action(cursor, move));
+    return read_reach(cursor, move);
+}
+
+/* Allocates the places of all drags: a pointer to a number that is read must stay valid. */
+static ffd_status make_drags(json_cursor moves, lattice_spec *spec)
+{
+    json_cursor move = ffd_cursor_first(moves);
+    for (; ffd_cursor_exists(move); move = ffd_cursor_next(move)) {
+        const json_cursor drag = ffd_cursor_member(move, "drag");
+        if (ffd_cursor_is(drag, JSON_ARRAY))
+            spec->drag_count += ffd_cursor_count(drag);
+    }
+    spec->drags = ffd_alloc_zero(spec->drag_count, sizeof *spec->drags);
+    return spec->drags ? FFD_OK : ffd_fail_memory(moves.file->error);
 }
 
 ffd_status ffd_spec_parse_moves(json_cursor cursor, lattice_spec *spec)
@@ -334,10 +465,15 @@ ffd_status ffd_spec_parse_moves(json_cursor cursor, lattice_spec *spec)
     if (!spec->moves)
         return ffd_fail_memory(cursor.file->error);
     spec->move_count = count;
+    TRY(make_drags(cursor, spec));
+    spec_drag *drags = spec->drags;
     json_cursor move = ffd_cursor_first(cursor);
     for (size_t i = 0; i < count; i++, move = ffd_cursor_next(move)) {
+        spec->moves[i].drags = drags;
+        spec->moves[i].line = ffd_cursor_line(move);
         snprintf(spec->moves[i].pointer, sizeof spec->moves[i].pointer, "/moves/%zu", i);
         TRY(read_move(move, spec, &spec->moves[i]));
+        drags += spec->moves[i].drag_count;
     }
     return FFD_OK;
 }

@@ -8,4 +8,7 @@
 /* Reads the array of moves into the spec, whose sizes must be known. */
 ffd_status ffd_spec_parse_moves(json_cursor cursor, lattice_spec *spec);
 
+/* Refuses an action that stands beside the moves in place of in one. */
+ffd_status ffd_spec_refuse_actions(json_cursor root);
+
 #endif

@@ -1,6 +1,7 @@
 #include "lattice/file/spec_seeds.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include <stdint.h>
 #include <string.h>
 
 /* Returns whether a value is a number or an array of numbers. */
@@ -54,29 +55,45 @@ static json_cursor cursor_at(const json_file *file, uint32_t value)
     return (json_cursor){file, file->tree, value, JSON_NONE};
 }
 
-/* Returns whether the number at this offset of a move selects control points. */
-static bool selects(size_t offset)
+/* Returns what the number of a seed is, where it has no derivative; NULL where it has one. */
+static const char *what_selects(const lattice_spec *spec, const spec_seed *seed)
 {
-    const size_t first = offsetof(lattice_move, within_min), last = offsetof(lattice_move, within_max);
-    return offset >= first && offset < last + sizeof((lattice_move *)0)->within_max;
+    static const struct range {
+        size_t first, size;
+        const char *what;
+    } ranges[] = {{offsetof(lattice_move, within_min), 6 * sizeof(double), "not a number that moves points"},
+                  {offsetof(lattice_move, mirror), sizeof(move_mirror), "the plane of a mirror"}};
+    if (seed->is_dragged)
+        return seed->offset < offsetof(spec_drag, by) ? "the place of a drag" : NULL;
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++)
+        if (seed->offset >= ranges[i].first && seed->offset < ranges[i].first + ranges[i].size)
+            return ranges[i].what;
+    return spec->moves[seed->move].action == MOVE_DRAG ? "the radius of a drag" : NULL;
 }
 
-static ffd_status refuse(const json_file *file, const spec_origin *origin, const lattice_spec *spec)
+static ffd_status refuse(const json_file *file, const spec_origin *origin, const char *what,
+                         const lattice_spec *spec)
 {
     return ffd_cursor_fail(cursor_at(file, origin->value),
-                           "there is no derivative by \"%.60s\": here it is not a number that moves points",
-                           spec->variables[origin->variable].name);
+                           "there is no derivative by \"%.60s\": here it is %s",
+                           spec->variables[origin->variable].name, what);
 }
 
 static ffd_status add_seed(const json_file *file, const spec_origin *origin, const json_trace_entry *entry,
                            lattice_spec *spec)
 {
-    const size_t at = (size_t)((const char *)entry->number - (const char *)spec->moves);
+    const uintptr_t number = (uintptr_t)entry->number, moves = (uintptr_t)spec->moves;
+    const bool is_dragged = number < moves || number - moves >= spec->move_count * sizeof *spec->moves;
+    const size_t at = number - (is_dragged ? (uintptr_t)spec->drags : moves);
+    const size_t each = is_dragged ? sizeof *spec->drags : sizeof *spec->moves;
     const spec_variable *const variable = &spec->variables[origin->variable];
-    const spec_seed seed = {at / sizeof *spec->moves, at % sizeof *spec->moves, origin->variable,
-                            entry->value - variable->is_array, origin->factor};
-    if (variable->size == 0 || selects(seed.offset))
-        return refuse(file, origin, spec);
+    const spec_seed seed = {
+        is_dragged,    at / each, at % each, origin->variable, entry->value - variable->is_array,
+        origin->factor};
+    const char *const what =
+        variable->size == 0 ? "not a number that moves points" : what_selects(spec, &seed);
+    if (what)
+        return refuse(file, origin, what, spec);
     spec->seeds[spec->seed_count++] = seed;
     return FFD_OK;
 }
@@ -94,7 +111,7 @@ ffd_status ffd_spec_make_seeds(const json_file *file, const spec_origins *origin
             if (trace->entries[t].replaced == origin->value)
                 TRY(add_seed(file, origin, &trace->entries[t], spec));
         if (spec->seed_count == before)
-            TRY(refuse(file, origin, spec));
+            TRY(refuse(file, origin, "not a number that moves points", spec));
     }
     return FFD_OK;
 }

@@ -169,10 +169,21 @@ static void write_falloff(json_text *json, const move_falloff *falloff)
     ffd_json_end(json, '}');
 }
 
-static void write_mirror(json_text *json, int axis)
+static void write_mirror(json_text *json, const move_mirror *mirror)
 {
-    const char name[2] = {"xyz"[axis], 0};
-    ffd_json_string(json, "mirror", name);
+    if (mirror->kind == MIRROR_MIDDLE) {
+        ffd_json_string(json, "mirror", mirror->normal[0] != 0 ? "x" : mirror->normal[1] != 0 ? "y" : "z");
+        return;
+    }
+    ffd_json_object(json, "mirror", true);
+    if (mirror->kind == MIRROR_AT) {
+        ffd_json_vector(json, "axis", mirror->normal, 3);
+        ffd_json_number(json, "at", mirror->at);
+    } else {
+        ffd_json_vector(json, "point", mirror->point, 3);
+        ffd_json_vector(json, "normal", mirror->normal, 3);
+    }
+    ffd_json_end(json, '}');
 }
 
 static void write_pull(json_text *json, const lattice_move *move)
@@ -182,6 +193,20 @@ static void write_pull(json_text *json, const lattice_move *move)
     ffd_json_vector(json, "by", move->vector, 3);
     ffd_json_number(json, "radius", move->radius);
     ffd_json_end(json, '}');
+}
+
+static void write_drag(json_text *json, const lattice_move *move)
+{
+    if (move->radius > 0)
+        ffd_json_number(json, "radius", move->radius);
+    ffd_json_array(json, "drag", true);
+    for (size_t i = 0; i < move->drag_count; i++) {
+        ffd_json_object(json, NULL, true);
+        ffd_json_vector(json, "point", move->drags[i].point, 3);
+        ffd_json_vector(json, "by", move->drags[i].by, 3);
+        ffd_json_end(json, '}');
+    }
+    ffd_json_end(json, ']');
 }
 
 /* Writes an action that is an object, with its members in the order of data/schema/lattice.md. */
@@ -235,6 +260,9 @@ static void write_action(json_text *json, const lattice_move *move)
     case MOVE_PULL:
         write_pull(json, move);
         break;
+    case MOVE_DRAG:
+        write_drag(json, move);
+        break;
     }
 }
 
@@ -246,8 +274,8 @@ static void write_moves(json_text *json, const lattice_spec *spec)
         write_selection(json, &spec->moves[i]);
         if (spec->moves[i].falloff.kind != FALLOFF_NONE)
             write_falloff(json, &spec->moves[i].falloff);
-        if (spec->moves[i].has_mirror)
-            write_mirror(json, spec->moves[i].mirror);
+        if (spec->moves[i].mirror.kind != MIRROR_NONE)
+            write_mirror(json, &spec->moves[i].mirror);
         write_action(json, &spec->moves[i]);
         ffd_json_end(json, '}');
     }
@@ -270,8 +298,8 @@ char *ffd_spec_text(const lattice_spec *spec, size_t *size)
         ffd_json_vector(&json, "weights", spec->weights, spec->count);
     if (spec->deformed_points || spec->deformed_offsets || spec->deformed_weights)
         write_deformed(&json, spec);
-    if (spec->box_units)
-        ffd_json_string(&json, "units", "box");
+    if (spec->units != UNITS_WORLD)
+        ffd_json_string(&json, "units", spec->units == UNITS_BOX ? "box" : "mesh");
     /* Also if there are none: a new file shows where moves are to be added. */
     write_moves(&json, spec);
     ffd_json_end(&json, '}');

@@ -1,5 +1,6 @@
 #include "lattice/file/spec_values.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "base/text/number.h"
 #include "base/vector/direction.h"
 #include <string.h>
@@ -19,22 +20,72 @@ static ffd_status refuse_foreign(json_cursor cursor, const char *const *known, s
 {
     static const struct foreign {
         const char *word, *key;
-    } words[] = {
-        {"translate", "by"},     {"translation", "by"},   {"move", "by"},        {"offset", "by"},
-        {"delta", "by"},         {"displace", "by"},      {"position", "to"},    {"rotation", "rotate"},
-        {"turn", "rotate"},      {"angle", "degrees"},    {"deg", "degrees"},    {"shear", "matrix"},
-        {"skew", "matrix"},      {"transform", "matrix"}, {"center", "about"},   {"pivot", "about"},
-        {"grab", "pull"},        {"drag", "pull"},        {"reflect", "mirror"}, {"symmetry", "mirror"},
-        {"symmetric", "mirror"}, {"fade", "falloff"},     {"decay", "falloff"},  {"attenuation", "falloff"},
-        {"center", "point"},     {"about", "point"},      {"place", "point"},    {"vector", "by"},
-        {"about", "center"},     {"point", "center"},     {"start", "from"},     {"end", "to"},
-        {"direction", "axis"},   {"distance", "radius"},  {"size", "radius"}};
+    } words[] = {{"translate", "by"},
+                 {"translation", "by"},
+                 {"move", "by"},
+                 {"offset", "by"},
+                 {"delta", "by"},
+                 {"displace", "by"},
+                 {"position", "to"},
+                 {"rotation", "rotate"},
+                 {"turn", "rotate"},
+                 {"angle", "degrees"},
+                 {"deg", "degrees"},
+                 {"shear", "matrix"},
+                 {"skew", "matrix"},
+                 {"transform", "matrix"},
+                 {"center", "about"},
+                 {"pivot", "about"},
+                 {"grab", "pull"},
+                 {"reflect", "mirror"},
+                 {"symmetry", "mirror"},
+                 {"symmetric", "mirror"},
+                 {"fade", "falloff"},
+                 {"decay", "falloff"},
+                 {"attenuation", "falloff"},
+                 {"center", "point"},
+                 {"about", "point"},
+                 {"place", "point"},
+                 {"vector", "by"},
+                 {"about", "center"},
+                 {"point", "center"},
+                 {"start", "from"},
+                 {"end", "to"},
+                 {"select", "at"},
+                 {"selection", "at"},
+                 {"points", "at"},
+                 {"index", "at"},
+                 {"indices", "at"},
+                 {"region", "within"},
+                 {"box", "within"},
+                 {"//", "comment"},
+                 {"_comment", "comment"},
+                 {"description", "comment"},
+                 {"note", "comment"},
+                 {"direction", "axis"},
+                 {"distance", "radius"},
+                 {"size", "radius"}};
     for (size_t i = 0; i < COUNT_OF(words); i++) {
         json_cursor member = cursor;
         member.value = ffd_json_tree_member(cursor.tree, cursor.value, words[i].word);
         if (ffd_cursor_exists(member) && is_known(words[i].key, known, count) &&
             !is_known(words[i].word, known, count))
             return ffd_cursor_fail(member, "unknown key \"%s\"; use \"%s\"", words[i].word, words[i].key);
+    }
+    return FFD_OK;
+}
+
+/* Keys of a move or a lattice that would select a part of the mesh, as {only} does. */
+static ffd_status refuse_parts(json_cursor cursor, const char *const *known, size_t count)
+{
+    static const char *const kinds[] = {"node", "mesh", "material", "group", "object"};
+    const bool moves = is_known("at", known, count) || is_known("moves", known, count);
+    for (size_t i = 0; i < COUNT_OF(kinds) && moves; i++) {
+        json_cursor member = cursor;
+        member.value = ffd_json_tree_member(cursor.tree, cursor.value, kinds[i]);
+        if (ffd_cursor_exists(member))
+            return ffd_cursor_fail(member, "unknown key \"%s\"; a part of the mesh is selected by %s %s:NAME",
+                                   kinds[i], SPELLED("{only}"), kinds[i]);
     }
     return FFD_OK;
 }
@@ -55,6 +106,7 @@ ffd_status ffd_spec_check_notes(json_cursor object)
 ffd_status ffd_spec_read_object(json_cursor cursor, const char *const *known, size_t count)
 {
     TRY(refuse_foreign(cursor, known, count));
+    TRY(refuse_parts(cursor, known, count));
     TRY(ffd_json_read_object(cursor, known, count));
     return ffd_spec_check_notes(cursor);
 }

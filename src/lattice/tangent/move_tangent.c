@@ -110,10 +110,12 @@ static dual3 seen(const dual_move *move, size_t point, const double derivative[3
 {
     const double *const q = move->step->lattice->deformed + 3 * point;
     const mirror_plane *const plane = move->step->plane;
-    dual3 p = vector_of(q, derivative);
-    if (plane)
-        p.c[plane->axis] = dual_sub(dual_of(plane->twice), p.c[plane->axis]);
-    return p;
+    double image[3], image_derivative[3];
+    if (!plane)
+        return vector_of(q, derivative);
+    ffd_mirror_point(plane, q, image);
+    ffd_mirror_vector(plane, derivative, image_derivative);
+    return vector_of(image, image_derivative);
 }
 
 static dual along(const dual_move *move, dual3 p)
@@ -302,6 +304,8 @@ static dual3 act(const dual_move *move, dual3 p, const dual *part, const dual *h
         return taper(move, p);
     case MOVE_BEND:
         return move->length.v > 0 ? bend(move, p, part ? *part : fraction(move, p), half) : p;
+    case MOVE_DRAG:
+        break;
     }
     return out;
 }
@@ -373,7 +377,8 @@ void ffd_dual_move_point(const dual_move *move, size_t point, const dual *part, 
     const dual3 p = seen(move, point, derivative), to = act(move, p, part, half);
     const dual weight = weight_at(move, point);
     const dual3 moved = dual3_add(p, dual3_scale(dual3_sub(to, p), weight));
-    const mirror_plane *const plane = move->step->plane;
     for (int c = 0; c < 3; c++)
-        derivative[c] = plane && c == plane->axis ? -moved.c[c].d : moved.c[c].d;
+        derivative[c] = moved.c[c].d;
+    if (move->step->plane)
+        ffd_mirror_vector(move->step->plane, derivative, derivative);
 }

@@ -38,7 +38,7 @@ static void seed_move(tangent_work *work, size_t index)
     memset(work->seeded, 0, work->tangents->columns * sizeof *work->seeded);
     for (size_t i = 0; i < work->spec->seed_count; i++) {
         const spec_seed *const seed = &work->spec->seeds[i];
-        if (seed->move != index)
+        if (seed->is_dragged || seed->move != index)
             continue;
         const size_t column = first_column(work->spec, seed->variable) + seed->component;
         double value;
@@ -106,10 +106,64 @@ static void bend_exactly(const tangent_work *work, const dual_move *move, size_t
     }
 }
 
+/* Fills drags with the derivatives of the numbers of a drag's places for a column. */
+static void seed_drags(const tangent_work *work, const lattice_move *move, size_t column, spec_drag *drags)
+{
+    const size_t first = (size_t)(move->drags - work->spec->drags);
+    memset(drags, 0, move->drag_count * sizeof *drags);
+    for (size_t i = 0; i < work->spec->seed_count; i++) {
+        const spec_seed *const seed = &work->spec->seeds[i];
+        if (!seed->is_dragged || seed->move < first || seed->move - first >= move->drag_count ||
+            first_column(work->spec, seed->variable) + seed->component != column)
+            continue;
+        drags[seed->move - first].by[(seed->offset - offsetof(spec_drag, by)) / sizeof(double)] +=
+            seed->factor;
+    }
+}
+
+/* Returns whether deformed weights, on which the changes of a drag depend, have a derivative. */
+static bool weights_vary(const lattice_tangents *tangents, size_t count)
+{
+    for (size_t i = 0; tangents->weights && i < tangents->columns * count; i++)
+        if (tangents->weights[i] != 0)
+            return true;
+    return false;
+}
+
+/* The changes of a drag are linear in what it asks for, and depend on nothing else. */
+static ffd_status see_drag(const tangent_work *work, const move_step *step, ffd_error *error)
+{
+    drag_solver *const solver = step->drag;
+    const lattice_move *const move = step->move;
+    spec_drag *const drags = ffd_alloc(move->drag_count, sizeof *drags);
+    double *const by = ffd_alloc(solver->places, 3 * sizeof *by);
+    double *const change = ffd_alloc(solver->columns, 3 * sizeof *change);
+    ffd_status status;
+    TRY_END(drags && by && change ? FFD_OK : ffd_fail_memory(error));
+    if (weights_vary(work->tangents, work->count))
+        TRY_END(ffd_fail_at(error, FFD_E_INVALID, work->spec->name, move->line, move->pointer,
+                            "there are no derivatives of a drag after an exact bend that depends on a "
+                            "placeholder"));
+    for (size_t column = 0; column < work->tangents->columns; column++) {
+        double *const points = points_of(work, column);
+        seed_drags(work, move, column, drags);
+        ffd_drag_targets(step, drags, by);
+        ffd_drag_solve(solver, by, change);
+        for (size_t i = 0; i < 3 * solver->columns; i++)
+            points[3 * solver->point[i / 3] + i % 3] += change[i];
+    }
+end:
+    ffd_free(drags);
+    ffd_free(by);
+    ffd_free(change);
+    return status;
+}
+
 static ffd_status see(void *context, const move_step *step, ffd_error *error)
 {
     tangent_work *const work = context;
-    (void)error;
+    if (step->drag)
+        return see_drag(work, step, error);
     if (!step->plane)
         seed_move(work, step->index);
     for (size_t column = 0; column < work->tangents->columns; column++) {

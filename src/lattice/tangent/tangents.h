@@ -15,7 +15,8 @@ typedef struct lattice_tangents {
 /* Computes the derivatives by forward differentiation through the moves. The lattice must have control
    points, and its spec must have been read with settings that request derivatives. If a derivative does not
    exist (the centre of a falloff at a control point, two points that share the extreme position), a one-sided
-   one is given. The caller frees *tangents, also after a failure. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
+   one is given. The caller frees *tangents, also after a failure. Errors: FFD_E_INVALID (a drag
+   after an exact bend with a placeholder), FFD_E_MEMORY, FFD_E_LIMIT. */
 ffd_status ffd_lattice_tangents_find(const ffd_lattice *lattice, lattice_tangents *tangents,
                                      ffd_error *error);
 /* Frees the derivatives and empties the struct. */

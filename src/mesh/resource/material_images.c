@@ -14,7 +14,8 @@ static bool begins_with(const unsigned char *bytes, size_t size, const char *mar
 
 static bool is_shown(const unsigned char *bytes, size_t size)
 {
-    return begins_with(bytes, size, "\x89PNG\r\n\x1a\n", 8) || begins_with(bytes, size, "\xff\xd8\xff", 3);
+    return begins_with(bytes, size, "\x89PNG\r\n\x1a\n", 8) || begins_with(bytes, size, "\xff\xd8\xff", 3) ||
+           (size >= 12 && memcmp(bytes, "RIFF", 4) == 0 && memcmp(bytes + 8, "WEBP", 4) == 0);
 }
 
 ffd_status ffd_images_find(material_images *images, const char *name, bool *is_known, uint32_t *image,
@@ -55,7 +56,7 @@ ffd_status ffd_images_add(material_images *images, const char *name, const unsig
     mesh_materials *const m = images->materials;
     *image = MATERIAL_LOST;
     if (!is_shown(bytes, size)) {
-        ffd_left_add(&images->left, name, "is neither PNG nor JPEG");
+        ffd_left_add(&images->left, name, "is neither PNG, JPEG nor WebP");
         return FFD_OK;
     }
     TRY(take(images, name, size, error));

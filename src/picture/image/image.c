@@ -9,5 +9,7 @@ ffd_status ffd_image_decode(const unsigned char *bytes, size_t size, const memor
         return ffd_png_decode(bytes, size, budget, result, error);
     if (size >= 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff)
         return ffd_jpeg_decode(bytes, size, budget, result, error);
-    return ffd_fail(error, FFD_E_UNSUPPORTED, "the image is neither PNG nor JPEG");
+    if (size >= 12 && memcmp(bytes, "RIFF", 4) == 0 && memcmp(bytes + 8, "WEBP", 4) == 0)
+        return ffd_webp_decode(bytes, size, budget, result, error);
+    return ffd_fail(error, FFD_E_UNSUPPORTED, "the image is neither PNG, JPEG nor WebP");
 }

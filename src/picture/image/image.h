@@ -1,6 +1,6 @@
-/* image.h - decodes PNG and JPEG, and writes PNG. image.c detects the format, image_size.c checks the size.
-   png.c and jpeg.c use the libraries, in a module; image_load.c replaces them in the program and loads the
-   module. */
+/* image.h - decodes PNG, JPEG and WebP, and writes PNG. image.c detects the format, image_size.c checks the
+   size. png.c, jpeg.c and webp.c use the libraries, in a module; image_load.c replaces them in the program
+   and loads the module. */
 #ifndef FFD_PICTURE_IMAGE_IMAGE_H
 #define FFD_PICTURE_IMAGE_IMAGE_H
 
@@ -21,9 +21,9 @@ typedef struct image {
 /* A callback that receives the next bytes. */
 typedef ffd_status (*image_sink)(void *context, const void *bytes, size_t size, ffd_error *error);
 
-/* Decodes a PNG or JPEG file in memory. Checks the limits above and the budget (NULL: none) before it
-   allocates. Errors: FFD_E_INVALID (broken, truncated), FFD_E_UNSUPPORTED (another format; CMYK),
-   FFD_E_LIMIT, FFD_E_MEMORY. */
+/* Decodes a PNG, JPEG or WebP file in memory. Checks the limits above and the budget (NULL: none) before it
+   allocates. Errors: FFD_E_INVALID (broken, truncated), FFD_E_UNSUPPORTED (another format; CMYK; an
+   animation; WebP without libwebp), FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_image_decode(const unsigned char *bytes, size_t size, const memory_budget *budget,
                             image *result, ffd_error *error);
 
@@ -38,9 +38,16 @@ ffd_status ffd_png_decode(const unsigned char *bytes, size_t size, const memory_
 /* As ffd_image_decode, for bytes with the signature of JPEG. */
 ffd_status ffd_jpeg_decode(const unsigned char *bytes, size_t size, const memory_budget *budget,
                            image *result, ffd_error *error);
-/* Encodes RGB pixels (3 bytes each) as a PNG file, and passes its bytes to sink. Errors: FFD_E_MEMORY, and
-   those of the sink. */
-ffd_status ffd_png_write(const uint8_t *pixels, uint32_t width, uint32_t height, image_sink sink,
-                         void *context, ffd_error *error);
+/* As ffd_image_decode, for bytes with the signature of WebP. */
+ffd_status ffd_webp_decode(const unsigned char *bytes, size_t size, const memory_budget *budget,
+                           image *result, ffd_error *error);
+/* Encodes pixels as a PNG file, and passes its bytes to sink. channels: bytes of a pixel, 3 (RGB) or 4
+   (RGBA). Errors: FFD_E_MEMORY, and those of the sink. */
+ffd_status ffd_png_write(const uint8_t *pixels, uint32_t width, uint32_t height, int channels,
+                         image_sink sink, void *context, ffd_error *error);
+/* Encodes RGBA pixels, whose alpha is lost, as a JPEG file of good quality, and passes its bytes to sink.
+   Errors: FFD_E_MEMORY, FFD_E_UNSUPPORTED (the library fails), and those of the sink. */
+ffd_status ffd_jpeg_write(const uint8_t *pixels, uint32_t width, uint32_t height, image_sink sink,
+                          void *context, ffd_error *error);
 
 #endif

@@ -1,11 +1,12 @@
-/* jpeg.c - decodes JPEG with libjpeg; the only source that includes it. The accurate integer DCT and simple
-   upsampling give the same pixels with every version of the library. */
+/* jpeg.c - decodes and writes JPEG with libjpeg; the only source that includes it. The accurate integer DCT
+   and simple upsampling give the same pixels with every version of the library. */
 #include "base/memory/memory.h"
 #include "picture/image/image.h"
 #include <limits.h>
 #include <setjmp.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <jpeglib.h>
@@ -141,5 +142,60 @@ ffd_status ffd_jpeg_decode(const unsigned char *bytes, size_t size, const memory
         ffd_free(result->pixels);
         *result = (image){0, 0, NULL};
     }
+    return status;
+}
+
+#define QUALITY 88
+
+/* Local variables must not change between setjmp and longjmp. *bytes: of the library, freed by the caller. */
+static ffd_status write_pixels(struct jpeg_compress_struct *jpeg, jpeg_task *task, const uint8_t *pixels,
+                               unsigned char **bytes, unsigned long *size, ffd_error *error)
+{
+    if (setjmp(task->failed)) {
+        if (task->is_out_of_memory)
+            return ffd_fail_memory(error);
+        return ffd_fail(error, FFD_E_UNSUPPORTED, "the image cannot be written: %s", task->message);
+    }
+    const uint32_t width = jpeg->image_width;
+    jpeg_mem_dest(jpeg, bytes, size);
+    jpeg->input_components = 3;
+    jpeg->in_color_space = JCS_RGB;
+    jpeg_set_defaults(jpeg);
+    jpeg->dct_method = JDCT_ISLOW;
+    jpeg_set_quality(jpeg, QUALITY, TRUE);
+    jpeg_start_compress(jpeg, TRUE);
+    const JSAMPARRAY row = jpeg->mem->alloc_sarray((j_common_ptr)jpeg, JPOOL_IMAGE, 3 * width, 1);
+    while (jpeg->next_scanline < jpeg->image_height) {
+        const uint8_t *const from = pixels + (size_t)4 * width * jpeg->next_scanline;
+        for (uint32_t x = 0; x < width; x++)
+            memcpy(row[0] + (size_t)3 * x, from + (size_t)4 * x, 3);
+        jpeg_write_scanlines(jpeg, row, 1);
+    }
+    jpeg_finish_compress(jpeg);
+    return FFD_OK;
+}
+
+ffd_status ffd_jpeg_write(const uint8_t *pixels, uint32_t width, uint32_t height, image_sink sink,
+                          void *context, ffd_error *error)
+{
+    struct jpeg_compress_struct jpeg;
+    jpeg_task task;
+    unsigned char *bytes = NULL;
+    unsigned long size = 0;
+    memset(&jpeg, 0, sizeof jpeg);
+    memset(&task, 0, sizeof task);
+    jpeg.err = jpeg_std_error(&task.manager);
+    task.manager.error_exit = fail;
+    ffd_status status;
+    if (setjmp(task.failed))
+        return ffd_fail_memory(error);
+    jpeg_create_compress(&jpeg);
+    jpeg.image_width = width;
+    jpeg.image_height = height;
+    TRY_END(write_pixels(&jpeg, &task, pixels, &bytes, &size, error));
+    status = sink(context, bytes, size, error);
+end:
+    jpeg_destroy_compress(&jpeg);
+    free(bytes);
     return status;
 }

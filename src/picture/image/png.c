@@ -145,23 +145,23 @@ ffd_status ffd_png_decode(const unsigned char *bytes, size_t size, const memory_
 }
 
 static ffd_status write_pixels(png_structp png, png_infop info, png_task *task, const uint8_t *pixels,
-                               uint32_t width, uint32_t height)
+                               uint32_t width, uint32_t height, int channels)
 {
     if (setjmp(task->failed))
         return failure(task, task->error);
     png_set_write_fn(png, task, write_some, flush);
-    png_set_IHDR(png, info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, width, height, 8, channels == 4 ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_write_info(png, info);
     for (uint32_t y = 0; y < height; y++)
-        png_write_row(png, pixels + (size_t)3 * width * y);
+        png_write_row(png, pixels + (size_t)channels * width * y);
     png_write_end(png, info);
     return FFD_OK;
 }
 
-ffd_status ffd_png_write(const uint8_t *pixels, uint32_t width, uint32_t height, image_sink sink,
-                         void *context, ffd_error *error)
+ffd_status ffd_png_write(const uint8_t *pixels, uint32_t width, uint32_t height, int channels,
+                         image_sink sink, void *context, ffd_error *error)
 {
     png_task task = {.sink = sink, .context = context, .error = error};
     if (setjmp(task.failed))
@@ -172,7 +172,7 @@ ffd_status ffd_png_write(const uint8_t *pixels, uint32_t width, uint32_t height,
         return ffd_fail_memory(error);
     png_infop info = png_create_info_struct(png);
     const ffd_status status =
-        info ? write_pixels(png, info, &task, pixels, width, height) : ffd_fail_memory(error);
+        info ? write_pixels(png, info, &task, pixels, width, height, channels) : ffd_fail_memory(error);
     png_destroy_write_struct(&png, &info);
     return status;
 }

@@ -23,7 +23,10 @@ class Error(Exception):
 
     def __init__(self, message: str, *, status: int | None = None, file: str | None = None, line: int | None = None,
                  pointer: str | None = None) -> None:
-        place = f"{file}:{line}: " if file and line else f"{file}:{pointer}: " if file and pointer else f"{file}: " if file else ""
+        # As ffd_error_format.
+        place = "" if not file else f"{file}:{line}: " if line else f"{file}:{pointer}: " if pointer else f"{file}: "
+        if file and line and pointer:
+            place += f"{pointer}: "
         super().__init__(place + message)
         self.status = type(self).status if status is None else status
         self.message, self.file, self.line, self.pointer = message, file, line, pointer

@@ -15,21 +15,24 @@ from ._result import Result, finish, run
 
 # Without the options for outputs of other jobs.
 _OPTIONS = OPTIONS - {"output_format", "resources", "force", "if_changed", "dry_run", "as_morph", "clips"}
-# As in the program. "iso", all zeros, is the default view of a page.
-_CAMERAS = {"front": (0, 0, 1), "back": (0, 0, -1), "left": (-1, 0, 0), "right": (1, 0, 0), "top": (0, 1, 0), "iso": (0, 0, 0)}
+_SIDES = ("front", "back", "left", "right", "top", "bottom", "iso")
 
 
 def _set_camera(desc: Any, value: Any) -> None:
-    if isinstance(value, str) and value not in _CAMERAS:
-        raise ValueError(f"camera must be one of {', '.join(map(repr, _CAMERAS))}, or three numbers, not {value!r}")
-    direction = _CAMERAS[value] if isinstance(value, str) else tuple(value)
+    """Of a desc whose `up` is set, by which a named side is turned."""
+    if isinstance(value, str):
+        if value not in _SIDES:
+            raise ValueError(f"camera must be one of {', '.join(map(repr, _SIDES))}, or three numbers, not {value!r}")
+        lib.ffd_view_camera(value.encode(), desc.up, desc.camera)
+        return
+    direction = tuple(value)
     if len(direction) != 3:
         raise ValueError(f"camera must be three numbers, not {len(direction)}")
     desc.camera[:] = [library.real(number, "camera") for number in direction]
 
 
 def _set_look(desc: Any, output: Any, color: str, camera: Any, size: tuple[int, int] | None, frames: int | None, full: bool,
-              animation: str | None) -> None:
+              animation: str | None, up: str, no_cage: bool) -> None:
     """Sets the options of the page or picture. Like the program, refuses options without effect."""
     is_picture = os.fsdecode(output).lower().endswith(".png")
     if full and is_picture:
@@ -37,6 +40,7 @@ def _set_look(desc: Any, output: Any, color: str, camera: Any, size: tuple[int, 
     if not is_picture and (size is not None or frames is not None):
         raise ValueError("size and frames are for pictures, but the output is a page")
     desc.color, desc.full = library.value_of("ffd_view_color", color, "color"), bool(full)
+    desc.up, desc.no_cage = library.value_of("ffd_up", up, "up"), bool(no_cage)
     _set_camera(desc, camera)
     if size is not None:
         desc.width, desc.height = (library.integer(side, "size", 1, 2**32 - 1) for side in size)
@@ -61,16 +65,18 @@ def _view(desc: Any, source: Any, output: Any, lattices: Any, deformed: Any, loo
 
 
 def view_file(source: Path, output: Path, lattices: AnyLattice | Sequence[AnyLattice] | None = None, *,
-              deformed: Path | None = None, color: str = "displacement", camera: str | Sequence[float] = "iso",
+              deformed: Path | None = None, color: str = "auto", camera: str | Sequence[float] = "iso",
               size: tuple[int, int] | None = None, frames: int | None = None, full: bool = False, animation: str | None = None,
-              force: bool = False, **options: Any) -> Result:
+              up: str = "y", no_cage: bool = False, force: bool = False, **options: Any) -> Result:
     """Draws a mesh before and after its deformation, as `ffd view` does. The output is complete or absent.
 
     output: path of a page (.html, needs no network) or a picture (.png)
     lattices: as in `deform_file`; None: show the mesh as it is
     deformed: path of the deformed mesh, with as many vertices; lattices are then drawn, but deform nothing
-    color: "displacement" | "status" | "det" | "plain"
-    camera: "front" | "back" | "left" | "right" | "top" | "iso", or (x, y, z), the direction from the mesh to the camera; y is up
+    color: "auto" | "displacement" | "status" | "det" | "plain"
+    camera: "front" | "back" | "left" | "right" | "top" | "bottom" | "iso", or (x, y, z), the direction from the mesh to the camera
+    up: "y" | "z" | "x", the axis that points upwards in the view; the mesh stays as it is
+    no_cage=True: draw no control points
     animation: name of the animation that a picture shows in poses, or that a page shows first
     size=(width, height): of a frame of a picture, in pixels; None: 1600 x 900
     frames: number of frames of a picture, in one row
@@ -82,7 +88,8 @@ def view_file(source: Path, output: Path, lattices: AnyLattice | Sequence[AnyLat
     """
     desc = library.filled("ffd_view_desc")
     desc.force = bool(force)
-    look = {"color": color, "camera": camera, "size": size, "frames": frames, "full": full, "animation": animation}
+    look = {"color": color, "camera": camera, "size": size, "frames": frames, "full": full, "animation": animation,
+            "up": up, "no_cage": no_cage}
     return finish(*_view(desc, source, output, lattices, deformed, look, options))
 
 
@@ -95,9 +102,9 @@ class ViewBytes(NamedTuple):
 
 def view_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | None = None, *, name: str, output: str = "view.html",
                files: Files | None = None, deformed: Any = None, deformed_name: str | None = None,
-               deformed_files: Files | None = None, color: str = "displacement", camera: str | Sequence[float] = "iso",
+               deformed_files: Files | None = None, color: str = "auto", camera: str | Sequence[float] = "iso",
                size: tuple[int, int] | None = None, frames: int | None = None, full: bool = False, animation: str | None = None,
-               **options: Any) -> ViewBytes:
+               up: str = "y", no_cage: bool = False, **options: Any) -> ViewBytes:
     """Like `view_file`, for a mesh in memory; reads and writes no files.
 
     data, name, files: as in `deform_bytes`
@@ -110,7 +117,8 @@ def view_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | None = N
     memory = Memory(data, name, files)
     other = None if deformed is None else Memory(deformed, name if deformed_name is None else deformed_name,
                                                  files if deformed_files is None else deformed_files)
-    look = {"color": color, "camera": camera, "size": size, "frames": frames, "full": full, "animation": animation}
+    look = {"color": color, "camera": camera, "size": size, "frames": frames, "full": full, "animation": animation,
+            "up": up, "no_cage": no_cage}
     found, raised, warnings = _view(desc, memory, output, lattices, other, look, options)
     memory.reraise()
     if other is not None:

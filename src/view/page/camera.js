@@ -1,10 +1,11 @@
-// camera.js - where one looks from: it turns round a target, y upwards, in perspective. All in the picture's units.
+// camera.js - where one looks from: it turns round a target, in perspective. All in the picture's units.
 
 const FIELD_OF_VIEW = (28 * Math.PI) / 180;
 const MOST_PITCH = Math.PI / 2 - 0.001;
 // yaw is turned from +z to +x
 const VIEWS = {
   front: [0, 0], back: [Math.PI, 0], left: [-Math.PI / 2, 0], right: [Math.PI / 2, 0], top: [0, MOST_PITCH],
+  bottom: [0, -MOST_PITCH],
   iso: [Math.PI / 5, Math.PI / 7],
 };
 
@@ -36,8 +37,13 @@ function listFitPoints(scene) {
   return points;
 }
 
+// From axes in which y points upwards to those of the mesh, in which `up` does, and back.
+const TURNS = {y: ([x, y, z]) => [x, y, z], z: ([x, y, z]) => [x, -z, y], x: ([x, y, z]) => [y, -x, z]};
+const TURNS_BACK = {y: ([x, y, z]) => [x, y, z], z: ([x, y, z]) => [x, z, -y], x: ([x, y, z]) => [-y, x, z]};
+
 class Camera {
-  constructor(points) {
+  constructor(points, up = 'y') {
+    this.upwards = up;
     this.hold(points);
     this.aspect = 1;
     this.target = [0, 0, 0];
@@ -54,10 +60,11 @@ class Camera {
   // Right, up and backwards, as the world has them.
   axes() {
     const {yaw, pitch} = this;
+    const turn = TURNS[this.upwards];
     const back = [Math.sin(yaw) * Math.cos(pitch), Math.sin(pitch), Math.cos(yaw) * Math.cos(pitch)];
     const right = [Math.cos(yaw), 0, -Math.sin(yaw)];
     const up = [-Math.sin(yaw) * Math.sin(pitch), Math.cos(pitch), -Math.cos(yaw) * Math.sin(pitch)];
-    return {right, up, back};
+    return {right: turn(right), up: turn(up), back: turn(back)};
   }
 
   // Where it looks, and from how far, for all points to be seen: in the middle of them, as it sees them.
@@ -124,7 +131,8 @@ class Camera {
   }
 }
 
-// Turns a direction in which the camera is into yaw and pitch.
-function anglesOf([x, y, z]) {
+// Turns a direction in which the camera is, in the axes of the mesh, into yaw and pitch.
+function anglesOf(direction, up = 'y') {
+  const [x, y, z] = TURNS_BACK[up](direction);
   return [Math.atan2(x, z), Math.min(Math.max(Math.atan2(y, Math.hypot(x, z)), -MOST_PITCH), MOST_PITCH)];
 }

@@ -31,12 +31,22 @@ function pack([r, g, b]) {
   return ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0;
 }
 
-// The base colour of a part, linear. A white material, which waits for a texture, is a little darker, so that it
-// shows its shape.
-function baseColor(part) {
-  if (!part.color) return GREY;
-  const [r, g, b] = part.color.map((x) => Math.min(Math.max(x || 0, 0), 1));
-  return Math.min(r, g, b) > 0.9 ? [0.72, 0.72, 0.73, 1] : [r, g, b, 1];
+// The base colour of a material, linear, with its opacity; undefined: there is none. A white one without a texture is a
+// little darker, so that it shows its shape; one whose texture is lost is grey.
+function baseColor(material) {
+  if (!material) return GREY;
+  if (material.lost) return [0.47, 0.49, 0.52, 1];
+  const [r, g, b, a] = material.color.map((x) => Math.min(Math.max(x || 0, 0), 1));
+  return Math.min(r, g, b) > 0.9 && !material.base ? [0.72, 0.72, 0.73, a] : [r, g, b, a];
+}
+
+// Whether the mesh has colours to be looked at: textures, colours of vertices, or of materials that are not all white.
+function hasOwnColors(scene) {
+  const isColored = ({material}) => {
+    const of = scene.materials[material];
+    return of && (of.base || of.color.slice(0, 3).some((x) => x < 0.9));
+  };
+  return Boolean(scene.colors) || scene.parts.some(isColored);
 }
 
 function lengthsOf(scene) {
@@ -123,9 +133,13 @@ function detLegend(scene, paint) {
 }
 
 function plainLegend(scene) {
-  const hasTexture = scene.parts.some((part) => part.texture);
-  const what = scene.colors ? 'Colours of the vertices' : 'Base colours of the materials';
-  return [make('p', 'title', hasTexture ? what + ', without textures' : what)];
+  const used = scene.parts.map(({material}) => scene.materials[material]).filter((of) => of);
+  const what = [];
+  if (used.some((of) => of.base || of.glow)) what.push('textures');
+  if (scene.colors) what.push('colours of the vertices');
+  if (!what.length) what.push('colours of the materials');
+  const isLost = used.some((of) => of.lost);
+  return [make('p', 'title', 'As it is: ' + what.join(' and ')), ...(isLost ? [make('p', '', 'Grey: a texture that is not there.')] : [])];
 }
 
 function showLegend(scene, paint) {

@@ -62,7 +62,7 @@ function addKeys(canvas, viewer) {
     ArrowLeft: turn(-0.12, 0), ArrowRight: turn(0.12, 0), ArrowUp: turn(0, 0.1), ArrowDown: turn(0, -0.1),
     '+': () => viewer.camera.zoom(0.85), '=': () => viewer.camera.zoom(0.85), '-': () => viewer.camera.zoom(1 / 0.85),
     Home: view('fit'), f: view('front'), b: view('back'), l: view('left'), r: view('right'), t: view('top'), i: view('iso'),
-    c: () => viewer.toggle('showCage'), w: () => viewer.toggle('showEdges'), ' ': () => viewer.play(),
+    d: () => viewer.turnPaint(), c: () => viewer.toggle('showCage'), w: () => viewer.toggle('showEdges'), ' ': () => viewer.play(),
     j: () => viewer.toggle('showJoints'), p: () => viewer.motionRow.toggle(), ',': () => viewer.motionRow.step(-1), '.': () => viewer.motionRow.step(1),
     Escape: () => viewer.clearChoice(),
   };

@@ -79,6 +79,26 @@ function measureAll(scene) {
   return {center: low.map((x, a) => x / 2 + high[a] / 2), scale: Math.max(...half) || 1};
 }
 
+// Wedges: vertices with the coordinates of a texture; the corners of triangles name them. Null: no texture is shown.
+function readWedges(scene) {
+  if (scene.wedges === undefined) return null;
+  return {vertices: readArray('data-wedge', Uint32Array), texcoords: readArray('data-texcoord', Uint16Array), corners: readArray('data-corner', Uint32Array),
+    count: scene.wedges};
+}
+
+function areWedgesWhole(wedges, scene) {
+  return [[wedges.vertices, wedges.count], [wedges.texcoords, scene.texcoordLow.length * wedges.count], [wedges.corners, 3 * scene.triangles]]
+    .every(([array, size]) => array && array.length === size);
+}
+
+// The files of the textures.
+function readImages(scene) {
+  return scene.images.map((type, index) => {
+    const bytes = readBytes('data-image-' + index);
+    return bytes && bytes.length ? new Blob([bytes], {type}) : null;
+  });
+}
+
 // Whether the arrays are there from end to end: a file may be cut, and texts beyond a browser's limit are empty.
 function isWhole(scene) {
   const sizes = [[scene.quantized, 3 * scene.vertices], [scene.moves, 3 * scene.vertices], [scene.triangleIndices, 3 * scene.triangles],
@@ -99,7 +119,11 @@ function readScene() {
   scene.dets = readArray('data-det', Float32Array);
   scene.colors = readArray('data-color', Uint8Array);
   scene.numbers = readArray('data-number', scene.numberSize === 8 ? Float64Array : Uint32Array);
-  scene.triangleIndices = readArray('data-triangle', Uint32Array);
+  const wedges = readWedges(scene);
+  if (wedges && !areWedgesWhole(wedges, scene)) return null;
+  scene.wedges = wedges;
+  scene.images = readImages(scene);
+  scene.triangleIndices = wedges ? wedges.corners.map((wedge) => wedges.vertices[wedge]) : readArray('data-triangle', Uint32Array);
   scene.flipped = readArray('data-flipped', Uint8Array);
   scene.segmentIndices = readArray('data-segment', Uint32Array);
   scene.pointIndices = readArray('data-point', Uint32Array);

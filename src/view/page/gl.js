@@ -25,6 +25,49 @@ function compile(gl, vertex, fragment) {
   return {program, places};
 }
 
+// A texture, of one grey pixel until its image is decoded.
+function makeTexture(gl, wrap) {
+  const wraps = {repeat: gl.REPEAT, mirror: gl.MIRRORED_REPEAT, clamp: gl.CLAMP_TO_EDGE};
+  const texture = gl.createTexture();
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  gl.texImage2D(gl.TEXTURE_2D, 0, gl.SRGB8_ALPHA8, 1, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, Uint8Array.of(190, 192, 196, 255));
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, wraps[wrap[0]]);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, wraps[wrap[1]]);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
+  return texture;
+}
+
+// Decodes an image, no larger than the graphics card takes.
+async function decodeImage(gl, blob) {
+  const options = {premultiplyAlpha: 'none', colorSpaceConversion: 'none', imageOrientation: 'from-image'};
+  const whole = await createImageBitmap(blob, options);
+  const most = gl.getParameter(gl.MAX_TEXTURE_SIZE), side = Math.max(whole.width, whole.height);
+  if (side <= most) return whole;
+  const share = most / side;
+  return createImageBitmap(blob, {...options, resizeQuality: 'high', resizeWidth: Math.max(1, Math.floor(share * whole.width)),
+    resizeHeight: Math.max(1, Math.floor(share * whole.height))});
+}
+
+function fillTexture(gl, texture, bitmap) {
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  gl.texImage2D(gl.TEXTURE_2D, 0, gl.SRGB8_ALPHA8, gl.RGBA, gl.UNSIGNED_BYTE, bitmap);
+  gl.generateMipmap(gl.TEXTURE_2D);
+  gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
+  const sharp = gl.getExtension('EXT_texture_filter_anisotropic');
+  if (sharp) gl.texParameterf(gl.TEXTURE_2D, sharp.TEXTURE_MAX_ANISOTROPY_EXT, 4);
+}
+
+function keyOf(use) {
+  return use.image + ' ' + use.wrap;
+}
+
+// Whether an image is opaque everywhere, as far as a small copy shows.
+function isOpaque(bitmap) {
+  const canvas = new OffscreenCanvas(64, 64), context = canvas.getContext('2d');
+  context.drawImage(bitmap, 0, 0, 64, 64);
+  return context.getImageData(0, 0, 64, 64).data.every((value, i) => i % 4 < 3 || value === 255);
+}
+
 function makeBuffer(gl, kind, data) {
   const buffer = gl.createBuffer();
   gl.bindBuffer(kind, buffer);
@@ -48,6 +91,15 @@ function gather(values, sources) {
   return result;
 }
 
+// Coordinates of the drawn vertices in their textures, as the page has them.
+function gatherTexcoords(scene, wedges, width) {
+  const result = new Uint16Array(width * wedges.length);
+  wedges.forEach((wedge, i) => {
+    if (wedge >= 0) result.set(scene.wedges.texcoords.subarray(width * wedge, width * (wedge + 1)), width * i);
+  });
+  return result;
+}
+
 // Buffers of the mesh; `paint` holds two floats and a colour for each drawn vertex, set by setPaint.
 function makeSurface(gl, scene) {
   const split = splitVertices(scene);
@@ -65,6 +117,10 @@ function makeSurface(gl, scene) {
   bindAttribute(gl, 4, values, 2, gl.FLOAT, false, 0, 0);
   const colors = makeBuffer(gl, gl.ARRAY_BUFFER, new Uint8Array(4 * sources.length).fill(255));
   bindAttribute(gl, 5, colors, 4, gl.UNSIGNED_BYTE, true, 0, 0);
+  if (scene.wedges) {
+    const width = scene.texcoordLow.length;
+    bindAttribute(gl, 6, makeBuffer(gl, gl.ARRAY_BUFFER, gatherTexcoords(scene, split.wedges, width)), width, gl.UNSIGNED_SHORT, true, 0, 0);
+  }
   gl.bindVertexArray(null);
   const list = (from) => makeBuffer(gl, gl.ELEMENT_ARRAY_BUFFER, from.map((v) => drawn[v]));
   return {
@@ -95,6 +151,11 @@ function freeMarks(gl, marks) {
   gl.deleteBuffer(marks.buffer);
 }
 
+// Whether a material lets through what is behind it.
+function isBlended(material) {
+  return Boolean(material) && material.alpha === 'blend' && !material.lost;
+}
+
 // Edges of the triangles that are shown: once each, but for borders that run the wrong way.
 function makeEdges(gl, surface, runs) {
   const {indices} = surface;
@@ -117,7 +178,7 @@ function makeEdges(gl, surface, runs) {
 
 class Renderer {
   constructor(canvas, scene) {
-    const gl = canvas.getContext('webgl2', {antialias: true, alpha: true, premultipliedAlpha: true});
+    const gl = canvas.getContext('webgl2', {antialias: true, alpha: true, premultipliedAlpha: true, preserveDrawingBuffer: true});  // for paper
     if (!gl) throw new Error('WebGL2 is not there');
     this.gl = gl;
     this.canvas = canvas;
@@ -129,8 +190,33 @@ class Renderer {
     };
     this.surface = makeSurface(gl, scene);
     this.ramp = gl.createTexture();
+    this.textures = new Map();
     this.runs = [];
     this.marks = {};
+  }
+
+  // Decodes the textures, and calls `redraw` after each.
+  loadTextures(redraw) {
+    for (const material of this.scene.materials) {
+      for (const use of [material.base, material.glow, material.opacity]) this.loadTexture(use, redraw);
+    }
+  }
+
+  async loadTexture(use, redraw) {
+    const {gl, scene, textures} = this;
+    const blob = use ? scene.images[use.image] : null;
+    if (!blob || textures.has(keyOf(use))) return;
+    const texture = {of: makeTexture(gl, use.wrap), isOpaque: true};
+    textures.set(keyOf(use), texture);
+    try {
+      const bitmap = await decodeImage(gl, blob);
+      fillTexture(gl, texture.of, bitmap);
+      texture.isOpaque = isOpaque(bitmap);
+      bitmap.close();
+    } catch (problem) {
+      tellProblem('A texture of this page cannot be decoded.');
+    }
+    redraw();
   }
 
   // Values, colours and the ramp of a colouring (colors.js).
@@ -174,10 +260,10 @@ class Renderer {
     surface.edges = null;
     scene.parts.forEach((part, index) => {
       if (hidden.has(index) || part.count === 0) return;
-      const color = this.paint && this.paint.mode === 0 ? baseColor(part) : [1, 1, 1, 1];
+      const isPlain = this.paint && this.paint.mode === 0, material = isPlain ? part.material : null;
       const last = this.runs[this.runs.length - 1];
-      if (last && last.end === part.first && last.color.join() === color.join()) last.end += part.count;
-      else this.runs.push({first: part.first, end: part.first + part.count, color});
+      if (last && last.end === part.first && last.material === material) last.end += part.count;
+      else this.runs.push({first: part.first, end: part.first + part.count, material, of: isPlain ? scene.materials[part.material] : {color: [1, 1, 1, 1]}});
       for (let t = part.first; scene.flipped && t < part.first + part.count; t++) {
         if (scene.flipped[t]) flipped.push(...surface.indices.subarray(3 * t, 3 * t + 3));
       }
@@ -268,10 +354,7 @@ class Renderer {
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(1, 1);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, surface.triangles);
-    for (const run of this.runs) {
-      gl.uniform4f(places.baseColor, ...run.color);
-      gl.drawElements(gl.TRIANGLES, 3 * (run.end - run.first), gl.UNSIGNED_INT, 12 * run.first);
-    }
+    this.drawRuns(places);
     if (state.showFlipped && surface.flipped.count) {
       gl.polygonOffset(0, 0);
       gl.uniform1i(places.mode, 4);
@@ -284,10 +367,87 @@ class Renderer {
     gl.bindVertexArray(null);
   }
 
+  setMaterial(places, of) {
+    const {gl, scene, paint} = this;
+    const shown = paint.mode === 0 && of ? of : null;
+    gl.uniform4f(places.baseColor, ...(paint.mode === 0 ? baseColor(of) : [1, 1, 1, 1]));
+    gl.uniform1f(places.cutoff, shown && shown.alpha === 'mask' && !shown.lost ? shown.cutoff : 0);
+    gl.uniform3f(places.emission, ...(shown ? shown.emission : [0, 0, 0]));
+    gl.uniform1i(places.isTwoSided, shown && shown.twoSided ? 1 : 0);
+    gl.uniform1i(places.isBlended, isBlended(shown) ? 1 : 0);
+    gl.uniform1i(places.isUnlit, shown && shown.unlit ? 1 : 0);
+    if (scene.wedges) {
+      const four = (list, factor) => [0, 1, 2, 3].map((a) => factor * (list[a] || 0));
+      gl.uniform4f(places.texcoordLow, ...four(scene.texcoordLow, 1));
+      gl.uniform4f(places.texcoordSize, ...four(scene.texcoordStep, 65535));
+    }
+    const base = this.bindTexture(1, places.base, shown && shown.base), glow = this.bindTexture(2, places.glow, shown && shown.glow);
+    const opacity = this.bindTexture(3, places.opacity, shown && shown.opacity);
+    gl.uniform1i(places.hasBase, base ? 1 : 0);
+    gl.uniform1i(places.hasGlow, glow ? scene.texcoordLow.length / 2 : 0);
+    gl.uniform1i(places.hasOpacity, opacity ? (opacity.isOpaque ? 2 : 1) : 0);
+    gl.activeTexture(gl.TEXTURE0);
+  }
+
+  // Binds the texture of a use, if it has one.
+  bindTexture(unit, place, use) {
+    const {gl} = this;
+    const texture = use ? this.textures.get(keyOf(use)) : undefined;
+    gl.uniform1i(place, unit);
+    if (!texture) return undefined;
+    gl.activeTexture(gl.TEXTURE0 + unit);
+    gl.bindTexture(gl.TEXTURE_2D, texture.of);
+    return texture;
+  }
+
+  drawRun(places, run) {
+    const {gl} = this;
+    this.setMaterial(places, run.of);
+    gl.drawElements(gl.TRIANGLES, 3 * (run.end - run.first), gl.UNSIGNED_INT, 12 * run.first);
+  }
+
+  // Solid surfaces first; then what is seen through, the farthest part first, its back before its front.
+  drawRuns(places) {
+    const {gl, paint} = this;
+    const isSeenThrough = (run) => paint.mode === 0 && isBlended(run.of);
+    this.runs.filter((run) => !isSeenThrough(run)).forEach((run) => this.drawRun(places, run));
+    const glass = this.runs.filter(isSeenThrough);
+    if (!glass.length) return;
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    gl.depthMask(false);
+    gl.enable(gl.CULL_FACE);
+    const far = new Map(glass.map((run) => [run, this.depthOf(run)]));
+    for (const run of glass.sort((a, b) => far.get(b) - far.get(a))) {
+      for (const side of [gl.FRONT, gl.BACK]) {
+        gl.cullFace(side);
+        this.drawRun(places, run);
+      }
+    }
+    gl.disable(gl.CULL_FACE);
+    gl.depthMask(true);
+    gl.disable(gl.BLEND);
+  }
+
+  // The mean distance of a run's triangles from the eye, by some of them.
+  depthOf(run) {
+    const {scene, surface, state} = this;
+    const m = state.matrices.camera, step = Math.max(1, Math.floor((run.end - run.first) / 64));
+    let sum = 0, count = 0;
+    for (let t = run.first; t < run.end; t += step, count++) {
+      const v = 3 * surface.sources[surface.indices[3 * t]];
+      const at = [0, 1, 2].map((a) => scene.before[v + a] + state.blend * scene.move[v + a]);
+      sum -= m[2] * at[0] + m[6] * at[1] + m[10] * at[2] + m[14];
+    }
+    return sum / count;
+  }
+
   // Segments and points of the mesh; edges of its triangles.
   drawLoose(places) {
     const {gl, scene, surface, state} = this;
-    gl.uniform4f(places.baseColor, ...baseColor({}));
+    this.setMaterial(places, undefined);
+    // What has colours of its own is shown in them.
+    if (scene.colors) gl.uniform4f(places.baseColor, 1, 1, 1, 1);
     gl.uniform1i(places.element, 2);
     if (scene.segments) {
       gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, surface.segments);

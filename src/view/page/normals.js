@@ -98,7 +98,8 @@ function listFaces(scene) {
   return faces;
 }
 
-// What is drawn: `sources` names the vertex of each drawn one, `indices` the corners of the triangles. `normals` are
+// What is drawn: `sources` names the vertex of each drawn one, `wedges` its wedge (decode.js; empty where no texture is shown),
+// `indices` the corners of the triangles. `normals` are
 // those before and after, `anchorNormals` those of listFaces, three floats a vertex each.
 function splitVertices(scene) {
   const triangles = scene.triangleIndices;
@@ -106,7 +107,8 @@ function splitVertices(scene) {
   const faces = listFaces(scene);
   const {starts, corners} = listCorners(triangles, ids, places);
   const indices = new Uint32Array(triangles.length);
-  const sources = [], sums = faces.map(() => []);
+  const sources = [], wedges = [], sums = faces.map(() => []);
+  const wedgeOf = scene.wedges ? scene.wedges.corners : null;
   const drawn = new Int32Array(scene.vertices).fill(-1);
   const sideOf = [];
   for (let place = 0; place < places; place++) {
@@ -123,9 +125,11 @@ function splitVertices(scene) {
     for (let i = starts[place]; i < starts[place + 1]; i++) {
       const vertex = triangles[corners[i]];
       const side = sides[sideOf[i - starts[place]]];
-      let at = side.drawn.find((one) => sources[one] === vertex);
+      const wedge = wedgeOf ? wedgeOf[corners[i]] : undefined;
+      let at = side.drawn.find((one) => sources[one] === vertex && wedges[one] === wedge);
       if (at === undefined) {
         at = sources.push(vertex) - 1;
+        if (wedgeOf) wedges.push(wedge);
         side.drawn.push(at);
         for (let s = 0; s < faces.length; s++) sums[s].push(side.sums[3 * s], side.sums[3 * s + 1], side.sums[3 * s + 2]);
         drawn[vertex] = at;
@@ -136,6 +140,7 @@ function splitVertices(scene) {
   for (let v = 0; v < scene.vertices; v++) {
     if (drawn[v] >= 0) continue;
     drawn[v] = sources.push(v) - 1;
+    if (wedgeOf) wedges.push(-1);
     for (const list of sums) list.push(0, 0, 1);
   }
   const count = sources.length;
@@ -143,7 +148,7 @@ function splitVertices(scene) {
   for (let i = 0; i < count; i++) {
     for (const s of [0, 1]) storeNormal(normals, 8 * i + 4 * s, sums[s][3 * i], sums[s][3 * i + 1], sums[s][3 * i + 2]);
   }
-  return {sources: Uint32Array.from(sources), indices, normals, drawn, anchorNormals: sums.slice(2).map((list) => Float32Array.from(list))};
+  return {sources: Uint32Array.from(sources), wedges, indices, normals, drawn, anchorNormals: sums.slice(2).map((list) => Float32Array.from(list))};
 }
 
 // The normals of what is drawn in a pose (rig.js), as splitVertices has them at rest.

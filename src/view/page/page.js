@@ -30,9 +30,11 @@ function tellProblem(text) {
 }
 
 function showNames(scene) {
-  const heading = byId('name');
-  heading.append(nameElement(scene.name || 'mesh'));
-  if (scene.output) heading.append(' \u2192 ', nameElement(scene.output));
+  // The heading is cut at its beginning, as from right to left; the names in it are in their order.
+  const names = make('span', '', nameElement(scene.name || 'mesh'));
+  names.dir = 'ltr';
+  if (scene.output) names.append(' \u2192 ', nameElement(scene.output));
+  byId('name').append(names);
 }
 
 // A mesh alone has no way to go.

@@ -150,7 +150,8 @@ function partRow(viewer, part, index) {
   const line = checkbox('', name, !viewer.hidden.has(index), (on) => viewer.showPart(index, on), extra);
   line.firstChild.dataset.part = index;
   if (viewer.tornParts.has(index)) line.insertBefore(make('b', 'badge', 'torn'), extra);
-  if (part.material && part.material !== part.name) line.title = `${part.name} \u2013 material ${part.material}`;
+  const material = scene.materials[part.material];
+  if (material && material.name && material.name !== part.name) line.title = `${part.name} \u2013 material ${material.name}`;
   return line;
 }
 
@@ -259,15 +260,17 @@ function showVerdicts(scene) {
   const job = jobOf(scene.report);
   const line = byId('verdicts');
   const chips = [];
+  // What matters most comes first: that the lattice does nothing here.
+  if (job && job.vertices && job.inside === 0) chips.push(chip('bad', 'The lattice does not touch this model'));
+  else if (job && job.vertices && job.moved === 0) chips.push(chip('bad', 'Nothing moved'));
   if (job && job.folds) {
     const words = {none: ['good', 'No folds, proven'], some: ['bad', 'The volume folds'], unknown: ['warn', 'Folds: not proven']};
     chips.push(chip(...(words[job.folds.verdict] || ['warn', 'Folds: ?'])));
   } else if (scene.witness) chips.push(chip('bad', 'The volume folds'));
   if (scene.tearEdges) chips.push(chip('bad', countText(scene.tearEdges, 'torn edge')));
-  if (scene.flippedFaces) chips.push(chip('bad', countText(scene.flippedFaces, 'flipped face')));
+  if (scene.flippedFaces) chips.push(chip('bad', countText(scene.flippedFaces, 'face') + ' turned over'));
   if (job && job.outside) chips.push(chip('warn', `${numberText(job.outside)} outside`));
   if (job && job.invalid) chips.push(chip('bad', `${numberText(job.invalid)} not finite`));
-  if (job && job.vertices && job.moved === 0) chips.push(chip('warn', 'No vertex moves'));
   if (scene.displacementMax) chips.push(chip('', `Displacement to ${numberText(scene.displacementMax)}`));
   line.replaceChildren(...chips);
 }

@@ -8,42 +8,68 @@ layout(location = 2) in vec3 normalBefore;
 layout(location = 3) in vec3 normalAfter;
 layout(location = 4) in vec2 value;
 layout(location = 5) in vec4 color;
+layout(location = 6) in vec4 texcoord;
 uniform mat4 camera, projection;
 uniform float blend, pointSize;
+uniform vec4 texcoordLow, texcoordSize;
 out vec3 position, normal;
 out vec2 shownValue;
-out vec4 shownColor;
+out vec4 shownColor, shownTexcoord;
 void main() {
   vec4 seen = camera * vec4(before + blend * move, 1.0);
   position = seen.xyz;
   normal = mat3(camera) * mix(normalBefore, normalAfter, blend);
   shownValue = value;
   shownColor = color;
+  shownTexcoord = texcoordLow + texcoordSize * texcoord;
   gl_Position = projection * seen;
   gl_PointSize = pointSize;
 }`;
 
-// mode 0: base colours; 1: the ramp by value; 2: the ramp by log2 of value, folded from 0 on; 3: the vertices' colours;
+// mode 0: materials; 1: the ramp by value; 2: the ramp by log2 of value, folded from 0 on; 3: the vertices' colours;
 // 4: stripes. value.y is 1 where value.x is known.
 const SURFACE_FRAGMENT = `#version 300 es
 precision highp float;
 precision highp int;
 in vec3 position, normal;
 in vec2 shownValue;
-in vec4 shownColor;
+in vec4 shownColor, shownTexcoord;
 uniform int mode, element;
-uniform bool isSmooth;
+// hasGlow 2: by the second coordinates. hasOpacity 1: by alpha; 2: by luminance.
+uniform int hasBase, hasGlow, hasOpacity;
+uniform bool isSmooth, isTwoSided, isBlended, isUnlit;
+uniform float cutoff;
+uniform vec3 emission;
 uniform vec2 range;
 uniform vec4 baseColor;
 uniform vec3 unknownColor, foldedColor;
-uniform sampler2D ramp;
+uniform sampler2D ramp, base, glow, opacity;
 out vec4 result;
 
 vec3 toLinear(vec3 c) { return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(0.04045, c)); }
 vec3 toScreen(vec3 c) { return mix(c * 12.92, 1.055 * pow(max(c, 0.0), vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c)); }
 
-vec3 surfaceColor() {
-  if (mode == 0) return baseColor.rgb * toLinear(shownColor.rgb);
+// v is upwards, the rows of an image downwards.
+vec4 look(sampler2D image, vec2 at) { return texture(image, vec2(at.x, 1.0 - at.y)); }
+
+// Linear, with the opacity.
+vec4 materialColor() {
+  vec4 own = baseColor * vec4(toLinear(shownColor.rgb), shownColor.a);
+  float plain = own.a;
+  if (hasBase != 0) own *= look(base, shownTexcoord.xy);
+  if (hasOpacity != 0) {
+    vec4 cover = look(opacity, shownTexcoord.xy);
+    own.a = plain * (hasOpacity == 1 ? cover.a : dot(toScreen(cover.rgb), vec3(0.2126, 0.7152, 0.0722)));
+  }
+  return own;
+}
+
+vec3 emitted() {
+  if (hasGlow == 0) return emission;
+  return emission * look(glow, hasGlow == 2 ? shownTexcoord.zw : shownTexcoord.xy).rgb;
+}
+
+vec3 markColor() {
   if (mode == 3) return toLinear(shownColor.rgb);
   if (mode == 4) {
     float stripe = fract((gl_FragCoord.x + gl_FragCoord.y) / 10.0);
@@ -72,13 +98,15 @@ vec3 facing() {
 }
 
 void main() {
-  vec3 base = surfaceColor();
+  vec4 own = mode == 0 ? materialColor() : vec4(markColor(), 1.0);
+  if (mode == 0 && own.a < cutoff) discard;
+  vec3 surface = own.rgb;
   if (element == 1) {
     vec2 at = 2.0 * gl_PointCoord - 1.0;
     if (dot(at, at) > 1.0) discard;
   }
   if (element != 0) {
-    result = vec4(toScreen(base) * baseColor.a, baseColor.a);
+    result = vec4(toScreen(surface) * baseColor.a, baseColor.a);
     return;
   }
   vec3 n = facing();
@@ -91,10 +119,14 @@ void main() {
   vec3 halfway = normalize(normalize(vec3(-0.45, 0.65, 0.75)) + toEye);
   float shine = (mode == 0 ? 0.1 : 0.03) * pow(max(dot(n, halfway), 0.0), 36.0);
   float edge = 1.0 - 0.22 * pow(1.0 - max(dot(n, toEye), 0.0), 3.0);
-  vec3 lit = base * light * edge + shine;
+  vec3 lit = surface * light * edge + shine;
   // The inner side of a surface is darker and cooler.
-  if (!gl_FrontFacing && mode != 4) lit *= vec3(0.58, 0.62, 0.72);
-  result = vec4(toScreen(lit), 1.0);
+  if (!gl_FrontFacing && mode != 4 && !(mode == 0 && isTwoSided)) lit *= vec3(0.58, 0.62, 0.72);
+  if (mode == 0 && isUnlit) lit = surface;
+  if (mode == 0) lit += emitted();
+  // A surface that is cut by its opacity, or has none, is solid where it is.
+  float alpha = mode == 0 && isBlended ? own.a : 1.0;
+  result = vec4(toScreen(lit) * alpha, alpha);
 }`;
 
 // An instance is a line; its two triangles are as wide as `width` pixels.

@@ -50,11 +50,12 @@ class Viewer {
     this.tornParts = new Set(scene.tears.flatMap((tear) => tear.ends.map((end) => (end.vertex === undefined ? -1 : this.partOf[end.vertex]))));
     this.paints = listPaints(scene);
     const named = (key) => this.paints.find((paint) => paint.key === key);
-    this.paint = named(scene.view.color) || named('displacement') || named('plain');
+    const own = scene.view.color === 'auto' && hasOwnColors(scene) ? named('plain') : null;
+    this.paint = own || named(scene.view.color) || named('displacement') || named('plain');
     this.settings = {blend: 1, showCage: true, showRest: false, showTears: true, showFlipped: true, showEdges: false, isSmooth: true,
       showJoints: false, isPosed: false};
-    this.camera = new Camera(listFitPoints(scene));
-    if (scene.view.camera.some((x) => x !== 0)) [this.camera.yaw, this.camera.pitch] = anglesOf(scene.view.camera);
+    this.camera = new Camera(listFitPoints(scene), scene.view.up);
+    if (scene.view.camera.some((x) => x !== 0)) [this.camera.yaw, this.camera.pitch] = anglesOf(scene.view.camera, scene.view.up);
     this.renderer = null;
     this.waiting = false;
     this.motion = 0;
@@ -68,6 +69,7 @@ class Viewer {
     this.renderer.setMarks('controls', controls, 6);
     this.resize();
     this.setPaint(this.paint);
+    this.renderer.loadTextures(() => this.redraw());
     this.partsChanged();
     if (this.scene.rig) this.showJoints(null, 0);
     addPointers(this.canvas, this);
@@ -148,7 +150,15 @@ class Viewer {
     this.paint = paint;
     this.renderer.setPaint(paint);
     showLegend(this.scene, paint);
+    const input = byId('color-' + paint.key);
+    if (input) input.checked = true;
     this.redraw();
+  }
+
+  // From the model's own colours to the displacement, and back.
+  turnPaint() {
+    const named = (key) => this.paints.find((paint) => paint.key === key);
+    this.setPaint((this.paint.key === 'plain' ? named('displacement') : null) || named('plain'));
   }
 
   showPart(index, isShown) {
@@ -229,7 +239,7 @@ class Viewer {
   }
 
   look(name) {
-    const camera = new Camera(this.camera.points);
+    const camera = new Camera(this.camera.points, this.camera.upwards);
     [camera.yaw, camera.pitch] = VIEWS[name] || [this.camera.yaw, this.camera.pitch];
     camera.aspect = this.camera.aspect;
     this.moveCamera({yaw: camera.yaw, pitch: camera.pitch, ...camera.fit()});

@@ -2,7 +2,7 @@
    folders: gltf_faces.c, gltf_select.c, gltf_instancing.c, gltf_places.c, gltf_skin.c, gltf_faults.c,
    gltf_results.c and gltf_splats.c of model; gltf_rig_follow.c of edit; gltf_save.c, gltf_container.c and
    gltf_resources.c of write; gltf_open.c, gltf_as_morph.c, gltf_compare.c, gltf_describe.c, gltf_extract.c,
-   gltf_materials.c, gltf_skeleton.c and gltf_anchors.c. */
+   gltf_names.c, gltf_materials.c, gltf_skeleton.c and gltf_anchors.c. */
 #ifndef FFD_IO_GLTF_MODEL_GLTF_FUNCTIONS_H
 #define FFD_IO_GLTF_MODEL_GLTF_FUNCTIONS_H
 
@@ -72,6 +72,7 @@ mesh_save_function ffd_gltf_save;
 
 mesh_compare_function ffd_gltf_compare;
 mesh_describe_function ffd_gltf_describe;
+mesh_describe_function ffd_gltf_list_names;
 mesh_model_function ffd_gltf_extract;
 /* A value that glTF does not allow counts as absent. */
 mesh_list_materials_function ffd_gltf_list_materials;

@@ -111,7 +111,8 @@ ffd_status ffd_gltf_note_flaw(gltf_document *d, uint32_t value, ffd_error *error
     if (ffd_flaw_repeats(&d->base.flaws, format))
         return FFD_OK;
     ffd_json_tree_pointer(&d->tree, value, pointer, sizeof pointer);
-    return ffd_flaw_note(&d->base.flaws, d->name, 0, pointer, error, format, arguments);
+    return ffd_flaw_note(&d->base.flaws, d->name, ffd_json_tree_line(&d->tree, value), pointer, error, format,
+                         arguments);
 }
 
 ffd_status ffd_gltf_flaw(gltf_document *d, uint32_t value, ffd_error *error, const char *format, ...)

@@ -180,6 +180,14 @@ size_t ffd_gltf_texcoords(const gltf_document *d, const gltf_primitive *primitiv
     return other;
 }
 
+size_t ffd_gltf_glow_texcoords(const gltf_document *d, const gltf_primitive *primitive,
+                               gltf_texcoords *texcoords)
+{
+    const uint32_t glow = ffd_json_tree_member(&d->tree, material_of(d, primitive), "emissiveTexture");
+    const size_t set = find_taken(d, primitive, glow, texcoords);
+    return glow == JSON_NONE || texcoords->accessor == GLTF_NONE ? GLTF_NONE : set;
+}
+
 static bool has_further_set(const gltf_document *d, const gltf_primitive *primitive,
                             const gltf_texcoords *texcoords)
 {

@@ -49,6 +49,11 @@ _Static_assert(sizeof(gltf_texcoords) == 7 * sizeof(double), "a key has no paddi
 size_t ffd_gltf_texcoords(const gltf_document *document, const gltf_primitive *primitive,
                           gltf_texcoords *texcoords, bool *stands_in);
 
+/* The same for the texture of its emission. Returns GLTF_NONE if there is none, or the primitive lacks its
+ * set. */
+size_t ffd_gltf_glow_texcoords(const gltf_document *document, const gltf_primitive *primitive,
+                               gltf_texcoords *texcoords);
+
 /* Whether the primitive has further sets, or a texture of its material uses texture coordinates other than
    these. */
 bool ffd_gltf_has_more_texcoords(const gltf_document *document, const gltf_primitive *primitive,

@@ -69,20 +69,32 @@ static const map_option *option_of(text_word word)
     return NULL;
 }
 
+/* Reads the words of an option behind its name. Returns whether there is a further word. */
+static bool pass_option(text_scan *scan, const map_option *option, text_word *word, double numbers[3])
+{
+    bool there = ffd_text_word(scan, word);
+    for (int i = 0; there && i < option->words && (!option->numbers || ffd_text_number(*word, &numbers[i]));
+         i++)
+        there = ffd_text_word(scan, word);
+    return there;
+}
+
 /* Moves to the first word that is no option and belongs to none. */
-static bool pass_options(text_scan *scan, text_word *word, bool *is_clamped)
+static bool pass_options(text_scan *scan, text_word *word, mtl_map *map)
 {
     const map_option *option;
     bool there = ffd_text_word(scan, word);
     while (there && (option = option_of(*word))) {
-        double number;
-        const bool is_clamp = ffd_text_is_any_case(*word, "-clamp");
-        there = ffd_text_word(scan, word);
-        if (is_clamp)
-            *is_clamped = ffd_text_is_any_case(*word, "on");
-        for (int i = 0; there && i < option->words && (!option->numbers || ffd_text_number(*word, &number));
-             i++)
-            there = ffd_text_word(scan, word);
+        text_scan at = *scan;
+        text_word first;
+        const bool has_scale = strcmp(option->name, "-s") == 0, has_offset = strcmp(option->name, "-o") == 0;
+        /* Of a scale or an offset, the numbers that are left out stay. */
+        double numbers[3] = {has_scale ? 1 : 0, has_scale ? 1 : 0, 0};
+        if (strcmp(option->name, "-clamp") == 0)
+            map->is_clamped = ffd_text_word(&at, &first) && ffd_text_is_any_case(first, "on");
+        there = pass_option(scan, option, word, numbers);
+        if (has_scale || has_offset)
+            memcpy(has_scale ? map->scale : map->offset, numbers, sizeof map->scale);
     }
     return there;
 }
@@ -90,8 +102,8 @@ static bool pass_options(text_scan *scan, text_word *word, bool *is_clamped)
 bool ffd_mtl_read_map(text_scan *scan, mtl_map *map)
 {
     text_word word;
-    *map = (mtl_map){0};
-    if (!pass_options(scan, &map->name, &map->is_clamped))
+    *map = (mtl_map){.scale = {1, 1}};
+    if (!pass_options(scan, &map->name, map))
         return false;
     while (ffd_text_word(scan, &word)) /* the name goes on to the end of the line, blanks included */
         map->name.last = word.last;

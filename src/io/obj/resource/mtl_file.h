@@ -15,8 +15,9 @@ bool ffd_mtl_has_name(const char *path);
 bool ffd_mtl_has_content(const unsigned char *bytes, size_t size);
 /* A map that a statement names. */
 typedef struct mtl_map {
-    text_word name;  /* may hold blanks */
-    bool is_clamped; /* -clamp on */
+    text_word name;             /* may hold blanks */
+    bool is_clamped;            /* -clamp on */
+    double scale[2], offset[2]; /* -s and -o */
 } mtl_map;
 /* Takes the map of a statement from behind its keyword on. False: it names none. */
 bool ffd_mtl_read_map(text_scan *scan, mtl_map *map);

@@ -1,6 +1,7 @@
 /* obj_materials.c - the materials of the libraries that an OBJ file names. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/text/words.h"
 #include "io/obj/resource/mtl_file.h"
 #include "io/obj/resource/obj_libraries.h"
 #include "io/obj/resource/obj_paths.h"
@@ -10,26 +11,29 @@
 #include "mesh/resource/resource_copy.h"
 #include "mesh/srgb.h"
 
-/* What blended surfaces are drawn by. */
-#define HALF 0.5
+/* Whether Tr alone says how opaque a material is, and whether a map multiplies it. */
+typedef enum clearness_use { NOT_BY_CLEARNESS, BY_CLEARNESS, BY_CLEARNESS_AND_MAP } clearness_use;
 
 typedef struct reader {
     memory_budget *budget;
     mesh_materials *materials;
     material_images images;
-    intern_table names; /* of the materials */
-    left_out left;      /* libraries */
+    intern_table names;    /* of the materials */
+    uint8_t *by_clearness; /* of each material: a clearness_use */
+    size_t clearness_capacity, clearness_count,
+        wholly_clear; /* those of which it does; those whose Tr is 1 */
+    left_out left;    /* libraries */
     ffd_error *error;
 } reader;
 
 /* What a library says of a material: from a newmtl to the next one. */
 typedef struct definition {
     bool counts; /* the name is new */
-    double diffuse[3];
+    double diffuse[3], emission[3];
     double opacity;   /* d */
     double clearness; /* Tr, which many programs write too, some of them wrongly: d comes first */
-    bool has_opacity, has_alpha_map;
-    mtl_map map; /* name.first NULL: none */
+    bool has_emission, has_opacity, has_clearness;
+    mtl_map base, glow, alpha; /* name.first NULL: none */
 } definition;
 
 static ffd_status begin(reader *r, text_scan *scan, definition *d)
@@ -72,25 +76,35 @@ static bool read_share(text_scan *scan, double *number)
     return *number >= 0 && *number <= 1;
 }
 
+static mtl_map *map_of(definition *d, text_word keyword)
+{
+    return ffd_text_is_any_case(keyword, "map_kd")   ? &d->base
+           : ffd_text_is_any_case(keyword, "map_ke") ? &d->glow
+           : ffd_text_is_any_case(keyword, "map_d")  ? &d->alpha
+                                                     : NULL;
+}
+
 static void take_statement(text_scan *scan, text_word keyword, definition *d)
 {
-    mtl_map map;
+    mtl_map *map, read;
     double number;
     if (ffd_text_is_any_case(keyword, "kd")) {
         read_colour(scan, d->diffuse);
+    } else if (ffd_text_is_any_case(keyword, "ke")) {
+        read_colour(scan, d->emission);
+        d->has_emission = true;
     } else if (ffd_text_is_any_case(keyword, "d")) {
         if (read_share(scan, &number)) {
             d->opacity = number;
             d->has_opacity = true;
         }
     } else if (ffd_text_is_any_case(keyword, "tr")) {
-        if (read_share(scan, &number))
+        if (read_share(scan, &number)) {
             d->clearness = number;
-    } else if (ffd_text_is_any_case(keyword, "map_kd")) {
-        if (ffd_mtl_read_map(scan, &map))
-            d->map = map;
-    } else if (ffd_text_is_any_case(keyword, "map_d")) {
-        d->has_alpha_map = ffd_mtl_read_map(scan, &map) || d->has_alpha_map;
+            d->has_clearness = true;
+        }
+    } else if ((map = map_of(d, keyword)) && ffd_mtl_read_map(scan, &read)) {
+        *map = read;
     }
 }
 
@@ -121,21 +135,86 @@ end:
     return status;
 }
 
+static ffd_status read_map(reader *r, const char *library, const mtl_map *map, mesh_texture *to)
+{
+    if (!map->name.first)
+        return FFD_OK;
+    *to = (mesh_texture){.image = MATERIAL_NONE,
+                         .scale = {map->scale[0], map->scale[1]},
+                         .offset = {map->offset[0], map->offset[1]}};
+    to->wrap[0] = to->wrap[1] = map->is_clamped ? TEXTURE_CLAMP : TEXTURE_REPEAT;
+    return load_map(r, library, map->name, &to->image);
+}
+
+/* Sets a colour, which a map multiplies: a black that would hide the map is not meant. */
+static void set_colour(const double read[3], const mtl_map *map, double colour[3])
+{
+    const bool is_black = !(read[0] > 0 || read[1] > 0 || read[2] > 0);
+    for (size_t c = 0; c < 3; c++)
+        colour[c] = map->name.first && is_black ? 1 : ffd_srgb_to_linear(read[c]);
+}
+
+/* Returns the opacity without its map. d counts where both are there. d 0 is not meant where Tr says the
+   opposite, nor where a map would have nothing to multiply. */
+static double opacity_of(const definition *d)
+{
+    const bool is_contradicted = d->has_clearness && !(d->clearness > 0);
+    if (!d->has_opacity)
+        return 1 - d->clearness;
+    return !(d->opacity > 0) && (is_contradicted || d->alpha.name.first) ? 1 : d->opacity;
+}
+
+/* Notes whether Tr alone says how opaque the material is (see settle_clearness). */
+static ffd_status note_clearness(reader *r, const definition *d)
+{
+    const size_t count = r->materials->count;
+    const bool counts = d->has_clearness && !d->has_opacity;
+    if (!ffd_grow((void **)&r->by_clearness, &r->clearness_capacity, count, sizeof *r->by_clearness))
+        return ffd_fail_memory(r->error);
+    r->by_clearness[count - 1] = (uint8_t)(!counts               ? NOT_BY_CLEARNESS
+                                           : d->alpha.name.first ? BY_CLEARNESS_AND_MAP
+                                                                 : BY_CLEARNESS);
+    r->clearness_count += counts;
+    r->wholly_clear += counts && d->clearness >= 1;
+    return FFD_OK;
+}
+
 /* Fills in the material that was added last. */
 static ffd_status end(reader *r, const char *library, const definition *d)
 {
     if (!d->counts)
         return FFD_OK;
     mesh_material *const m = &r->materials->list[r->materials->count - 1];
-    const bool has_map = d->map.name.first;
-    const bool is_black = !(d->diffuse[0] > 0 || d->diffuse[1] > 0 || d->diffuse[2] > 0);
-    for (size_t c = 0; c < 3; c++) /* a black that would hide the map is not meant */
-        m->color[c] = has_map && is_black ? 1 : ffd_srgb_to_linear(d->diffuse[c]);
-    m->color[3] = d->has_opacity ? d->opacity : 1 - d->clearness;
-    m->alpha_cutoff = m->color[3] < 1 || d->has_alpha_map ? HALF : 0;
+    set_colour(d->diffuse, &d->base, m->color);
+    set_colour(d->emission, &d->glow, m->emission);
+    m->color[3] = opacity_of(d);
+    m->alpha = m->color[3] < 1 || d->alpha.name.first ? MATERIAL_BLEND : MATERIAL_OPAQUE;
     m->is_double_sided = true; /* the format knows no sides */
-    m->wrap[0] = m->wrap[1] = d->map.is_clamped ? TEXTURE_CLAMP : TEXTURE_REPEAT;
-    return has_map ? load_map(r, library, d->map.name, &m->image) : FFD_OK;
+    TRY(note_clearness(r, d));
+    TRY(read_map(r, library, &d->base, &m->base));
+    TRY(read_map(r, library, &d->glow, &m->glow));
+    TRY(read_map(r, library, &d->alpha, &m->opacity));
+    if (m->opacity.image == m->base.image && m->base.image < MATERIAL_LOST)
+        m->opacity.image = MATERIAL_NONE; /* the alpha of one image, which counts once */
+    return FFD_OK;
+}
+
+/* Tr 1 is wholly clear by the format. Two writers of textured scans and a mesh editor wrote it for opaque
+   materials, and nobody writes a mesh that cannot be seen: where Tr is 1 in all materials that say Tr and not
+   d, these are opaque. */
+static void settle_clearness(const reader *r, const mesh_log *log)
+{
+    if (r->clearness_count == 0 || r->wholly_clear < r->clearness_count)
+        return;
+    for (size_t i = 0; i < r->materials->count; i++) {
+        mesh_material *const m = &r->materials->list[i];
+        if (r->by_clearness[i] != NOT_BY_CLEARNESS)
+            m->color[3] = 1;
+        if (r->by_clearness[i] == BY_CLEARNESS)
+            m->alpha = MATERIAL_OPAQUE;
+    }
+    ffd_log_line(log, FFD_LOG_WARNING, "\"Tr 1\" of %zu %s is taken for opaque: no material has another Tr",
+                 r->clearness_count, ffd_plural(r->clearness_count, "material", "materials"));
 }
 
 static ffd_status read_statements(reader *r, const char *library, const file_input *bytes)
@@ -208,11 +287,13 @@ ffd_status ffd_obj_list_materials(mesh_document *document, const mesh_log *log, 
     TRY_END(ffd_obj_list_libraries(&file->input, &mesh, &libraries, error));
     for (uint32_t i = 0; i < libraries.count; i++)
         TRY_END(read_library(&r, ffd_intern_key(&libraries, i)));
+    settle_clearness(&r, log);
 end:
     ffd_left_out_log(&r.left, "material library cannot be read, and its materials are unknown",
                      "material libraries cannot be read, and their materials are unknown", log);
     ffd_images_end(&r.images, log);
     ffd_intern_free(&r.names);
+    ffd_free(r.by_clearness);
     ffd_intern_free(&libraries);
     return status;
 }
