@@ -341,7 +341,7 @@ test_arm64_units() {
     can_cross arm64-unit aarch64-linux-gnu-g++ qemu-aarch64 || return
     cat >"$work/arm64-unit.ini" <<EOF
 [binaries]
-exe_wrapper = ['qemu-aarch64', '-E', 'LD_LIBRARY_PATH=/usr/lib/aarch64-linux-gnu:/usr/aarch64-linux-gnu/lib']
+exe_wrapper = ['qemu-aarch64', '-E', 'LD_LIBRARY_PATH=/usr/lib/aarch64-linux-gnu:/usr/aarch64-linux-gnu/lib', '-E', 'FFD_EMULATED=1']
 EOF
     libraries=$(cd "$root/subprojects" && echo *.wrap | sed 's/\.wrap//g; s/ /,/g')
     step arm64-unit setup setup_arm64 arm64-unit --cross-file "$work/arm64-unit.ini" --wrap-mode=nodownload --force-fallback-for="$libraries" -Dtests=enabled || return
