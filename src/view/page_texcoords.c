@@ -48,17 +48,22 @@ static void collect(const page_mesh *mesh, wedge_table *table, page_texcoords *t
     }
 }
 
+/* Comparisons in place of fmin and fmax: at those of this loop gcc 12 fails for arm64. */
 static void measure(page_texcoords *t)
 {
-    for (size_t a = 0; a < t->width; a++) {
-        double high = t->count ? t->values[a] : 0;
-        t->low[a] = high;
-        for (size_t i = 0; i < t->count; i++) {
-            t->low[a] = fmin(t->low[a], t->values[t->width * i + a]);
-            high = fmax(high, t->values[t->width * i + a]);
-        }
-        t->step[a] = (high - t->low[a]) / STEPS;
+    double high[4] = {0};
+    for (size_t i = 0; i < t->width * t->count; i++) {
+        const size_t a = i % t->width;
+        const double x = t->values[i];
+        if (i < t->width)
+            t->low[a] = high[a] = x;
+        if (x < t->low[a])
+            t->low[a] = x;
+        if (x > high[a])
+            high[a] = x;
     }
+    for (size_t a = 0; a < t->width; a++)
+        t->step[a] = (high[a] - t->low[a]) / STEPS;
 }
 
 ffd_status ffd_page_texcoords_make(const page_mesh *mesh, page_texcoords *t, ffd_error *error)
