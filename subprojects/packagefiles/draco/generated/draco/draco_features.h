@@ -1,4 +1,4 @@
-/* What the library can do; its own build makes this file from options. */
+/* What the library can do; its own build makes this file from options. Only writers ask to have duplicates removed. */
 #ifndef DRACO_FEATURES_H_
 #define DRACO_FEATURES_H_
 
@@ -8,7 +8,5 @@
 #define DRACO_STANDARD_EDGEBREAKER_SUPPORTED
 #define DRACO_PREDICTIVE_EDGEBREAKER_SUPPORTED
 #define DRACO_BACKWARDS_COMPATIBILITY_SUPPORTED
-#define DRACO_ATTRIBUTE_INDICES_DEDUPLICATION_SUPPORTED
-#define DRACO_ATTRIBUTE_VALUES_DEDUPLICATION_SUPPORTED
 
 #endif
