@@ -104,6 +104,19 @@ static void all_kinds_of_png_show_their_pixels(void **state)
     }
 }
 
+/* Decodes a file of this size. Its pixels are freed by the caller. */
+static image decode_sample(const char *name, int width, int height)
+{
+    file f;
+    image found;
+    ffd_error error;
+    load(&f, name);
+    if (ffd_image_decode(f.bytes, f.size, NULL, &found, &error))
+        fail_msg("%s: %s", name, error.message);
+    assert_true(found.width == (uint32_t)width && found.height == (uint32_t)height);
+    return found;
+}
+
 /* The images were made with red across, green down and blue in fields, up to the loss of the format. */
 static void all_kinds_of_jpeg_show_their_pixels(void **state)
 {
@@ -118,14 +131,8 @@ static void all_kinds_of_jpeg_show_their_pixels(void **state)
                  {"jpeg/progressive.jpg", 33, 33, 80, false}};
     (void)state;
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        file f;
-        image found;
-        ffd_error error;
         const int width = kinds[i].width, height = kinds[i].height;
-        load(&f, kinds[i].name);
-        if (ffd_image_decode(f.bytes, f.size, NULL, &found, &error))
-            fail_msg("%s: %s", kinds[i].name, error.message);
-        assert_true(found.width == (uint32_t)width && found.height == (uint32_t)height);
+        const image found = decode_sample(kinds[i].name, width, height);
         for (int p = 0; p < width * height; p++) {
             const uint8_t *const pixel = found.pixels + 4 * p;
             const int red = p % width * 255 / width,
@@ -155,14 +162,8 @@ static void all_kinds_of_webp_show_their_pixels(void **state)
     if (!has_webp)
         skip();
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        file f;
-        image found;
-        ffd_error error;
         const int width = kinds[i].width, height = kinds[i].height;
-        load(&f, kinds[i].name);
-        if (ffd_image_decode(f.bytes, f.size, NULL, &found, &error))
-            fail_msg("%s: %s", kinds[i].name, error.message);
-        assert_true(found.width == (uint32_t)width && found.height == (uint32_t)height);
+        const image found = decode_sample(kinds[i].name, width, height);
         for (int p = 0; p < width * height; p++) {
             const int x = p % width, y = p / width, tolerance = kinds[i].pixel ? 0 : 12;
             uint8_t wanted[4] = {(uint8_t)(x * 255 / width), (uint8_t)(y * 255 / height), 128, 255};
