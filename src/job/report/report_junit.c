@@ -4,6 +4,7 @@
 #include "base/file/output.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
+#include "base/vector/number.h"
 #include "job/report/report.h"
 #include "job/report/report_file.h"
 #include "job/report/report_reader.h"
@@ -87,7 +88,7 @@ typedef struct junit_case {
 
 static void put_time(byte_buffer *xml, double seconds)
 {
-    ffd_buffer_format(xml, " time=\"%s\"", ffd_number_decimals(fmin(seconds, LONGEST), 6).text);
+    ffd_buffer_format(xml, " time=\"%s\"", ffd_number_decimals(minimum_number(seconds, LONGEST), 6).text);
 }
 
 static void add_case(junit_suite *suite, const junit_case *c)
