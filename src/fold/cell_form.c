@@ -1,5 +1,5 @@
 #include "fold/cell_form.h"
-#include "base/vector/number.h"
+#include "base/arithmetic.h"
 #include "embed/frame/bezier_box.h"
 #include "fold/bernstein.h"
 #include <string.h>

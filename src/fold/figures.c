@@ -1,5 +1,5 @@
 /* figures.c - relative values of the determinant, and the intermediate result of a search. */
-#include "base/vector/number.h"
+#include "base/arithmetic.h"
 #include "fold/search.h"
 
 #define UNIT (0.5 * DBL_EPSILON)

@@ -1,5 +1,5 @@
 /* fold.c - ffd_folds_find: the proof that a deformed lattice does not fold, cell by cell. */
-#include "base/vector/number.h"
+#include "base/arithmetic.h"
 #include <ffd/fold.h>
 
 #include "base/memory/memory.h"

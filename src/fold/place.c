@@ -1,5 +1,5 @@
 #include "fold/place.h"
-#include "base/vector/number.h"
+#include "base/arithmetic.h"
 #include "fold/bernstein.h"
 #include "fold/wide.h"
 #include <string.h>

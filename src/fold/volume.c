@@ -1,6 +1,6 @@
 /* volume.c - the signed volume of the rest lattice. */
+#include "base/arithmetic.h"
 #include "base/memory/memory.h"
-#include "base/vector/number.h"
 #include "embed/frame/face_net.h"
 #include "embed/frame/rational_volume.h"
 #include "fold/bernstein.h"

@@ -1,6 +1,6 @@
 #include "lattice/build.h"
+#include "base/arithmetic.h"
 #include "base/memory/memory.h"
-#include "base/vector/number.h"
 #include "lattice/cylinder.h"
 #include "lattice/drag.h"
 #include "lattice/lattice.h"

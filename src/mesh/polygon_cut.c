@@ -1,7 +1,7 @@
 #include "mesh/polygon_cut.h"
+#include "base/arithmetic.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
-#include "base/vector/number.h"
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 #include "spline/basis.h"
-#include "base/vector/number.h"
+#include "base/arithmetic.h"
 #include "spline/triangle.h"
 #include <math.h>
 

@@ -1,9 +1,9 @@
 #include "spline/knots.h"
+#include "base/arithmetic.h"
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
 #include "base/text/words.h"
-#include "base/vector/number.h"
 #include "spline/bezier.h"
 #include <limits.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 /* core.c - what the package for npm calls beside the public functions: calls whose structs stay in C, and the
    error of the last call that failed. js/lattice.mjs is the other side. */
-#include "base/vector/number.h"
+#include "base/arithmetic.h"
 #include <ffd/ffd.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 #include "base/vector/trig.h"
-#include "base/vector/number.h"
+#include "base/arithmetic.h"
 #include <math.h>
 
 /* pi/180 as a sum of two doubles: relative error below 2^-107. */

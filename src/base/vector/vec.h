@@ -3,7 +3,7 @@
 #ifndef FFD_BASE_VECTOR_VEC_H
 #define FFD_BASE_VECTOR_VEC_H
 
-#include "base/vector/number.h"
+#include "base/arithmetic.h"
 #include <stdbool.h>
 
 #ifdef __cplusplus

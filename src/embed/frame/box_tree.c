@@ -1,6 +1,6 @@
 #include "embed/frame/box_tree.h"
+#include "base/arithmetic.h"
 #include "base/memory/memory.h"
-#include "base/vector/number.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 #include "embed/frame/face_net.h"
+#include "base/arithmetic.h"
 #include "base/memory/memory.h"
-#include "base/vector/number.h"
 #include "lattice/border.h"
 #include <math.h>
 

@@ -1,10 +1,10 @@
 /* report_junit.c - reports and comparisons of folders as JUnit XML, which build servers show. */
+#include "base/arithmetic.h"
 #include "base/file/input.h"
 #include "base/file/mapping.h"
 #include "base/file/output.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
-#include "base/vector/number.h"
 #include "job/report/report.h"
 #include "job/report/report_file.h"
 #include "job/report/report_reader.h"

@@ -1,6 +1,6 @@
 #include "mesh/meshopt/meshopt_filters.h"
+#include "base/arithmetic.h"
 #include "base/little_endian.h"
-#include "base/vector/number.h"
 #include <math.h>
 
 #define LARGEST_8 127.0

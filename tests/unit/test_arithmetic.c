@@ -1,5 +1,5 @@
-/* The functions of base/vector/number.h and root.h, against those of C's library. */
-#include "base/vector/number.h"
+/* The functions of base/arithmetic.h and root.h, against those of C's library. */
+#include "base/arithmetic.h"
 #include "base/vector/root.h"
 #include "base/vector/trig.h"
 #include <setjmp.h>

@@ -1,8 +1,8 @@
-/* number.h - what C's math library has for single numbers: inline, with the same bits on every processor. The
-   program calls no other function of that library, which it would otherwise load first: a twelfth of its start
-   (tests/bench, subject start). */
-#ifndef FFD_BASE_VECTOR_NUMBER_H
-#define FFD_BASE_VECTOR_NUMBER_H
+/* arithmetic.h - what C's math library has for single numbers: inline, with the same bits on every processor.
+   The program calls no other function of that library, which it would otherwise load first: a twelfth of its
+   start (tests/bench, subject start). */
+#ifndef FFD_BASE_ARITHMETIC_H
+#define FFD_BASE_ARITHMETIC_H
 
 #include <float.h>
 #include <math.h>
