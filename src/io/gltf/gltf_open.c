@@ -5,6 +5,7 @@
 #include "base/text/content.h"
 #include "base/text/words.h"
 #include "io/gltf/edit/gltf_edit.h"
+#include "io/gltf/model/gltf_faults.h"
 #include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/model/gltf_instancing.h"
 #include "io/gltf/model/gltf_parts.h"
@@ -377,6 +378,7 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
     ffd_gltf_find_held(d);
     TRY(ffd_gltf_list_skins(d, error));
     TRY(ffd_gltf_make_scene(d, error));
+    TRY(ffd_gltf_note_weights(d, error));
     TRY(ffd_gltf_settle_skins(d, error));
     TRY(ffd_gltf_make_parts(d, error));
     TRY(ffd_gltf_make_shapes(d, error));

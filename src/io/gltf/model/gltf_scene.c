@@ -3,7 +3,6 @@
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "base/vector/vec.h"
-#include "io/gltf/model/gltf_parts.h"
 #include "io/gltf/model/gltf_references.h"
 #include <math.h>
 #include <string.h>
@@ -413,42 +412,6 @@ static ffd_status note_unequal_targets(gltf_document *d, ffd_error *error)
     return FFD_OK;
 }
 
-/* Whether an object's default weights, if any, are one number per target. */
-static bool has_sound_weights(const gltf_document *d, uint32_t object, size_t targets)
-{
-    const uint32_t array = ffd_json_tree_member(&d->tree, object, "weights");
-    double weight;
-    if (array == JSON_NONE)
-        return true;
-    if (d->tree.values[array].kind != JSON_ARRAY || d->tree.values[array].count != targets)
-        return false;
-    for (uint32_t v = ffd_json_tree_first(&d->tree, array); v != JSON_NONE;
-         v = ffd_json_tree_after(&d->tree, v))
-        if (!ffd_gltf_weight(d, v, &weight))
-            return false;
-    return true;
-}
-
-static ffd_status note_weights(gltf_document *d, uint32_t object, size_t targets, ffd_error *error)
-{
-    if (has_sound_weights(d, object, targets))
-        return FFD_OK;
-    return ffd_gltf_flaw(d, ffd_json_tree_member(&d->tree, object, "weights"), error,
-                         "the default weights are not one finite number for each morph target: a missing or "
-                         "other one counts as 0");
-}
-
-static ffd_status note_default_weights(gltf_document *d, ffd_error *error)
-{
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        TRY(note_weights(d, d->mesh_values.values[m], d->mesh_uses[m].target_count, error));
-    for (size_t n = 0; n < d->model.node_count; n++) {
-        const int mesh = d->model.nodes[n].mesh;
-        TRY(note_weights(d, d->node_values.values[n], mesh < 0 ? 0 : d->mesh_uses[mesh].target_count, error));
-    }
-    return FFD_OK;
-}
-
 ffd_status ffd_gltf_make_scene(gltf_document *d, ffd_error *error)
 {
     const size_t count = d->model.node_count;
@@ -468,7 +431,6 @@ ffd_status ffd_gltf_make_scene(gltf_document *d, ffd_error *error)
     count_targets(d);
     find_parents(d, &twice);
     TRY_END(note_unequal_targets(d, error));
-    TRY_END(note_default_weights(d, error));
     if (twice != GLTF_NONE)
         TRY_END(ffd_gltf_flaw(d, d->node_values.values[twice], error,
                               "node %zu names the node twice as its child", d->parents[twice]));
