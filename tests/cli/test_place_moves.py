@@ -129,6 +129,23 @@ def the_middle_of_a_mesh_that_is_not_symmetric_is_said(run):
 
 
 def morphed(weights=None):
+@case
+def positions_of_several_parts_count_once(run):
+    """Two primitives share them, with normals of their own. Behind another lattice the vertices of the parts after them once were
+    looked for beyond the list."""
+    made = Scene(nodes=[{"mesh": 0}], scene=0, scenes=[{"nodes": [0]}])
+    points = figure()
+    shared, right, left = (made.add(rows, bounds=True) for rows in (points, points[:500], points[500:]))
+    normals = [made.add([[0.0, y, 1.0 - y]] * len(points)) for y in (0.0, 1.0)]
+    made.asset["meshes"] = [{"primitives": [{"attributes": {"POSITION": shared, "NORMAL": normal}, "mode": 0} for normal in normals] +
+                             [{"attributes": {"POSITION": half}, "mode": 0} for half in (right, left)]}]
+    run.write("a.glb", made.glb())
+    run.write("up.json", lattice(low=[-2, -1, -2], high=[2, 4, 2], moves=[{"by": [0, 0.5, 0]}]))
+    run.write("l.json", round_mesh([{"mirror": "x", "by": [0, 0, 0.1]}]))
+    for before in ([], ["-l", "up.json"]):
+        no_line(run.ffd("check", "a.glb", *before, "-l", "l.json", err=anything), "mirror")
+
+
     """A man of height 2 on the floor, whose morph targets reach below it and far above."""
     made = Scene(nodes=[{"mesh": 0}], scene=0)
     made.asset["scenes"] = [{"nodes": [0]}]
