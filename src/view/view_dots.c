@@ -5,7 +5,7 @@
 
 const uint8_t ffd_view_line_color[3] = {60, 64, 72};
 
-/* Splats with less opacity have no say in what a picture shows. */
+/* Splats with less opacity do not widen the picture. */
 #define FAINT 0.05
 
 static bool is_vertices_only(const view_scene *scene)
