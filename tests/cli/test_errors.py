@@ -64,7 +64,8 @@ LATTICES = [
     (lattice(version=2), UNSUPPORTED, ":1: /version: version 2 is newer than 1, the newest known here"),
     (lattice(version="1"), INVALID, ':1: /version: must be a whole number, not the text "1"'),
     (lattice(size=[4, 4]), INVALID, ":1: /size: must be an array of 3 sizes, not an array of 2"),
-    (lattice(size=[1, 4, 4]), INVALID, ":1: /size/0: is 1, but a direction has at least 2 control points"),
+    (lattice(size=[1, 4, 4]), INVALID, ':1: /size/0: is 1, but a direction has at least 2 control points: a plane needs two layers that move alike: '
+     '"size": [5, 5, 2], "degree": [3, 3, 1], and "at": [i, j, "all"]'),
     (lattice(size=[4, 4, 4.5]), INVALID, ":1: /size/2: must be a whole number, not the number 4.5"),
     (lattice(size=[10 ** 9] * 3), LIMIT, ":1: /size/0: size 1000000000 makes more than 67108864 control points"),
     (lattice(size="4"), INVALID, ":1: /size: must be an array of 3 sizes, not an array of 1"),

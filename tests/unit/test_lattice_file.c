@@ -243,7 +243,8 @@ static void bad_versions_sizes_degrees_and_weights_are_refused(void **state)
         {HEAD "\"size\":[2,2]," UNIT "}", FFD_E_INVALID,
          "f.json:1: /size: must be an array of 3 sizes, not an array of 2"},
         {HEAD "\"size\":[2,1,2]," UNIT "}", FFD_E_INVALID,
-         "f.json:1: /size/1: is 1, but a direction has at least 2 control points"},
+         "f.json:1: /size/1: is 1, but a direction has at least 2 control points: a plane needs two layers "
+         "that move alike: \"size\": [5, 5, 2], \"degree\": [3, 3, 1], and \"at\": [i, j, \"all\"]"},
         {HEAD "\"size\":[2,2.5,2]," UNIT "}", FFD_E_INVALID,
          "f.json:1: /size/1: must be a whole number, not the number 2.5"},
         {HEAD "\"size\":[2,true,2]," UNIT "}", FFD_E_INVALID,
