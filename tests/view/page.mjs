@@ -392,6 +392,46 @@ async function phonesAndDarkAreServed() {
   await end();
 }
 
+// Sliders at their defaults show what the file does; each changes the picture, also while an animation plays.
+async function morphTargetsHaveSliders() {
+  const {page, end} = await open('real_face');
+  const row = (number) => page.locator('#targets input').nth(number);
+  assert.match(await text(page, '#targets'), /Morph targets \(3\)[^]*up[^]*0\.5[^]*<\/script><img src=x onerror=alert\(5\)>\\n\\u\{202e\}[^]*up/);
+  assert.deepEqual(await page.locator('#targets input').evaluateAll((all) => all.map((one) => [one.min, one.max, one.value])),
+    [['0', '1', '0.5'], ['0', '1', '0'], ['0', '1', '0']]);
+  const first = await settled(page);
+  await eachChanges(page, [['a slider', () => row(0).fill('1')], ['another', () => row(1).fill('0.8')], ['a third', () => row(2).fill('1')],
+    ['the way before', () => page.locator('#blend').fill('0')], ['a slider, before', () => row(1).fill('0.1')]]);
+  await page.locator('#blend').fill('100');
+  await page.click('#targets button');
+  assert.equal(await picture(page), first, 'the weights of the file');
+  await page.locator('#animation').selectOption({label: 'turn'});
+  await page.locator('#time').fill('150');
+  const posed = await picture(page);
+  await eachChanges(page, [['a slider, in a pose', () => row(1).fill('1')], ['the time', () => page.locator('#time').fill('60')]]);
+  await page.locator('#time').fill('150');
+  await page.click('#targets button');
+  assert.equal(await picture(page), posed, 'the pose as before');
+  await end();
+}
+
+async function newTargetsAreInFull() {
+  const {page, end} = await open('real_morph');
+  assert.match(await text(page, '#targets'), /<img src=x onerror=alert\(6\)>[^]*1$/);
+  const row = page.locator('#targets input').last();
+  assert.deepEqual(await row.evaluate((one) => [one.min, one.max, one.value]), ['0', '1', '1']);
+  await changes(page, 'the new target', () => row.fill('0'));
+  const without = await picture(page);
+  await page.locator('#blend').fill('0');
+  // The cage moves all the same.
+  await page.locator('#show-showCage').uncheck();
+  const before = await picture(page);
+  await page.locator('#blend').fill('100');
+  assert.equal(await picture(page), before, 'a target at 0 leaves the mesh as it is');
+  assert.notEqual(without, before);
+  await end();
+}
+
 async function thePolicyForbidsRequests() {
   const {page, said} = await open('empty');
   assert.deepEqual(said, []);
@@ -418,6 +458,6 @@ const tests = {
     hostileNamesAreText, largeAndEmptyMeshesOpen, aCutPageSaysSo, withoutWebGLThereAreFigures, phonesAndDarkAreServed,
     thePolicyForbidsRequests],
   real: [aRealFoldIsPicked, realTearsAreListed, filesAreColouredByDisplacement, aMeshAloneHasNoSlider,
-    farControlPointsLeaveTheMeshItsSize, materialsLookAsTheyAre, whatPointsUpwardsStandsUpright, realHostileNamesAreText, animationsArePlayed],
+    farControlPointsLeaveTheMeshItsSize, materialsLookAsTheyAre, whatPointsUpwardsStandsUpright, realHostileNamesAreText, animationsArePlayed, morphTargetsHaveSliders, newTargetsAreInFull],
 };
 await runAll(browser, tests[process.argv[5]]);

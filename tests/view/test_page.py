@@ -21,7 +21,7 @@ import tempfile
 from browser import find_browser, run_script
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
-from gltf_arm import arm  # noqa: E402 (a neighbour of this folder)
+from gltf_arm import arm, face  # noqa: E402 (a neighbour of this folder)
 from png_make import make_png  # noqa: E402
 
 KINDS = ("torn", "fold", "hostile", "large", "empty")
@@ -129,6 +129,10 @@ def make_real(ffd, model, folder):
     write("arm.gltf", arm(names=("turn", "</script><img src=x onerror=alert(4)>\n\u202e")))
     wide = write("wide.json", {"format": "ffd-lattice", "version": 1, **WIDE})
     subprocess.run([ffd, "view", "arm.gltf", "-l", wide, "--animation", "turn", "-o", "real_arm.html", "-q"], cwd=folder, check=True)
+    write("face.gltf", face(("up", "</script><img src=x onerror=alert(5)>\n\u202e"), [[0.5, 0], [0]]))
+    subprocess.run([ffd, "view", "face.gltf", "-l", wide, "--color", "plain", "-o", "real_face.html", "-q"], cwd=folder, check=True)
+    subprocess.run([ffd, "view", "face.gltf", "--morph", f"'<img src=x onerror=alert(6)>'={os.path.basename(wide)}", "-o", "real_morph.html", "-q"],
+                   cwd=folder, check=True)
     for kind, mesh, moves in (("far", "high.obj", FAR), ("fold", "fold.obj", FOLD), ("tear", "a.obj", TEAR), ("hostile", os.path.basename(hostile), FOLD)):
         lattice = write("<b>cage.json" if kind == "hostile" else kind + ".json",
                         {"format": "ffd-lattice", "version": 1, **moves})

@@ -128,7 +128,8 @@ function readScene() {
   scene.segmentIndices = readArray('data-segment', Uint32Array);
   scene.pointIndices = readArray('data-point', Uint32Array);
   scene.rig = readRig(scene);
-  if (!isWhole(scene) || (scene.rig && !isRigWhole(scene.rig, scene.vertices))) return null;
+  scene.targets = readTargets(scene);
+  if (!scene.targets || !isWhole(scene) || (scene.rig && !isRigWhole(scene.rig, scene.vertices))) return null;
   scene.space = measureAll(scene);
   const {center, scale} = scene.space;
   const count = 3 * scene.vertices;
@@ -138,7 +139,8 @@ function readScene() {
     scene.before[i] = (scene.low[i % 3] - center[i % 3] + scene.quantized[i] * scene.step[i % 3]) / scale;
     scene.move[i] = (scene.moves[i] * scene.moveStep) / scale;
   }
-  scene.rest = scene.rig ? {before: scene.before.slice(), move: scene.move.slice()} : null;
+  for (const slider of scene.sliders) slider.value = slider.weight;
+  scene.rest = scene.rig || scene.sliders.length ? {before: scene.before.slice(), move: scene.move.slice()} : null;
   return scene;
 }
 

@@ -276,7 +276,7 @@ class Renderer {
   // Brings the mesh to where its scene has been posed (rig.js).
   setPose(poses) {
     const {gl, scene, surface} = this;
-    const normals = poses[0] || poses[1] ? poseNormals(surface.split, poses, surface.split.normals) : surface.split.normals;
+    const normals = poses.isMorphed ? morphNormals(scene, surface.split) : poses[0] || poses[1] ? poseNormals(surface.split, poses, surface.split.normals) : surface.split.normals;
     for (const [buffer, values] of [[surface.before, gather(scene.before, surface.sources)],
       [surface.move, gather(scene.move, surface.sources)], [surface.normals, normals]]) {
       gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
@@ -331,7 +331,7 @@ class Renderer {
       this.drawLines('joints', 2.6, state.colors.joint, 0.6, state.blend);
       this.drawDiscs('jointPoints', 7, state.colors.joint, state.colors.rim, 0.6, state.blend);
     }
-    if (state.showTears && !state.isPosed) this.drawLines('tears', 3.4, state.colors.tear, 0.55, state.blend);
+    if (state.showTears && !state.isPosed && !state.isMorphed) this.drawLines('tears', 3.4, state.colors.tear, 0.55, state.blend);
     this.drawLines('chosen', 6, state.colors.chosen, 0.8, state.blend);
     this.drawDiscs('chosenPoint', 13, state.colors.chosen, state.colors.rim, 1, state.blend);
     gl.depthMask(true);
