@@ -6,6 +6,7 @@
 #include "view/page_images.h"
 #include "view/page_reduce.h"
 #include "view/page_scene.h"
+#include "view/page_splats.h"
 #include "view/page_texcoords.h"
 #include "view/page_text.h"
 #include <inttypes.h>
@@ -174,6 +175,7 @@ static void write_data(page_work *work)
     ffd_page_describe(&work->description, &description);
     write_json(work, "scene", &description);
     ffd_page_data_write(&work->data, &work->writer);
+    ffd_page_splats_write(&work->mesh, &work->writer);
     ffd_page_texcoords_write(&work->texcoords, &work->writer);
     ffd_page_images_write(&work->images, &work->writer);
     ffd_page_rig_write(&work->rig, &work->writer);

@@ -392,6 +392,28 @@ async function phonesAndDarkAreServed() {
   await end();
 }
 
+// Ellipses of their colours, the nearest in front from each side, as the deformation stretches them.
+async function splatsAreEllipsesInOrder() {
+  const {page, end} = await open('real_splats', {viewport: {width: 1300, height: 900}});
+  assert.ok(await page.locator('#color-plain').isChecked(), 'a page opens in the colours of the splats');
+  const middle = [0.5, 0.5], aside = [0.7, 0.5], below = (height) => [0.5, 0.5 + 0.8 / height];
+  const isRed = ([r, , b]) => r > 200 && b < 60, isBlue = ([r, , b]) => b > 200 && r < 60, isEmpty = (color) => color.every((c) => c === 0);
+  await page.locator('#blend').fill('0');
+  let seen = await coloursAt(page, [middle, aside, below(3), [0, 0]]);
+  assert.ok(isRed(seen[0]) && seen[1][0] > 150 && isEmpty(seen[2]), `before: ${seen.join('; ')}`);
+  await page.locator('#blend').fill('100');
+  seen = await coloursAt(page, [middle, aside, below(9)]);
+  assert.ok(isRed(seen[0]) && seen[2][0] > 120, `three times as high after: ${seen.join('; ')}`);
+  await page.locator('#view').focus();
+  await changes(page, 'key b', () => page.keyboard.press('b'));
+  seen = await coloursAt(page, [middle]);
+  assert.ok(isBlue(seen[0]), `from the back: ${seen[0]}`);
+  await changes(page, 'status', () => page.locator('#color-status').check({force: true}));
+  const [status] = await coloursAt(page, [middle]);
+  [74, 144, 217].forEach((c, a) => assert.ok(Math.abs(status[a] - c) <= 3, `inside: ${status}`));
+  await end();
+}
+
 // Sliders at their defaults show what the file does; each changes the picture, also while an animation plays.
 async function morphTargetsHaveSliders() {
   const {page, end} = await open('real_face');
@@ -458,6 +480,6 @@ const tests = {
     hostileNamesAreText, largeAndEmptyMeshesOpen, aCutPageSaysSo, withoutWebGLThereAreFigures, phonesAndDarkAreServed,
     thePolicyForbidsRequests],
   real: [aRealFoldIsPicked, realTearsAreListed, filesAreColouredByDisplacement, aMeshAloneHasNoSlider,
-    farControlPointsLeaveTheMeshItsSize, materialsLookAsTheyAre, whatPointsUpwardsStandsUpright, realHostileNamesAreText, animationsArePlayed, morphTargetsHaveSliders, newTargetsAreInFull],
+    farControlPointsLeaveTheMeshItsSize, materialsLookAsTheyAre, whatPointsUpwardsStandsUpright, realHostileNamesAreText, animationsArePlayed, splatsAreEllipsesInOrder, morphTargetsHaveSliders, newTargetsAreInFull],
 };
 await runAll(browser, tests[process.argv[5]]);

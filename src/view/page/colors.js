@@ -89,6 +89,20 @@ function listPaints(scene) {
   return paints;
 }
 
+// The colour of a vertex that is not lit, 0 to 1.
+function paintOf(scene, paint, vertex) {
+  if (!paint.ramp) {
+    const color = paint.colors ? paint.colors[vertex] : 0xffffffff;
+    return [0, 8, 16].map((shift) => (color >>> shift & 255) / 255);
+  }
+  const value = paint.values[vertex];
+  if (Number.isNaN(value)) return UNKNOWN_COLOR;
+  if (paint.mode === 2 && value <= 0) return FOLDED_COLOR;
+  const [low, high] = paint.range, share = ((paint.mode === 2 ? Math.log2(value) : value) - low) / (high - low || 1);
+  const at = 4 * Math.round(255 * Math.min(Math.max(share, 0), 1));
+  return [0, 1, 2].map((c) => paint.ramp[at + c] / 255);
+}
+
 function swatch(color, text, extra) {
   const box = make('i', 'swatch');
   box.style.background = color;

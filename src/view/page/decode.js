@@ -91,6 +91,20 @@ function areWedgesWhole(wedges, scene) {
     .every(([array, size]) => array && array.length === size);
 }
 
+// Covariances of Gaussian splats before and after: of each vertex xx, xy, xz, yy, yz, zz (src/view/page_splats.h).
+function readSplats(vertices) {
+  const sides = ['before', 'after'].map((name) => {
+    const bytes = readBytes('data-splat-' + name);
+    if (!bytes || bytes.length !== 16 * vertices) return null;
+    const view = new DataView(bytes.buffer);
+    return Float32Array.from({length: 6 * vertices}, (_, i) => {
+      const at = 16 * Math.floor(i / 6);
+      return view.getFloat32(at, true) * view.getInt16(at + 4 + 2 * (i % 6), true) / 32767;
+    });
+  });
+  return sides[0] ? [sides[0], sides[1] || sides[0]] : null;
+}
+
 // The files of the textures.
 function readImages(scene) {
   return scene.images.map((type, index) => {
@@ -127,6 +141,7 @@ function readScene() {
   scene.flipped = readArray('data-flipped', Uint8Array);
   scene.segmentIndices = readArray('data-segment', Uint32Array);
   scene.pointIndices = readArray('data-point', Uint32Array);
+  scene.splats = readSplats(scene.vertices);
   scene.rig = readRig(scene);
   scene.targets = readTargets(scene);
   if (!scene.targets || !isWhole(scene) || (scene.rig && !isRigWhole(scene.rig, scene.vertices))) return null;

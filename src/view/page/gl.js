@@ -127,7 +127,7 @@ function makeSurface(gl, scene) {
     array, before, move, normals, split, values, colors, sources, indices,
     triangles: makeBuffer(gl, gl.ELEMENT_ARRAY_BUFFER, indices),
     segments: list(scene.segmentIndices),
-    points: list(scene.pointIndices),
+    points: list(scene.pointIndices.filter((v) => !isSplat(scene, v))),
     flipped: {buffer: gl.createBuffer(), count: 0},
     edges: null,
   };
@@ -189,6 +189,7 @@ class Renderer {
       disc: compile(gl, DISC_VERTEX, DISC_FRAGMENT),
     };
     this.surface = makeSurface(gl, scene);
+    this.splats = new Splats(gl, scene);
     this.ramp = gl.createTexture();
     this.textures = new Map();
     this.runs = [];
@@ -247,6 +248,7 @@ class Renderer {
       gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
       gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
     }
+    this.splats.paint(paint);
     this.setParts(this.hidden || new Set());
   }
 
@@ -282,6 +284,7 @@ class Renderer {
       gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
       gl.bufferData(gl.ARRAY_BUFFER, values, gl.DYNAMIC_DRAW);
     }
+    this.splats.fill();
   }
 
   // Lines and discs under a name, in place of those that it had.
@@ -322,6 +325,7 @@ class Renderer {
     gl.enable(gl.DEPTH_TEST);
     gl.disable(gl.BLEND);
     this.drawSurface();
+    this.splats.draw(state, this.canvas.width, this.canvas.height);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     gl.depthMask(false);
@@ -453,10 +457,11 @@ class Renderer {
       gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, surface.segments);
       gl.drawElements(gl.LINES, 2 * scene.segments, gl.UNSIGNED_INT, 0);
     }
-    if (scene.points) {
+    const points = scene.points - this.splats.count;
+    if (points) {
       gl.uniform1i(places.element, 1);
       gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, surface.points);
-      gl.drawElements(gl.POINTS, scene.points, gl.UNSIGNED_INT, 0);
+      gl.drawElements(gl.POINTS, points, gl.UNSIGNED_INT, 0);
     }
     if (state.showEdges) {
       surface.edges = surface.edges || makeEdges(gl, surface, this.runs);
