@@ -1,4 +1,4 @@
-// Opens pages of ffd view in a browser and uses them as people do: page.mjs NODE-FOLDER BROWSER PAGES made|real
+// Opens pages of ffd view in a browser and uses them as people do: page.mjs NODE-FOLDER BROWSER PAGES made|real|firefox
 import assert from 'node:assert/strict';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
@@ -481,5 +481,7 @@ const tests = {
     thePolicyForbidsRequests],
   real: [aRealFoldIsPicked, realTearsAreListed, filesAreColouredByDisplacement, aMeshAloneHasNoSlider,
     farControlPointsLeaveTheMeshItsSize, materialsLookAsTheyAre, whatPointsUpwardsStandsUpright, realHostileNamesAreText, animationsArePlayed, splatsAreEllipsesInOrder, morphTargetsHaveSliders, newTargetsAreInFull],
+  // In Firefox: one page of each kind of content.
+  firefox: [materialsLookAsTheyAre, realHostileNamesAreText, animationsArePlayed, splatsAreEllipsesInOrder, morphTargetsHaveSliders],
 };
 await runAll(browser, tests[process.argv[5]]);

@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
 """Pages of ffd view in Chromium, opened as files: the slider, colours, parts, marks, names, sizes of windows, and that
 nothing is asked of a network. Those of `made` are made by hand, with what a page may have at the most; those of `real` by
-the program, of a lattice that folds, of one that tears, and of names that are markup.
+the program, of a lattice that folds, of one that tears, and of names that are markup. `firefox`: five of these in Firefox.
 
-    test_page.py FFD MAKE_PAGE MODEL.obj made|real
+    test_page.py FFD MAKE_PAGE MODEL.obj made|real|firefox
 
 FFD_NODE names the folder whose node_modules holds playwright-core. FFD_SCREENSHOTS names a folder for pictures to be
 looked at.
 """
 
 import base64
+import contextlib
 import json
 import math
 import os
@@ -19,7 +20,7 @@ import subprocess
 import sys
 import tempfile
 
-from browser import find_browser, run_script
+from browser import Screen, find_browser, run_script
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
 from gltf_arm import arm, face  # noqa: E402 (a neighbour of this folder)
@@ -165,13 +166,14 @@ def make_by_hand(make_page, model, folder):
 def main():
     ffd, make_page, model = [os.path.abspath(path) for path in sys.argv[1:4]]
     origin = sys.argv[4]
-    found = find_browser()
+    found = find_browser(*(("firefox-esr", "firefox") if origin == "firefox" else ()))
     with tempfile.TemporaryDirectory() as folder:
         if origin == "made":
             make_by_hand(make_page, model, folder)
         else:
             make_real(ffd, model, folder)
-        code = run_script("page.mjs", found, folder, folder, 140, origin)
+        with Screen() if origin == "firefox" else contextlib.nullcontext():
+            code = run_script("page.mjs", found, folder, folder, 140, origin)
     sys.exit(code)
 
 
