@@ -113,8 +113,8 @@ def write_png(side):
 
 
 def write_textured(path, side, images, pixels):
-    """The surface with so many images of pixels x pixels, beside path as image-0.png ..: a material each, of a run of its rows;
-    all but the first are emission too. images 0: no material, and no coordinates."""
+    """The surface with so many images of pixels x pixels, beside path as image-0.png ..: a material each, of a run of its rows.
+    images 0: no material, and no coordinates."""
     positions, normals = surface(side)
     texcoords = array.array("f", (x for j in range(side) for i in range(side) for x in (i / (side - 1), j / (side - 1))))
     indices = triangles(side)
@@ -141,8 +141,7 @@ def add_materials(document, path, images, pixels):
         mesh["primitives"].append({**whole, "indices": len(document["accessors"]) - 1, "material": i})
         with open(os.path.join(os.path.dirname(path), f"image-{i}.png"), "wb") as file:
             file.write(write_png(pixels))
-    document["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": i}},
-                              **({"emissiveTexture": {"index": i}, "emissiveFactor": [0.1, 0.1, 0.1]} if i else {})} for i in range(images)]
+    document["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": i}}} for i in range(images)]
     document["textures"] = [{"source": i} for i in range(images)]
     document["images"] = [{"uri": f"image-{i}.png"} for i in range(images)]
 

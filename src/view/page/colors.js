@@ -31,13 +31,13 @@ function pack([r, g, b]) {
   return ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0;
 }
 
-// The base colour of a material, linear, with its opacity; undefined: there is none. A white one without a texture is a
-// little darker, so that it shows its shape; one whose texture is lost is grey.
-function baseColor(material) {
-  if (!material) return GREY;
+// The base colour of a material, linear, with its opacity; undefined: there is none. A white one without a texture, or
+// colours of the vertices, is a little darker, so that it shows its shape; one whose texture is lost is grey.
+function baseColor(material, hasColors) {
+  if (!material) return hasColors ? [1, 1, 1, 1] : GREY;
   if (material.lost) return [0.47, 0.49, 0.52, 1];
   const [r, g, b, a] = material.color.map((x) => Math.min(Math.max(x || 0, 0), 1));
-  return Math.min(r, g, b) > 0.9 && !material.base ? [0.72, 0.72, 0.73, a] : [r, g, b, a];
+  return Math.min(r, g, b) > 0.9 && !material.base && !hasColors ? [0.72, 0.72, 0.73, a] : [r, g, b, a];
 }
 
 // Whether the mesh has colours to be looked at: textures, colours of vertices, or of materials that are not all white.

@@ -374,7 +374,7 @@ class Renderer {
   setMaterial(places, of) {
     const {gl, scene, paint} = this;
     const shown = paint.mode === 0 && of ? of : null;
-    gl.uniform4f(places.baseColor, ...(paint.mode === 0 ? baseColor(of) : [1, 1, 1, 1]));
+    gl.uniform4f(places.baseColor, ...(paint.mode === 0 ? baseColor(of, Boolean(scene.colors)) : [1, 1, 1, 1]));
     gl.uniform1f(places.cutoff, shown && shown.alpha === 'mask' && !shown.lost ? shown.cutoff : 0);
     gl.uniform3f(places.emission, ...(shown ? shown.emission : [0, 0, 0]));
     gl.uniform1i(places.isTwoSided, shown && shown.twoSided ? 1 : 0);
@@ -450,8 +450,8 @@ class Renderer {
   drawLoose(places) {
     const {gl, scene, surface, state} = this;
     this.setMaterial(places, undefined);
-    // What has colours of its own is shown in them.
-    if (scene.colors) gl.uniform4f(places.baseColor, 1, 1, 1, 1);
+    // What has no colours of its own is told from the ground.
+    if (!scene.colors && this.paint.mode === 0) gl.uniform4f(places.baseColor, ...state.colors.loose);
     gl.uniform1i(places.element, 2);
     if (scene.segments) {
       gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, surface.segments);
