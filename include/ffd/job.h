@@ -386,9 +386,9 @@ FFD_API ffd_status ffd_view_camera(const char *name, ffd_up up, double direction
 typedef struct ffd_view_desc {
     size_t struct_size; /* sizeof(ffd_view_desc) in the caller's header */
     /* The mesh and its deformation, as for ffd_check_run, except that lattice_count may be 0, to show the
-       mesh as it is, and morphs may be set: the shape after then has these targets in full, beside the default
-       weights of those of the file. job->log receives the warnings; the output is added to job->written. A
-       page has sliders for the weights of all targets. */
+       mesh as it is, and morphs may be set: the shape after then has these targets in full, beside the
+       default weights of those of the file. job->log receives the warnings; the output is added to
+       job->written. A page has sliders for the weights of all targets. */
     const ffd_deform_desc *job;
     /* The deformed mesh as a file with the same number of vertices; the lattices are then drawn, but do not
        deform anything. NULL: the lattices deform the mesh in memory. */

@@ -1,6 +1,5 @@
 #include "mesh/mesh.h"
 #include "base/memory/memory.h"
-#include "mesh/morphs.h"
 #include <string.h>
 
 #define BLOCK ((size_t)64)
@@ -144,12 +143,4 @@ void ffd_mesh_faces_free(mesh_faces *faces)
     ffd_free(faces->corners);
     ffd_free(faces->vertices);
     memset(faces, 0, sizeof *faces);
-}
-
-void ffd_mesh_targets_free(mesh_targets *targets)
-{
-    for (size_t t = 0; t < targets->count; t++)
-        ffd_free(targets->list[t].name);
-    ffd_free(targets->list);
-    *targets = (mesh_targets){0};
 }
