@@ -20,7 +20,7 @@ static void find_origin(ffd_locator *locator)
         bounds_add(&box, lattice->rest + 3 * i);
     for (int a = 0; a < 3; a++) {
         locator->origin[a] = 0.5 * box.lo[a] + 0.5 * box.hi[a];
-        locator->extent[a] = fmax(box.hi[a] - locator->origin[a], locator->origin[a] - box.lo[a]);
+        locator->extent[a] = maximum_number(box.hi[a] - locator->origin[a], locator->origin[a] - box.lo[a]);
     }
     locator->hull = box;
 }

@@ -1,4 +1,5 @@
 #include "fold/cell_form.h"
+#include "base/arithmetic.h"
 #include "embed/frame/bezier_box.h"
 #include "fold/bernstein.h"
 #include <string.h>
@@ -60,13 +61,13 @@ static int localise(double *points, size_t count, int r, size_t from, double *kn
     const double origin = points[3 * from + (size_t)r];
     double far = 0, extent = 0;
     for (size_t i = 0; i < count; i++)
-        far = fmax(far, fabs(points[3 * i + (size_t)r]));
+        far = maximum_number(far, fabs(points[3 * i + (size_t)r]));
     const int first = far > 0x1p1000 ? 8 : 0; /* so that differences do not overflow */
     const double shrink = ldexp(1, -first);
     for (size_t i = 0; i < count; i++) {
         double *x = points + 3 * i + r;
         *x = *x * shrink - origin * shrink;
-        extent = fmax(extent, fabs(*x));
+        extent = maximum_number(extent, fabs(*x));
     }
     const int exponent = exponent_of(extent);
     const double scale = ldexp(1, -exponent);
@@ -81,7 +82,7 @@ static void localise_weights(double *weights, size_t count)
 {
     double greatest = 0;
     for (size_t i = 0; i < count; i++)
-        greatest = fmax(greatest, weights[i]);
+        greatest = maximum_number(greatest, weights[i]);
     const double scale = ldexp(1, -exponent_of(greatest));
     for (size_t i = 0; i < count; i++)
         weights[i] *= scale;
@@ -112,7 +113,7 @@ static void fill_box(const fold_plan *plan, const double *points, const double *
             c[r] = h * points[3 * i + (size_t)r];
         c[3] = h;
         for (int r = 0; r < N; r++)
-            extent[r] = fmax(extent[r], fabs(c[r]));
+            extent[r] = maximum_number(extent[r], fabs(c[r]));
     }
     for (int r = 0; r < N; r++) {
         rounding[r] = r < 3 || weights ? steps * UNIT * extent[r] : 0;
@@ -161,7 +162,7 @@ static void copy_values(const bezier_box *box, const double rounding[N], const d
         for (size_t i = 0; i < count; i++) {
             const double value = box->coefficients[N * i + (size_t)r];
             form->row[3][r][i] = value;
-            form->greatest.at[3][r] = fmax(form->greatest.at[3][r], fabs(value));
+            form->greatest.at[3][r] = maximum_number(form->greatest.at[3][r], fabs(value));
         }
     }
 }
@@ -171,10 +172,11 @@ static void measure_hull(const bezier_box *box, const double rounding[N], cell_f
     ffd_bezier_weights(box, &form->least_weight, &form->greatest_weight);
     const bounds hull = ffd_bezier_hull(box);
     for (int r = 0; r < 3; r++) {
-        const double size = fmax(fabs(hull.lo[r]), fabs(hull.hi[r]));
+        const double size = maximum_number(fabs(hull.lo[r]), fabs(hull.hi[r]));
         form->hull_middle[r] = 0.5 * hull.lo[r] + 0.5 * hull.hi[r];
-        form->hull_reach[r] = fmax(hull.hi[r] - form->hull_middle[r], form->hull_middle[r] - hull.lo[r]) +
-                              2 * (rounding[r] + size * rounding[3]) / form->least_weight + 4 * UNIT * size;
+        form->hull_reach[r] =
+            maximum_number(hull.hi[r] - form->hull_middle[r], form->hull_middle[r] - hull.lo[r]) +
+            2 * (rounding[r] + size * rounding[3]) / form->least_weight + 4 * UNIT * size;
     }
 }
 
@@ -206,8 +208,8 @@ static void bound_rows(const double *points, const double *weights, const double
         double size = 0, far = 0;
         for (int r = 0; r < 3; r++) {
             const double x = fabs(points[3 * i + (size_t)r]);
-            size = fmax(size, x);
-            far = fmax(far, x + offset[r]);
+            size = maximum_number(size, x);
+            far = maximum_number(far, x + offset[r]);
         }
         c[0] = weights[i] * size;
         c[1] = weights[i] * (2 * DBL_EPSILON * far);

@@ -1,4 +1,5 @@
 /* figures.c - relative values of the determinant, and the intermediate result of a search. */
+#include "base/arithmetic.h"
 #include "fold/search.h"
 
 #define UNIT (0.5 * DBL_EPSILON)
@@ -14,7 +15,7 @@ double ffd_search_lower(const cell_search *search, double value, double least_we
 {
     const double doubt = search->plan->volume.doubt + 64 * UNIT;
     const double result = ffd_search_relative(search, value, value > 0 ? greatest_weight : least_weight);
-    return result > 0 ? result * (1 - doubt) : fmax(result * (1 + 2 * doubt), -DBL_MAX);
+    return result > 0 ? result * (1 - doubt) : maximum_number(result * (1 + 2 * doubt), -DBL_MAX);
 }
 
 void ffd_search_see(cell_search *search, double relative)

@@ -1,4 +1,5 @@
 /* fold.c - ffd_folds_find: the proof that a deformed lattice does not fold, cell by cell. */
+#include "base/arithmetic.h"
 #include <ffd/fold.h>
 
 #include "base/memory/memory.h"
@@ -62,7 +63,7 @@ static void decide(fold_work *work, size_t cell, long boxes, int worker, tile_ve
     ffd_cell_decide(&work->plan, cell, boxes, work->scratch[worker], &verdict);
     work->lower[cell] = verdict.lower;
     work->verdicts[cell] = (unsigned char)verdict.verdict;
-    result->least_seen = fmin(result->least_seen, verdict.least_seen);
+    result->least_seen = minimum_number(result->least_seen, verdict.least_seen);
     result->unknown += verdict.verdict == FFD_FOLDS_UNKNOWN;
     if (verdict.verdict != FFD_FOLDS_SOME)
         return;
@@ -80,7 +81,7 @@ static void find_lower(fold_work *work, size_t tile)
                  end = begin + (left < TILE_CELLS ? left : TILE_CELLS);
     work->tiles[tile].lower = work->lower[begin];
     for (size_t cell = begin + 1; cell < end; cell++)
-        work->tiles[tile].lower = fmin(work->tiles[tile].lower, work->lower[cell]);
+        work->tiles[tile].lower = minimum_number(work->tiles[tile].lower, work->lower[cell]);
 }
 
 static void decide_tile(void *context, size_t tile, size_t begin, size_t end, int worker)
@@ -157,7 +158,7 @@ static double join_tiles(const fold_work *work, ffd_folds *folds)
         const tile_verdict *tile = &work->tiles[i];
         folds->folded_cells += tile->folded;
         folds->unknown_cells += tile->unknown;
-        least_seen = fmin(least_seen, tile->least_seen);
+        least_seen = minimum_number(least_seen, tile->least_seen);
         if (tile->folded > 0 && !folds->witness.is_there && witnesses++ < MOST_WITNESSES)
             report_witness(work, tile, folds);
     }
@@ -244,7 +245,7 @@ static ffd_status find(const ffd_lattice *lattice, int threads, ffd_folds *folds
     TRY_END(ffd_deadline_check(error));
     folds->min_det = refine(&work, join_tiles(&work, folds));
     if (folds->witness.is_there) /* the witness' value can be below the bound by rounding */
-        folds->min_det = fmin(folds->min_det, folds->witness.det);
+        folds->min_det = minimum_number(folds->min_det, folds->witness.det);
 end:
     for (int i = 0; i < work.workers; i++)
         ffd_fold_scratch_destroy(work.scratch[i]);

@@ -1,4 +1,5 @@
 #include "fold/place.h"
+#include "base/arithmetic.h"
 #include "fold/bernstein.h"
 #include "fold/wide.h"
 #include <string.h>
@@ -166,7 +167,7 @@ void ffd_place_parameters(const fold_plan *plan, const size_t index[3], const do
         const bool is_last = index[a] + 1 == knots->span_count && !ffd_knots_closed(knots);
         uvw[a] = knot[0] + t[a] * (knot[1] - knot[0]);
         if (t[a] >= 1)
-            uvw[a] = is_last ? knot[1] : nextafter(knot[1], knot[0]);
+            uvw[a] = is_last ? knot[1] : next_below(knot[1]);
     }
 }
 

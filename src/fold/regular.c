@@ -32,7 +32,7 @@ static void column_distance(const cell_form *form, int b, const double inverse[9
                  weight_error = rational ? form->rounding.at[b][3] : 0;
     for (int r = 0; r < 3; r++) {
         const double one = r == b ? 1 : 0;
-        off[r] = fmax(fabs(one - least[r]), fabs(one - greatest[r])) * (1 + 4 * UNIT) + UNIT;
+        off[r] = maximum_number(fabs(one - least[r]), fabs(one - greatest[r])) * (1 + 4 * UNIT) + UNIT;
         for (int k = 0; k < 3; k++) {
             const double size = form->greatest.at[b][k] + fabs(form->hull_middle[k]) * weight;
             double doubt = form->rounding.at[b][k] + 8 * UNIT * size;

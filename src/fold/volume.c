@@ -1,4 +1,5 @@
 /* volume.c - the signed volume of the rest lattice. */
+#include "base/arithmetic.h"
 #include "base/memory/memory.h"
 #include "embed/frame/face_net.h"
 #include "embed/frame/rational_volume.h"
@@ -48,7 +49,7 @@ static void make_form(const volume_face *face, size_t cell_b, size_t cell_c, bez
                 for (int i = 0; i < order[0]; i++, value++) {
                     const double *c = box->coefficients + N * (size_t)(i + box->order[0] * j) + r;
                     *value = row == 2 ? *c : degree * (c[next] - *c);
-                    greatest = fmax(greatest, fabs(*value));
+                    greatest = maximum_number(greatest, fabs(*value));
                 }
             form->greatest.at[row][r] = greatest;
             form->rounding.at[row][r] = form->coarse.at[row][r] =
@@ -142,11 +143,11 @@ static scaled bounds_volume(const ffd_lattice *lattice)
     for (int r = 0; r < 3; r++) {
         double lo = lattice->rest[r], hi = lo;
         for (size_t i = 0; i < lattice->count; i++) {
-            lo = fmin(lo, lattice->rest[3 * i + (size_t)r]);
-            hi = fmax(hi, lattice->rest[3 * i + (size_t)r]);
+            lo = minimum_number(lo, lattice->rest[3 * i + (size_t)r]);
+            hi = maximum_number(hi, lattice->rest[3 * i + (size_t)r]);
         }
         side[r] = hi - lo;
-        longest = fmax(longest, side[r]);
+        longest = maximum_number(longest, side[r]);
     }
     for (int r = 0; r < 3 && longest > 0; r++)
         volume = scaled_multiply(volume, scaled_make(side[r] > 0 ? side[r] : longest, 0));

@@ -36,7 +36,7 @@ static double find_diagonal(const mesh_document *document)
         return 0;
     for (int c = 0; c < 3; c++)
         half[c] = box.max[c] / 2 - box.min[c] / 2;
-    return fmin(2 * hypot(hypot(half[0], half[1]), half[2]), DBL_MAX);
+    return minimum_number(2 * vec_length(half), DBL_MAX);
 }
 
 static ffd_status compare(const ffd_compare_desc *desc, const mesh_document *a, const mesh_document *b,
@@ -46,7 +46,8 @@ static ffd_status compare(const ffd_compare_desc *desc, const mesh_document *a, 
     const double tolerance = desc->relative ? desc->tolerance * diagonal : desc->tolerance;
     /* Clamp to the largest double: then every finite difference is within the tolerance, and an infinite one
        is not. */
-    ffd_difference_begin(comparison, fmin(tolerance, DBL_MAX), fmin(desc->direction_tolerance, DBL_MAX));
+    ffd_difference_begin(comparison, minimum_number(tolerance, DBL_MAX),
+                         minimum_number(desc->direction_tolerance, DBL_MAX));
     comparison->diagonal = diagonal;
     if (a->format == b->format)
         return a->format->compare(a, b, comparison, error);

@@ -1,4 +1,5 @@
 /* info_layers.c - positions of the layers of control points. */
+#include "base/vector/trig.h"
 #include "base/vector/vec.h"
 #include "job/info.h"
 #include "lattice/lattice.h"
@@ -12,7 +13,6 @@
 #define ON_THE_SIDE 1e-12
 /* Angles are rounded to this part of a degree, as smaller digits are rounding of the arc tangent. */
 #define ANGLE_STEPS 1e9
-#define DEGREES (180 / 3.14159265358979323846)
 
 static const char *const direction[3] = {"u", "v", "w"};
 
@@ -45,9 +45,9 @@ static double ring_angle(const ffd_lattice *lattice, size_t layer)
     const size_t outer = lattice->size[0] - 1;
     double x, y;
     point_across(lattice, outer + lattice->size[0] * layer, &x, &y);
-    const double angle = round(atan2(y, x) * DEGREES * ANGLE_STEPS) / ANGLE_STEPS;
+    const double angle = nearest_integer(ffd_angle_degrees(y, x) * ANGLE_STEPS) / ANGLE_STEPS;
     const double first = lattice->spec->angle[0];
-    return angle + 360 * round((first - angle) / 360);
+    return angle + 360 * nearest_integer((first - angle) / 360);
 }
 
 static double cylinder_place(const ffd_lattice *lattice, const ffd_bounds *box, int a, size_t layer)
@@ -60,7 +60,7 @@ static double cylinder_place(const ffd_lattice *lattice, const ffd_bounds *box, 
     if (a == 2)
         return ffd_shape_between(-half, half, fraction_of(lattice, a, layer));
     point_across(lattice, layer, &x, &y);
-    return hypot(x, y);
+    return vec_length((const double[3]){x, y, 0});
 }
 
 typedef double place_function(const ffd_lattice *lattice, const ffd_bounds *box, int a, size_t layer);

@@ -283,6 +283,28 @@ static ffd_status refuse_key(const scanner *s, uint32_t a, uint32_t b)
     return status;
 }
 
+/* In objects of up to so many members each is compared with each, of which most differ in the first
+ * character. */
+#define PAIRED_MEMBERS 8
+
+static ffd_status refuse_equal_pairs(const scanner *s, uint32_t object)
+{
+    const json_tree *const tree = s->tree;
+    uint32_t earlier[PAIRED_MEMBERS];
+    size_t count = 0;
+    for (uint32_t v = ffd_json_tree_first(tree, object); v != JSON_NONE; v = ffd_json_tree_after(tree, v)) {
+        const char first = tree->text[tree->values[v].key_begin + 1];
+        for (size_t i = 0; i < count; i++) {
+            const char other = tree->text[tree->values[earlier[i]].key_begin + 1];
+            if ((first == other || first == '\\' || other == '\\') &&
+                ffd_json_tree_compare_keys(tree, earlier[i], tree, v) == 0)
+                return refuse_key(s, earlier[i], v);
+        }
+        earlier[count++] = v;
+    }
+    return FFD_OK;
+}
+
 /* Equal keys are refused, because readers differ in which one they use: the value that is checked here must
    be the value that others use. */
 static ffd_status refuse_equal_keys(const scanner *s, uint32_t object)
@@ -291,8 +313,8 @@ static ffd_status refuse_equal_keys(const scanner *s, uint32_t object)
     const size_t count = tree->values[object].count;
     json_member few[FEW_MEMBERS];
     json_member *members = few;
-    if (count < 2)
-        return FFD_OK;
+    if (count <= PAIRED_MEMBERS)
+        return refuse_equal_pairs(s, object);
     if (count > FEW_MEMBERS && !(members = ffd_alloc(count, sizeof *members)))
         return ffd_fail_memory(s->error);
     ffd_json_tree_sort(tree, object, members);

@@ -49,9 +49,12 @@ uint32_t ffd_json_tree_member(const json_tree *tree, uint32_t object, const char
 {
     if (object == JSON_NONE || tree->values[object].kind != JSON_OBJECT)
         return JSON_NONE;
-    for (uint32_t v = ffd_json_tree_first(tree, object); v != JSON_NONE; v = ffd_json_tree_after(tree, v))
-        if (ffd_json_tree_key_is(tree, v, key))
+    for (uint32_t v = ffd_json_tree_first(tree, object); v != JSON_NONE; v = ffd_json_tree_after(tree, v)) {
+        /* Most keys differ in the first character: an escape may stand for any. */
+        const char first = tree->text[tree->values[v].key_begin + 1];
+        if ((first == *key || first == '\\' || !*key) && ffd_json_tree_key_is(tree, v, key))
             return v;
+    }
     return JSON_NONE;
 }
 

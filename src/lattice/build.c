@@ -1,4 +1,5 @@
 #include "lattice/build.h"
+#include "base/arithmetic.h"
 #include "base/memory/memory.h"
 #include "lattice/cylinder.h"
 #include "lattice/drag.h"
@@ -92,8 +93,8 @@ static void place_points(const lattice_spec *spec, ffd_lattice *lattice, rest_re
     for (int c = 0; c < 3; c++) {
         double min = spec->points[c], max = min;
         for (size_t i = 1; i < spec->count; i++) {
-            min = fmin(min, spec->points[3 * i + c]);
-            max = fmax(max, spec->points[3 * i + c]);
+            min = minimum_number(min, spec->points[3 * i + c]);
+            max = maximum_number(max, spec->points[3 * i + c]);
         }
         region->origin[c] = min;
         for (int a = 0; a < 3; a++)

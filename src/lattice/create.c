@@ -103,8 +103,8 @@ static bool find_bounds(const double *xyz, size_t count, const double axes[9], d
         double along[3];
         mat_apply(axes, p, along);
         for (int a = 0; a < 3; a++) {
-            min[a] = fmin(min[a], along[a]);
-            max[a] = fmax(max[a], along[a]);
+            min[a] = minimum_number(min[a], along[a]);
+            max[a] = maximum_number(max[a], along[a]);
         }
     }
     return any;
@@ -143,7 +143,7 @@ static ffd_status use_principal_axes(const double *xyz, size_t count, double axe
     TRY(find_bounds_or_fail(xyz, count, world_axes, min, max, error));
     for (int c = 0; c < 3; c++) {
         center[c] = 0.5 * min[c] + 0.5 * max[c];
-        length = fmax(length, max[c] - min[c]);
+        length = maximum_number(length, max[c] - min[c]);
     }
     if (length > 0 && isfinite(length))
         ffd_principal_axes(xyz, count, center, length, axes);
@@ -160,7 +160,7 @@ static double rounding_of_axes(const double *xyz, size_t count)
     double min[3], max[3], size = 0;
     if (find_bounds(xyz, count, world_axes, min, max))
         for (int c = 0; c < 3; c++)
-            size += AXES_ROUNDING * fmax(fabs(min[c]), fabs(max[c]));
+            size += AXES_ROUNDING * maximum_number(fabs(min[c]), fabs(max[c]));
     return size;
 }
 
@@ -178,8 +178,8 @@ static ffd_status fill_box(const ffd_lattice_desc *desc, const double *xyz, size
     TRY(ffd_shape_grow_box(min, max, desc->margin, spec->box_min, spec->box_max, error));
     const double rounding = desc->principal ? rounding_of_axes(xyz, count) : 0;
     for (int a = 0; a < 3; a++) {
-        spec->box_min[a] = fmin(spec->box_min[a], min[a] - rounding);
-        spec->box_max[a] = fmax(spec->box_max[a], max[a] + rounding);
+        spec->box_min[a] = minimum_number(spec->box_min[a], min[a] - rounding);
+        spec->box_max[a] = maximum_number(spec->box_max[a], max[a] + rounding);
         if (!isfinite(spec->box_max[a] - spec->box_min[a]))
             return ffd_fail(error, FFD_E_INVALID, "a box of side %g is too large for a double",
                             max[a] - min[a]);
@@ -196,7 +196,7 @@ static double greatest_radius(const double *xyz, size_t count, const double fram
         mat_apply(frame, xyz + 3 * i, p);
         const double x = p[0] - middle[0], y = p[1] - middle[1], square = x * x + y * y;
         if (vec_is_finite(xyz + 3 * i))
-            greatest = fmax(greatest, square);
+            greatest = maximum_number(greatest, square);
     }
     return sqrt(greatest);
 }
@@ -218,12 +218,12 @@ static ffd_status fill_cylinder(const ffd_lattice_desc *desc, const double *xyz,
     TRY(ffd_shape_grow_box(min, max, none, grown_min, grown_max, error));
     for (int a = 0; a < 3; a++)
         middle[a] = 0.5 * grown_min[a] + 0.5 * grown_max[a];
-    const double least = 0.5 * fmin(grown_max[0] - grown_min[0], grown_max[1] - grown_min[1]);
-    const double radius = fmax(greatest_radius(xyz, count, frame, middle), least);
+    const double least = 0.5 * minimum_number(grown_max[0] - grown_min[0], grown_max[1] - grown_min[1]);
+    const double radius = maximum_number(greatest_radius(xyz, count, frame, middle), least);
     spec->rest = SPEC_CYLINDER;
     const double height = grown_max[2] - grown_min[2], rounding = rounding_of_axes(xyz, count);
-    spec->radius[1] = fmax(radius * (1 + 2 * desc->margin[0]), radius + rounding);
-    spec->height = fmax(height * (1 + 2 * desc->margin[0]), height + 2 * rounding);
+    spec->radius[1] = maximum_number(radius * (1 + 2 * desc->margin[0]), radius + rounding);
+    spec->height = maximum_number(height * (1 + 2 * desc->margin[0]), height + 2 * rounding);
     spec->angle[1] = 360;
     for (int c = 0; c < 3; c++) {
         spec->center[c] = zero[c] * middle[0] + side[c] * middle[1] + axis[c] * middle[2];

@@ -49,7 +49,7 @@ static ffd_status place_ring(const ffd_lattice *lattice, const lattice_spec *spe
                         "%zu control points of degree %d along v are too few for this angle of the cylinder",
                         knots->points, knots->degree);
     /* A curve with control points on the circle stays within it; a value above 1 is rounding. */
-    radius[0] = spec->radius[0] / fmin(greatest, 1);
+    radius[0] = spec->radius[0] / minimum_number(greatest, 1);
     radius[1] = spec->radius[1] / least;
     return FFD_OK;
 }
@@ -92,7 +92,7 @@ void ffd_shape_cylinder_region(const lattice_spec *spec, rest_region *region)
 {
     for (int c = 0; c < 3; c++) {
         const double along = spec->axis[c];
-        const double across = sqrt(fmax(0, 1 - along * along));
+        const double across = sqrt(maximum_number(0, 1 - along * along));
         const double half = spec->radius[1] * across + 0.5 * spec->height * fabs(along);
         region->origin[c] = spec->center[c] - half;
         for (int a = 0; a < 3; a++)

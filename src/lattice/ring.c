@@ -1,5 +1,6 @@
 #include "lattice/ring.h"
 #include "base/vector/trig.h"
+#include "base/vector/vec.h"
 #include "lattice/shapes.h"
 #include "spline/basis.h"
 #include "spline/bezier.h"
@@ -166,11 +167,11 @@ static void bound_arc(const bezier_arc *arc, int depth, radius_bounds *bounds)
     square_quotients(arc, quotient);
     double least = quotient[0], greatest = quotient[0];
     for (int k = 1; k <= last; k++) {
-        least = fmin(least, quotient[k]);
-        greatest = fmax(greatest, quotient[k]);
+        least = minimum_number(least, quotient[k]);
+        greatest = maximum_number(greatest, quotient[k]);
     }
-    bounds->least_met = fmin(bounds->least_met, fmin(quotient[0], quotient[last]));
-    bounds->greatest_met = fmax(bounds->greatest_met, fmax(quotient[0], quotient[last]));
+    bounds->least_met = minimum_number(bounds->least_met, minimum_number(quotient[0], quotient[last]));
+    bounds->greatest_met = maximum_number(bounds->greatest_met, maximum_number(quotient[0], quotient[last]));
     if (depth < RADIUS_DEPTH && (least < bounds->least_met * (1 - RADIUS_TOLERANCE) ||
                                  greatest > bounds->greatest_met * (1 + RADIUS_TOLERANCE))) {
         bezier_arc left, right;
@@ -179,8 +180,8 @@ static void bound_arc(const bezier_arc *arc, int depth, radius_bounds *bounds)
         bound_arc(&right, depth + 1, bounds);
         return;
     }
-    bounds->least = fmin(bounds->least, least);
-    bounds->greatest = fmax(bounds->greatest, greatest);
+    bounds->least = minimum_number(bounds->least, least);
+    bounds->greatest = maximum_number(bounds->greatest, greatest);
 }
 
 static void arc_of_span(const knot_vector *knots, const ring_point *points, int span, bezier_arc *arc)
@@ -210,7 +211,8 @@ static void arc_of_span(const knot_vector *knots, const ring_point *points, int 
 static bool turn_of_arc(const bezier_arc *arc, int depth, double *turn)
 {
     const double *const first = arc->point[0], *const last = arc->point[arc->degree];
-    const double length[2] = {hypot(first[0], first[1]), hypot(last[0], last[1])};
+    const double length[2] = {vec_length((const double[3]){first[0], first[1], 0}),
+                              vec_length((const double[3]){last[0], last[1], 0})};
     const double middle[2] = {first[0] / length[0] + last[0] / length[1],
                               first[1] / length[0] + last[1] / length[1]};
     bool one_side = true;
@@ -219,7 +221,7 @@ static bool turn_of_arc(const bezier_arc *arc, int depth, double *turn)
     if (one_side) {
         const double sine = first[0] * last[1] - first[1] * last[0],
                      cosine = first[0] * last[0] + first[1] * last[1];
-        *turn += atan2(sine, cosine) * (180 / 3.14159265358979323846);
+        *turn += ffd_angle_degrees(sine, cosine);
         return true;
     }
     bezier_arc left, right;
@@ -231,7 +233,7 @@ static bool turn_of_arc(const bezier_arc *arc, int depth, double *turn)
 
 /* Returns whether the curve turns by the requested angle, and not by another one with the same end, such as
    the shorter way round; then it passes every angle between. A wrong angle differs by whole turns, so the
-   rounding of atan2 does not matter. */
+   rounding of the angles does not matter. */
 static bool turns_by(const knot_vector *knots, const ring_point *points, double degrees)
 {
     double turn = 0;

@@ -17,7 +17,7 @@ static double diagonal_of(const double min[3], const double max[3])
     double side[3], size = 0;
     for (int c = 0; c < 3; c++) {
         side[c] = max[c] - min[c];
-        size = fmax(size, fmax(fabs(min[c]), fabs(max[c])));
+        size = maximum_number(size, maximum_number(fabs(min[c]), fabs(max[c])));
     }
     const double diagonal = vec_length(side);
     if (diagonal > FLAT_SIDE * size)

@@ -58,7 +58,7 @@ static double interior_angle(const double before[3], const double p[3], const do
     for (int a = 0; a < 3; a++) {
         to[a] = next[a] - p[a];
         from[a] = before[a] - p[a];
-        largest = fmax(largest, fmax(fabs(to[a]), fabs(from[a])));
+        largest = maximum_number(largest, maximum_number(fabs(to[a]), fabs(from[a])));
     }
     for (int a = 0; a < 3; a++) {
         to[a] /= largest;

@@ -1,4 +1,5 @@
 #include "mesh/polygon_cut.h"
+#include "base/arithmetic.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include <float.h>
@@ -124,9 +125,9 @@ static ffd_status order_corners(polygon_cutter *cutter, uint32_t count, ffd_erro
 {
     double low[2] = {DBL_MAX, DBL_MAX}, extent = 0;
     for (size_t i = 0; i < 2 * (size_t)count; i++)
-        low[i % 2] = fmin(low[i % 2], cutter->plane[i]);
+        low[i % 2] = minimum_number(low[i % 2], cutter->plane[i]);
     for (size_t i = 0; i < 2 * (size_t)count; i++)
-        extent = fmax(extent, cutter->plane[i] - low[i % 2]);
+        extent = maximum_number(extent, cutter->plane[i] - low[i % 2]);
     uint64_t *const keys = ffd_alloc(count, sizeof *keys);
     if (!keys)
         return ffd_fail_memory(error);
@@ -154,14 +155,16 @@ static void fill_nodes(polygon_cutter *cutter, uint32_t count)
         const double *const p = cutter->plane + 2 * (size_t)cutter->order[i];
         cutter->corners[cutter->order[i]].place = i;
         for (int a = 0; a < 2; a++) {
-            leaf->low[a] = fmin(leaf->low[a], p[a]);
-            leaf->high[a] = fmax(leaf->high[a], p[a]);
+            leaf->low[a] = minimum_number(leaf->low[a], p[a]);
+            leaf->high[a] = maximum_number(leaf->high[a], p[a]);
         }
     }
     for (size_t n = cutter->leaves - 1; n > 0; n--)
         for (int a = 0; a < 2; a++) {
-            cutter->nodes[n].low[a] = fmin(cutter->nodes[2 * n].low[a], cutter->nodes[2 * n + 1].low[a]);
-            cutter->nodes[n].high[a] = fmax(cutter->nodes[2 * n].high[a], cutter->nodes[2 * n + 1].high[a]);
+            cutter->nodes[n].low[a] =
+                minimum_number(cutter->nodes[2 * n].low[a], cutter->nodes[2 * n + 1].low[a]);
+            cutter->nodes[n].high[a] =
+                maximum_number(cutter->nodes[2 * n].high[a], cutter->nodes[2 * n + 1].high[a]);
         }
 }
 
@@ -203,8 +206,9 @@ static bool obstructs(const polygon_cutter *cutter, uint32_t p, const uint32_t a
 {
     if (p == abc[0] || p == abc[1] || p == abc[2])
         return false;
-    const double least = fmin(area(cutter, abc[0], abc[1], p),
-                              fmin(area(cutter, abc[1], abc[2], p), area(cutter, abc[2], abc[0], p)));
+    const double least =
+        minimum_number(area(cutter, abc[0], abc[1], p),
+                       minimum_number(area(cutter, abc[1], abc[2], p), area(cutter, abc[2], abc[0], p)));
     if (demand == EAR_CLEAR ? !(least >= 0) : !(least > 0))
         return false;
     return !same_position(cutter, p, abc[0]) && !same_position(cutter, p, abc[1]) &&

@@ -37,7 +37,7 @@ static inline double ffd_bounds_side(const ffd_bounds *box)
 /* Returns the distance from a finite x >= 0 to the next double away from 0. */
 static inline double ffd_double_step(double x)
 {
-    return nextafter(x, HUGE_VAL) - x;
+    return next_above(x) - x;
 }
 
 /* Returns the largest error of a point's coordinates as float32. Those that are beyond its range are refused

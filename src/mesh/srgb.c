@@ -1,32 +1,14 @@
 #include "mesh/srgb.h"
+#include "base/vector/root.h"
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
-
-/* Returns the n-th root of x > 0 by Newton's method, from above: it stops when rounding ends the descent. */
-static double root(double x, int n)
-{
-    int exponent;
-    const double fraction = frexp(x, &exponent);
-    const int share = (int)floor((double)exponent / n + 0.5);
-    const double scaled = ldexp(fraction, exponent - n * share);
-    double nearest = 1 + (scaled - 1) / n; /* an upper bound of the root (Bernoulli's inequality) */
-    for (;;) {
-        double power = nearest;
-        for (int i = 2; i < n; i++)
-            power *= nearest;
-        const double next = nearest - (nearest - scaled / power) / n;
-        if (!(next < nearest))
-            return ldexp(nearest, share);
-        nearest = next;
-    }
-}
 
 double ffd_srgb_to_linear(double srgb)
 {
     if (!(srgb > 0.04045 && srgb <= DBL_MAX))
         return srgb / 12.92;
-    const double base = (srgb + 0.055) / 1.055, fifth = root(base, 5);
+    const double base = (srgb + 0.055) / 1.055, fifth = ffd_root(base, 5);
     return base * base * (fifth * fifth); /* base^2.4 */
 }
 
@@ -35,7 +17,7 @@ static double encode(double linear)
 {
     if (!(linear > 0.0031308 && linear <= DBL_MAX))
         return 12.92 * linear;
-    const double third = root(linear, 3), power = third * sqrt(sqrt(third));
+    const double third = ffd_root(linear, 3), power = third * sqrt(sqrt(third));
     return power + 0.055 * (power - 1);
 }
 

@@ -12,8 +12,8 @@ static bool rows_between(double low, double high, int64_t *first, int64_t *last)
     /* Strokes that are farther away are not drawn. */
     if (!(low > -1e9 && high < 1e9))
         return false;
-    *first = (int64_t)floor(low);
-    *last = (int64_t)floor(high);
+    *first = integer_below(low);
+    *last = integer_below(high);
     return true;
 }
 

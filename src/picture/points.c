@@ -89,8 +89,8 @@ bool ffd_points_rows(const void *placed, size_t point, int64_t *first, int64_t *
     const double low = p->at[1] - p->reach_y, high = p->at[1] + p->reach_y;
     if (!(vec_is_finite(p->at) && low > -1e9 && high < 1e9 && fabs(p->at[0]) < 1e9))
         return false;
-    *first = (int64_t)floor(low);
-    *last = (int64_t)floor(high);
+    *first = integer_below(low);
+    *last = integer_below(high);
     return true;
 }
 

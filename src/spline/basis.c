@@ -1,4 +1,5 @@
 #include "spline/basis.h"
+#include "base/arithmetic.h"
 #include "spline/triangle.h"
 #include <math.h>
 
@@ -66,7 +67,7 @@ void ffd_basis_scheme(const knot_vector *knots, int span, span_scheme *scheme)
     for (int r = 0; r < d; r++)
         scheme->factors[r] = d / (t[d + r] - t[r]);
     for (int i = 0; i < 2 * d; i++)
-        t[i] = fmin(fmax(t[i] / scheme->length, -FARTHEST), FARTHEST);
+        t[i] = minimum_number(maximum_number(t[i] / scheme->length, -FARTHEST), FARTHEST);
     for (int degree = 1; degree <= d; degree++)
         for (int r = 0; r < degree; r++)
             *reciprocal++ = 1 / (t[d + r] - t[d - degree + r]);

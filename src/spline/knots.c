@@ -1,4 +1,5 @@
 #include "spline/knots.h"
+#include "base/arithmetic.h"
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
@@ -275,7 +276,7 @@ double ffd_knots_last(const knot_vector *knots)
 static double wrap_period(double u, double first, double last)
 {
     const double period = last - first;
-    double offset = fmod(u - first, period); /* exact, with the sign of u - first */
+    double offset = remainder_of(u - first, period); /* exact, with the sign of u - first */
     if (offset < 0)
         offset += period;
     const double wrapped = first + offset;

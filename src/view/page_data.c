@@ -36,9 +36,9 @@ void ffd_page_data_measure(const page_mesh *mesh, page_data *data)
     for (size_t v = 0; v < mesh->vertex_count; v++)
         for (int a = 0; a < 3; a++) {
             const double x = before_of(mesh, v)[a], y = after_of(mesh, v)[a];
-            data->low[a] = v == 0 ? fmin(x, y) : fmin(data->low[a], fmin(x, y));
-            high[a] = v == 0 ? fmax(x, y) : fmax(high[a], fmax(x, y));
-            most = fmax(most, fabs(y - x));
+            data->low[a] = v == 0 ? minimum_number(x, y) : minimum_number(data->low[a], minimum_number(x, y));
+            high[a] = v == 0 ? maximum_number(x, y) : maximum_number(high[a], maximum_number(x, y));
+            most = maximum_number(most, fabs(y - x));
         }
     for (int a = 0; a < 3; a++)
         data->step[a] = (high[a] - data->low[a]) / POSITION_STEPS;
@@ -49,7 +49,7 @@ void ffd_page_data_measure(const page_mesh *mesh, page_data *data)
    so small that the step underflows). */
 static double quantize(double x, double step, double most)
 {
-    const double q = step > 0 ? nearbyint(x / step) : 0;
+    const double q = step > 0 ? nearest_integer(x / step) : 0;
     return q > most ? most : q < -most ? -most : q;
 }
 

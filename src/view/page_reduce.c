@@ -41,11 +41,11 @@ static void measure(reducer *r)
     for (size_t i = 0; i < 3 * r->mesh->triangle_count; i++)
         for (size_t a = 0; a < 3; a++) {
             const double x = scene->before[3 * (size_t)r->mesh->triangles[i] + a];
-            r->low[a] = fmin(r->low[a], x);
-            high[a] = fmax(high[a], x);
+            r->low[a] = minimum_number(r->low[a], x);
+            high[a] = maximum_number(high[a], x);
         }
     for (int a = 0; a < 3; a++)
-        side = fmax(side, high[a] - r->low[a]);
+        side = maximum_number(side, high[a] - r->low[a]);
     r->scale = side > 0 ? 1 / side : 0;
     if (!isfinite(r->scale))
         r->scale = 0;
@@ -318,7 +318,7 @@ static double choose_ratio(const page_mesh *mesh, size_t limit, size_t used)
     const double wanted = AIM * (double)limit / (double)used;
     if (mesh->triangle_count <= RUN_TRIANGLES)
         return wanted;
-    return fmax(wanted, 0.5 * (double)RUN_TRIANGLES / (double)mesh->triangle_count);
+    return maximum_number(wanted, 0.5 * (double)RUN_TRIANGLES / (double)mesh->triangle_count);
 }
 
 ffd_status ffd_page_reduce(page_mesh *mesh, size_t limit, ffd_error *error)

@@ -1,6 +1,7 @@
 #include "view/page_texcoords.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
+#include "base/vector/vec.h"
 #include <math.h>
 #include <string.h>
 
@@ -48,19 +49,14 @@ static void collect(const page_mesh *mesh, wedge_table *table, page_texcoords *t
     }
 }
 
-/* Comparisons in place of fmin and fmax: at those of this loop gcc 12 fails for arm64. */
 static void measure(page_texcoords *t)
 {
     double high[4] = {0};
     for (size_t i = 0; i < t->width * t->count; i++) {
         const size_t a = i % t->width;
         const double x = t->values[i];
-        if (i < t->width)
-            t->low[a] = high[a] = x;
-        if (x < t->low[a])
-            t->low[a] = x;
-        if (x > high[a])
-            high[a] = x;
+        t->low[a] = i < t->width ? x : lesser_of(t->low[a], x);
+        high[a] = i < t->width ? x : larger_of(high[a], x);
     }
     for (size_t a = 0; a < t->width; a++)
         t->step[a] = (high[a] - t->low[a]) / STEPS;
@@ -108,7 +104,7 @@ static void fill_values(const void *of, size_t first, size_t count, unsigned cha
     for (size_t i = first; i < first + count; i++)
         for (size_t a = 0; a < t->width; a++, bytes += 2) {
             const double q =
-                t->step[a] > 0 ? nearbyint((t->values[t->width * i + a] - t->low[a]) / t->step[a]) : 0;
+                t->step[a] > 0 ? nearest_integer((t->values[t->width * i + a] - t->low[a]) / t->step[a]) : 0;
             store_u16(bytes, (uint16_t)(q > STEPS ? STEPS : q));
         }
 }

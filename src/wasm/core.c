@@ -1,5 +1,6 @@
 /* core.c - what the package for npm calls beside the public functions: calls whose structs stay in C, and the
    error of the last call that failed. js/lattice.mjs is the other side. */
+#include "base/arithmetic.h"
 #include <ffd/ffd.h>
 #include <math.h>
 #include <stdio.h>
@@ -74,8 +75,8 @@ static ffd_status fit(ffd_lattice *lattice, const void *points, size_t count, ff
         for (int a = 0; a < 3; a++)
             p[a] = coordinate(points, type, 3 * i + (size_t)a);
         for (int a = 0; a < 3 && isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]); a++) {
-            low[a] = fmin(low[a], p[a]);
-            high[a] = fmax(high[a], p[a]);
+            low[a] = minimum_number(low[a], p[a]);
+            high[a] = maximum_number(high[a], p[a]);
         }
     }
     return ffd_lattice_fit(lattice, low, high, &failure);

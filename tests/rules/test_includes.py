@@ -73,7 +73,7 @@ LAYERS = {
     "lattice": {"base", "base/file", "base/memory", "base/text", "base/vector", "spline"},
     "lattice/file": {"base", "base/file", "base/memory", "base/text", "base/vector", "json", "lattice"},
     "lattice/tangent": {"base/memory", "base/vector", "lattice"},
-    "embed/frame": {"base/memory", "base/vector", "lattice", "spline"},
+    "embed/frame": {"base", "base/memory", "base/vector", "lattice", "spline"},
     "embed/boundary": {"base", "base/memory", "base/vector", "embed/frame", "lattice", "spline"},
     "deform": {"base", "base/vector", "embed/boundary", "lattice"},
     "embed/cells": {"base/memory", "base/vector", "embed/frame", "lattice", "spline"},

@@ -164,6 +164,9 @@ static void broken_text_is_refused_with_its_line(void **state)
         {"\xef\xbb\xbf[\"\xc3\xa4\" 2", "1: not valid JSON: ',' or ']' is expected, found '2' (column 6)"},
         {"{\"a\":1,\"b\":{\"x\":1,\n\"\\u0078\":2}}",
          "2: /b/x: not valid JSON: duplicate key \"\\u0078\" in an object (column 1)"},
+        {"{\"\":1,\"b\":2,\"\":3}", "1: /: not valid JSON: duplicate key \"\" in an object (column 13)"},
+        {"{\"a\":1,\"b\":2,\"c\":3,\"d\":4,\"e\":5,\"f\":6,\"g\":7,\"h\":8,\"\\u0061\":9}",
+         "1: /a: not valid JSON: duplicate key \"\\u0061\" in an object (column 50)"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         json_tree tree;

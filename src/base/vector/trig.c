@@ -1,4 +1,5 @@
 #include "base/vector/trig.h"
+#include "base/arithmetic.h"
 #include <math.h>
 
 /* pi/180 as a sum of two doubles: relative error below 2^-107. */
@@ -73,9 +74,9 @@ static void sincos_octant(double degrees, double *sine, double *cosine)
 
 void ffd_sincos_degrees(double degrees, double *sine, double *cosine)
 {
-    /* Both operations are exact: fmod always is; the subtraction because its operands are within a factor of
-       two (Sterbenz lemma) or the quadrant is 0. */
-    const double turn = fmod(degrees, 360);
+    /* Both operations are exact: remainder_of always is; the subtraction because its operands are within a
+       factor of two (Sterbenz lemma) or the quadrant is 0. */
+    const double turn = remainder_of(degrees, 360);
     const double quadrant = floor(turn / 90 + 0.5);
     double s, c;
     sincos_octant(turn - 90 * quadrant, &s, &c);
@@ -137,4 +138,10 @@ double ffd_arc_tangent(double y, double x)
     }
     const double arc = y <= size ? arc_of_octant(y, size) : QUARTER_TURN - arc_of_octant(size, y);
     return x < 0 ? HALF_TURN - arc : arc;
+}
+
+double ffd_angle_degrees(double y, double x)
+{
+    const double angle = ffd_arc_tangent(fabs(y), x) * (180 / HALF_TURN);
+    return y < 0 ? -angle : angle;
 }

@@ -10,4 +10,8 @@ void ffd_sincos_degrees(double degrees, double *sine, double *cosine);
    only); 0 for (0, 0). x and y finite, y >= 0. */
 double ffd_arc_tangent(double y, double x);
 
+/* Returns the angle from the x axis to (x, y) in degrees, above -180 to 180, with the error of
+   ffd_arc_tangent. x and y are finite. */
+double ffd_angle_degrees(double y, double x);
+
 #endif

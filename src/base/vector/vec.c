@@ -5,7 +5,7 @@
  *usable false, if all are 0 or one is not finite. */
 static int exponent_of(double a, double b, double c, bool *usable)
 {
-    const double largest = fmax(fabs(a), fmax(fabs(b), fabs(c)));
+    const double largest = maximum_number(fabs(a), maximum_number(fabs(b), fabs(c)));
     int exponent = 0;
     *usable = *usable && largest > 0 && isfinite(a) && isfinite(b) && isfinite(c);
     frexp(largest, &exponent);

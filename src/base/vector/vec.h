@@ -3,28 +3,12 @@
 #ifndef FFD_BASE_VECTOR_VEC_H
 #define FFD_BASE_VECTOR_VEC_H
 
-#include <float.h>
-#include <math.h>
+#include "base/arithmetic.h"
 #include <stdbool.h>
-
-#if FLT_EVAL_METHOD != 0
-#error "numbers are not rounded to their types (-msse2 -mfpmath=sse, -fexcess-precision=fast)"
-#endif
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/* Inline, unlike fmin. Returns a if b is NaN. */
-static inline double lesser_of(double a, double b)
-{
-    return b < a ? b : a;
-}
-
-static inline double larger_of(double a, double b)
-{
-    return b > a ? b : a;
-}
 
 static inline double vec_dot(const double a[3], const double b[3])
 {

@@ -31,7 +31,8 @@ static void set_units(boundary *border)
         bounds_add(&box, lattice->rest + 3 * i);
     for (int a = 0; a < 3; a++) {
         border->origin[a] = 0.5 * box.lo[a] + 0.5 * box.hi[a];
-        extent = fmax(extent, fmax(box.hi[a] - border->origin[a], border->origin[a] - box.lo[a]));
+        extent = maximum_number(extent,
+                                maximum_number(box.hi[a] - border->origin[a], border->origin[a] - box.lo[a]));
     }
     for (size_t i = 0; lattice->rest_weights && i < lattice->count; i++)
         if (lattice->rest_weights[i] > weight)
@@ -44,7 +45,7 @@ static void set_box_units(boundary *border)
 {
     double extent = 0;
     for (int i = 0; i < 9; i++)
-        extent = fmax(extent, fabs(border->lattice->frame[i]));
+        extent = maximum_number(extent, fabs(border->lattice->frame[i]));
     border->scale = scale_of(extent);
     for (int i = 0; i < 9; i++)
         border->frame[i] = border->lattice->frame[i] * border->scale;
@@ -90,7 +91,7 @@ static bool make_query(const boundary *border, const double p[3], boundary_query
     double farthest = 0;
     for (int a = 0; a < 3; a++) {
         query->x[a] = 0.25 * p[a] - 0.25 * border->origin[a];
-        farthest = fmax(farthest, fabs(query->x[a]));
+        farthest = maximum_number(farthest, fabs(query->x[a]));
     }
     const bool is_far = !(farthest * border->scale <= 0.25 * FARTHEST);
     for (int a = 0; a < 3; a++)
@@ -104,7 +105,7 @@ static bool make_query(const boundary *border, const double p[3], boundary_query
 static void report_distance(const boundary_query *query, const boundary_foot *foot, boundary_point *nearest)
 {
     const double *r = foot->residual;
-    const double size = fmax(fabs(r[0]), fmax(fabs(r[1]), fabs(r[2])));
+    const double size = maximum_number(fabs(r[0]), maximum_number(fabs(r[1]), fabs(r[2])));
     if (!(size > 0))
         return;
     const double part[3] = {r[0] / size, r[1] / size, r[2] / size};

@@ -21,7 +21,7 @@ static void go_to_face(const double t[3], const double side[3], double to[3])
 {
     double least = HUGE_VAL;
     for (int a = 0; a < 3; a++)
-        least = fmin(least, fmin(t[a], 1 - t[a]) * side[a]);
+        least = minimum_number(least, minimum_number(t[a], 1 - t[a]) * side[a]);
     for (int a = 0; a < 3; a++)
         if (t[a] * side[a] <= least + EQUAL * side[a]) {
             to[a] = 0;

@@ -261,7 +261,7 @@ static ffd_status halve(border_search *search, const face_patch *patch, double k
     ffd_patch_halve(patch, ffd_patch_direction(patch), half[0], half[1]);
     for (int i = 0; i < 2; i++) {
         const bounds residual = ffd_patch_residual(half[i], search->x);
-        const double bound = fmax(key, patch_bound(search, half[i], &residual));
+        const double bound = maximum_number(key, patch_bound(search, half[i], &residual));
         if (bound <= threshold(search))
             TRY(push(search, bound, 0, half[i]));
     }
@@ -272,7 +272,7 @@ static ffd_status halve(border_search *search, const face_patch *patch, double k
 static ffd_status search_patch(border_search *search, const face_patch *patch, double key)
 {
     search->budget--;
-    const double bound = fmax(key, try_from(search, patch, 0.5, 0.5));
+    const double bound = maximum_number(key, try_from(search, patch, 0.5, 0.5));
     if (bound >= search->least - GAP)
         return FFD_OK;
     const bounds residual = ffd_patch_residual(patch, search->x);
@@ -324,7 +324,7 @@ static ffd_status push_node(border_search *search, uint32_t index)
     double bound = box_bound(search, &node->box);
     if (bound <= threshold(search) && node->patch) {
         const bounds residual = ffd_patch_residual(node->patch, search->x);
-        bound = fmax(bound, patch_bound(search, node->patch, &residual));
+        bound = maximum_number(bound, patch_bound(search, node->patch, &residual));
     }
     return bound <= threshold(search) ? push(search, bound, index, NULL) : FFD_OK;
 }

@@ -226,7 +226,7 @@ void ffd_patch_project(const face_patch *patch, const double x[3], double t[2], 
             for (int f = 0; f < 2 && !falls; f++)
                 to[f] = 0.5 * (t[f] + to[f]);
         }
-        const double size = fmax(fabs(to[0] - t[0]), fabs(to[1] - t[1]));
+        const double size = maximum_number(fabs(to[0] - t[0]), fabs(to[1] - t[1]));
         if (!falls || size == 0)
             return;
         memcpy(t, to, sizeof to);

@@ -63,7 +63,7 @@ void ffd_cell_region(const ffd_locator *locator, const int span[3], const bezier
         result->span[a] = span[a];
         result->lo[a] = box->lo[a] * side;
         result->width[a] = (box->hi[a] - box->lo[a]) * side;
-        result->grain = fmax(result->grain, DBL_EPSILON * (box->hi[a] / (box->hi[a] - box->lo[a])));
+        result->grain = maximum_number(result->grain, DBL_EPSILON * (box->hi[a] / (box->hi[a] - box->lo[a])));
     }
     memcpy(result->inverse, contraction->inverse, sizeof result->inverse);
     result->bound = contraction->bound;

@@ -20,11 +20,11 @@ static double scale_of(double size)
 static void find_scale(const ffd_locator *locator, cell_search *cells)
 {
     const double *extent = locator->extent;
-    cells->scale = scale_of(fmax(extent[0], fmax(extent[1], extent[2])));
+    cells->scale = scale_of(maximum_number(extent[0], maximum_number(extent[1], extent[2])));
     for (int a = 0; a < 3; a++)
         cells->extent[a] = extent[a] * cells->scale;
     for (int a = 0; a < 3; a++)
-        cells->size[a] = fmax(fabs(locator->hull.lo[a]), fabs(locator->hull.hi[a])) * cells->scale;
+        cells->size[a] = maximum_number(fabs(locator->hull.lo[a]), fabs(locator->hull.hi[a])) * cells->scale;
 }
 
 static ffd_status make_points(const ffd_locator *locator, cell_search *cells, ffd_error *error)
@@ -35,7 +35,7 @@ static ffd_status make_points(const ffd_locator *locator, cell_search *cells, ff
     if (!cells->points)
         return ffd_fail_memory(error);
     for (size_t i = 0; cells->rational && i < lattice->count; i++)
-        greatest = fmax(greatest, lattice->rest_weights[i]);
+        greatest = maximum_number(greatest, lattice->rest_weights[i]);
     const double weight_scale = cells->rational ? scale_of(greatest) : 1;
     for (size_t i = 0; i < lattice->count; i++) {
         const double h = cells->rational ? lattice->rest_weights[i] * weight_scale : 1;

@@ -58,7 +58,8 @@ static bool newton_stride(point_search *search, const cell_region *region, const
 bool ffd_search_region(point_search *search, const cell_region *region, root *stall)
 {
     const double noise = ffd_image_of_tolerance(region->inverse, search->tolerance, region->greatest_weight);
-    const double bound = region->bound, least = fmax(1e-12, 4 * fmax(region->grain, noise));
+    const double bound = region->bound,
+                 least = maximum_number(1e-12, 4 * maximum_number(region->grain, noise));
     double t[3], e = 0.5, image[3];
     sample at;
     if (!leave_centre(search, region, noise, t, &e))

@@ -115,7 +115,8 @@ static bool is_closest(const double t[3], const sample *at, const double allowan
     if (!ffd_weigh_rows(at->jacobian, at->equation, allowance, jacobian, equation) ||
         !project_residual(jacobian, equation, t, across, left) ||
         !(vec_length(left) > 0.5 * vec_length(equation)) ||
-        !(vec_greatest(left) > at->weight * fmin(allowance[0], fmin(allowance[1], allowance[2]))))
+        !(vec_greatest(left) >
+          at->weight * minimum_number(allowance[0], minimum_number(allowance[1], allowance[2]))))
         return false;
     for (int a = 0; a < 3; a++) {
         if (t[a] != 0 && t[a] != 1)

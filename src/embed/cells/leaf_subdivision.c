@@ -152,7 +152,7 @@ static double shortest_side(const bezier_box *box)
 {
     double shortest = 1;
     for (int a = 0; a < 3; a++)
-        shortest = fmin(shortest, box->hi[a] - box->lo[a]);
+        shortest = minimum_number(shortest, box->hi[a] - box->lo[a]);
     return shortest;
 }
 
@@ -332,8 +332,8 @@ void ffd_search_part(point_search *search, const cell_region *region)
     for (int a = 0; a < 3; a++) {
         /* Number of halvings of the cell, which the rounding of lo and width does not affect. */
         const double *knot = search->locator->knots[a].t + region->span[a], side = knot[1] - knot[0];
-        lo[a] = ldexp(round(ldexp(region->lo[a] / side, LEAF_DEPTH)), -LEAF_DEPTH);
-        hi[a] = lo[a] + ldexp(round(ldexp(region->width[a] / side, LEAF_DEPTH)), -LEAF_DEPTH);
+        lo[a] = ldexp(nearest_integer(ldexp(region->lo[a] / side, LEAF_DEPTH)), -LEAF_DEPTH);
+        hi[a] = lo[a] + ldexp(nearest_integer(ldexp(region->width[a] / side, LEAF_DEPTH)), -LEAF_DEPTH);
     }
     search_part(search, region->span, lo, hi, search->again ? HARD_LEVELS : PART_LEVELS);
 }

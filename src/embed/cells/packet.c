@@ -1,4 +1,5 @@
 #include "embed/cells/packet.h"
+#include "base/vector/root.h"
 #include <math.h>
 #include <string.h>
 
@@ -10,7 +11,7 @@ void ffd_packet_begin(point_packet *packet, const ffd_locator *locator)
 {
     const size_t *const cells = locator->cells->cells;
     packet->locator = locator;
-    packet->side = CELLS_A_PACKET / cbrt((double)cells[0] * (double)cells[1] * (double)cells[2]);
+    packet->side = CELLS_A_PACKET / ffd_root((double)cells[0] * (double)cells[1] * (double)cells[2], 3);
     packet->count = 0;
 }
 

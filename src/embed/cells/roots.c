@@ -32,7 +32,8 @@ static double side_of(const ffd_locator *locator, int direction)
 
 static double tolerance_of(const ffd_locator *locator, const root *a, const root *b, int direction)
 {
-    return fmax(SAME * side_of(locator, direction), fmax(a->spread[direction], b->spread[direction]));
+    return maximum_number(SAME * side_of(locator, direction),
+                          maximum_number(a->spread[direction], b->spread[direction]));
 }
 
 /* Returns whether the shorter way from a to b in this direction crosses the ends of the domain, which

@@ -77,7 +77,7 @@ static void settle_on_curve(point_search *search, int along, const int span[3], 
         const double next = offset[along] - slope / square;
         if (!isfinite(next))
             return;
-        offset[along] = fmin(fmax(next, 0), knot[1] - knot[0]);
+        offset[along] = minimum_number(maximum_number(next, 0), knot[1] - knot[0]);
         ffd_search_evaluate(search, span, offset, at);
     }
 }

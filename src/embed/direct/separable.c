@@ -171,7 +171,8 @@ void ffd_separable_find(const ffd_locator *locator, const double p[3], ffd_locat
         /* Early exit for points far outside. */
         const monotone_curve *curve = &locator->curves[a];
         const double first = curve->breakpoints[0], last = curve->breakpoints[locator->knots[a].span_count];
-        if (p[a] < fmin(first, last) - tolerance[a] || p[a] > fmax(first, last) + tolerance[a])
+        if (p[a] < minimum_number(first, last) - tolerance[a] ||
+            p[a] > maximum_number(first, last) + tolerance[a])
             return;
     }
     for (int a = 0; a < 3; a++)

@@ -1,4 +1,5 @@
 #include "embed/frame/box_tree.h"
+#include "base/arithmetic.h"
 #include "base/memory/memory.h"
 #include <math.h>
 #include <stdlib.h>
@@ -214,7 +215,7 @@ static double square_distance(const box_tree_node *node, int i, const double p[3
 {
     double square = 0;
     for (int a = 0; a < 3; a++) {
-        const double beyond = fmax(fmax(node->lo[a][i] - p[a], p[a] - node->hi[a][i]), 0);
+        const double beyond = maximum_number(maximum_number(node->lo[a][i] - p[a], p[a] - node->hi[a][i]), 0);
         square += beyond * beyond;
     }
     return square;

@@ -12,7 +12,7 @@ bool ffd_weigh_rows(const double jacobian[9], const double equation[3], const do
     double least = HUGE_VAL;
     for (int r = 0; r < 3; r++)
         if (tolerance[r] > 0)
-            least = fmin(least, tolerance[r]);
+            least = minimum_number(least, tolerance[r]);
     if (!isfinite(least))
         return false;
     for (int r = 0; r < 3; r++) {

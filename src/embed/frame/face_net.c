@@ -1,4 +1,5 @@
 #include "embed/frame/face_net.h"
+#include "base/arithmetic.h"
 #include "base/memory/memory.h"
 #include "lattice/border.h"
 #include <math.h>
@@ -19,14 +20,14 @@ void ffd_face_scale_find(const ffd_lattice *lattice, face_scale *scale)
     for (int r = 0; r < 3; r++) {
         double lo = lattice->rest[r], hi = lo;
         for (size_t i = 0; i < lattice->count; i++) {
-            lo = fmin(lo, lattice->rest[3 * i + (size_t)r]);
-            hi = fmax(hi, lattice->rest[3 * i + (size_t)r]);
+            lo = minimum_number(lo, lattice->rest[3 * i + (size_t)r]);
+            hi = maximum_number(hi, lattice->rest[3 * i + (size_t)r]);
         }
         scale->origin[r] = 0.5 * lo + 0.5 * hi;
-        scale->exponent[r] = exponent_of(fmax(hi - scale->origin[r], scale->origin[r] - lo));
+        scale->exponent[r] = exponent_of(maximum_number(hi - scale->origin[r], scale->origin[r] - lo));
     }
     for (size_t i = 0; lattice->rest_weights && i < lattice->count; i++)
-        greatest = fmax(greatest, lattice->rest_weights[i]);
+        greatest = maximum_number(greatest, lattice->rest_weights[i]);
     scale->exponent[3] = exponent_of(greatest);
 }
 
@@ -65,7 +66,7 @@ void ffd_face_net_fill(face_net *net, const face_scale *scale, int end)
                 point[r] = ldexp(point[r], -scale->exponent[r]);
                 if (r < 3)
                     point[r] = ldexp(point[r], lattice->rest_weights ? -scale->exponent[3] : 0);
-                net->extent[r] = fmax(net->extent[r], fabs(point[r]));
+                net->extent[r] = maximum_number(net->extent[r], fabs(point[r]));
             }
         }
 }

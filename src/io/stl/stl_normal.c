@@ -8,8 +8,8 @@ bool ffd_stl_normal(const double corners[9], double normal[3])
     double extent = 0, largest = 0, sides[2][3];
     for (int i = 0; i < 3; i++)
         for (int a = 0; a < 3; a++) {
-            extent = fmax(extent, fabs(corners[3 * i + a]));
-            largest = fmax(largest, fabs(corners[3 * i + a] - corners[a]));
+            extent = maximum_number(extent, fabs(corners[3 * i + a]));
+            largest = maximum_number(largest, fabs(corners[3 * i + a] - corners[a]));
         }
     if (!vec_is_finite(corners) || !vec_is_finite(corners + 3) || !vec_is_finite(corners + 6) ||
         !(largest > 0 && isfinite(largest)))

@@ -35,7 +35,7 @@ static bool join_number(figure_join how, double from, double *to)
     if (how == JOIN_SUM)
         *to += from;
     else
-        *to = how == JOIN_LEAST ? fmin(*to, from) : fmax(*to, from);
+        *to = how == JOIN_LEAST ? minimum_number(*to, from) : maximum_number(*to, from);
     return taken;
 }
 

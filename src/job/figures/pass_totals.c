@@ -31,8 +31,8 @@ void ffd_totals_judge_rounding(const pass_totals *tiles, size_t count, double to
     part_rounding part = {.box = ffd_bounds_empty()};
     for (size_t i = 0; i < count; i++) {
         const part_rounding *const tile = &tiles[i].rounding;
-        part.error = fmax(part.error, tile->error);
-        part.before = fmax(part.before, tile->before);
+        part.error = maximum_number(part.error, tile->error);
+        part.before = maximum_number(part.before, tile->before);
         ffd_bounds_join(&part.box, &tile->box);
     }
     const double side = ffd_bounds_side(&part.box);

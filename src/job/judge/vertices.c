@@ -8,6 +8,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Room for a number of two digits. */
@@ -53,16 +54,20 @@ static void write_kinds(const pass_totals *totals, const chain_outside *outside,
     }
 }
 
-/* Writes the least number of two digits that is not below a distance. */
+/* Writes a number of two digits that is not below a distance, and at most one step of the second digit above.
+ */
 static void round_up(double distance, char text[ROUNDED])
 {
-    const double step = fmax(pow(10, floor(log10(distance)) - 1), DBL_MIN);
-    double rounded = 0;
-    for (double above = distance; rounded < distance; above += step / 2) {
-        snprintf(text, ROUNDED, "%.1e", above);
-        ffd_number_parse(text, text + strlen(text), &rounded);
+    double rounded = 0, step = 0;
+    snprintf(text, ROUNDED, "%.1e", distance);
+    ffd_number_parse(text, text + strlen(text), &rounded);
+    if (rounded < distance && distance <= DBL_MAX) {
+        char one[ROUNDED];
+        const int exponent = atoi(strchr(text, 'e') + 1);
+        snprintf(one, sizeof one, "1e%d", exponent - 1);
+        ffd_number_parse(one, one + strlen(one), &step);
     }
-    snprintf(text, ROUNDED, "%.2g", rounded);
+    snprintf(text, ROUNDED, "%.2g", rounded + step);
 }
 
 /* Of a mesh that goes through the border, a few vertices lie next to it by chance: that is worth no word. */

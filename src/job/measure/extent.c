@@ -131,7 +131,7 @@ static void find_largest(extent_work *work, const uint32_t *corners, size_t coun
         const double *const p = position(work, corners[c]);
         for (int a = 0; a < 3; a++)
             if (isfinite(p[a]))
-                work->largest = fmax(work->largest, fabs(p[a]));
+                work->largest = maximum_number(work->largest, fabs(p[a]));
     }
 }
 

@@ -114,7 +114,7 @@ static double lattice_extent(const ffd_lattice *lattice, double length, const do
 {
     double result = DIAGONAL_EXTENT * length / lattice->diagonal;
     for (int a = 0; a < 3; a++)
-        result = fmax(result, cells_between(&lattice->knots[a], left[a], right[a]));
+        result = maximum_number(result, cells_between(&lattice->knots[a], left[a], right[a]));
     return result;
 }
 
@@ -140,8 +140,8 @@ static double extent(const edge_work *work, edge_scratch *scratch, size_t edge, 
     if (work->chain->blocks)
         return block_extent(work, scratch, length, edge * SLOTS + l, edge * SLOTS + r);
     for (size_t k = 0; k < work->chain->count; k++)
-        result =
-            fmax(result, lattice_extent(work->chain->links[k].lattice, length, left + 3 * k, right + 3 * k));
+        result = maximum_number(
+            result, lattice_extent(work->chain->links[k].lattice, length, left + 3 * k, right + 3 * k));
     return result;
 }
 
@@ -153,8 +153,8 @@ static void clip(const bounds *box, const double start[3], const double along[3]
     for (int a = 0; a < 3; a++) {
         const double lo = (box->lo[a] - start[a]) / along[a], hi = (box->hi[a] - start[a]) / along[a];
         if (along[a] != 0) {
-            *from = fmax(*from, fmin(lo, hi));
-            *to = fmin(*to, fmax(lo, hi));
+            *from = maximum_number(*from, minimum_number(lo, hi));
+            *to = minimum_number(*to, maximum_number(lo, hi));
         } else if (start[a] < box->lo[a] || start[a] > box->hi[a]) {
             *to = -1;
         }
@@ -186,8 +186,8 @@ static void find_window(const edge_work *work, const double half[3], sampled_edg
         }
         clip(&reach, edge->start, edge->along, &from, &to);
         if (from <= to) {
-            first = fmin(first, from);
-            last = fmax(last, to);
+            first = minimum_number(first, from);
+            last = maximum_number(last, to);
         }
     }
     const bool passes = first < last;
@@ -221,7 +221,7 @@ static void begin_edge(const edge_work *work, uint64_t key, sampled_edge *edge)
         edge->along_delta[c] = after[1][c] - rest[1][c] - edge->start_delta[c];
         edge->chord[c] = after[1][c] - after[0][c];
         for (int i = 0; i < 2; i++)
-            size = fmax(size, fmax(fabs(rest[i][c]), fabs(after[i][c])));
+            size = maximum_number(size, maximum_number(fabs(rest[i][c]), fabs(after[i][c])));
     }
     edge->rounding = ROUNDING * size;
     find_window(work, none, edge);
@@ -243,7 +243,7 @@ static void find_offset(const sampled_edge *edge, double t, const double delta[3
     for (int a = 0; a < 3; a++)
         offset[a] = delta[a] - (edge->start_delta[a] + t * edge->along_delta[a]);
     if (edge->chord_square > 0)
-        shift = fmin(fmax(vec_dot(offset, edge->chord) / edge->chord_square, -t), 1 - t);
+        shift = minimum_number(maximum_number(vec_dot(offset, edge->chord) / edge->chord_square, -t), 1 - t);
     for (int a = 0; a < 3; a++)
         offset[a] -= shift * edge->chord[a];
 }
@@ -259,7 +259,7 @@ static void keep_sample(const sample_request *request, const double delta[3], ed
     if (request->slot < PIECES)
         edge->sampled |= (uint64_t)1 << request->slot;
     edge->left_out = edge->left_out || !isfinite(deviation);
-    edge->largest = fmax(edge->largest, deviation);
+    edge->largest = maximum_number(edge->largest, deviation);
 }
 
 static void count_cells(const ffd_lattice *lattice, const double uvw[3], double cell[3])
@@ -382,7 +382,7 @@ static double expected_sagitta(const sampled_edge *edge, double (*offset)[3], si
         find_sagitta(offset, half, half + 2 * width, of_half);
         for (int a = 0; a < 3; a++)
             of_half[a] -= of_whole[a] / 4;
-        missed = fmax(missed, vec_length(of_half));
+        missed = maximum_number(missed, vec_length(of_half));
     }
     return vec_length(own) / 4 + missed;
 }
@@ -392,7 +392,7 @@ static double parabola_peak(double left, double right, double sagitta)
 {
     const double rise = right - left;
     if (4 * sagitta <= fabs(rise))
-        return fmax(left, right);
+        return maximum_number(left, right);
     return (left + right) / 2 + sagitta + rise * rise / (16 * sagitta);
 }
 
@@ -437,7 +437,7 @@ static ffd_status begin_window(const edge_work *work, edge_scratch *scratch, siz
         if (is_end(edge, slot) || edge->left_out)
             continue;
         find_offset(edge, parameter_of(edge, slot), still, offset);
-        edge->largest = fmax(edge->largest, vec_length(offset));
+        edge->largest = maximum_number(edge->largest, vec_length(offset));
         TRY(request_sample(work, scratch, index, slot));
     }
     return FFD_OK;

@@ -664,7 +664,7 @@ ffd_status ffd_pass_over_mesh(const mesh_pass *pass, pass_totals *totals, ffd_er
 {
     part_work work = {.whole = {.pass = pass},
                       .workers = worker_count(pass),
-                      .vertices = fmax((double)ffd_mesh_vertex_count(pass->document), 1)};
+                      .vertices = maximum_number((double)ffd_mesh_vertex_count(pass->document), 1)};
     ffd_totals_clear(totals);
     atomic_init(&work.stopped, false);
     work.scratch = make_scratch(pass, work.workers);

@@ -1,4 +1,5 @@
 /* report_junit.c - reports and comparisons of folders as JUnit XML, which build servers show. */
+#include "base/arithmetic.h"
 #include "base/file/input.h"
 #include "base/file/mapping.h"
 #include "base/file/output.h"
@@ -87,7 +88,7 @@ typedef struct junit_case {
 
 static void put_time(byte_buffer *xml, double seconds)
 {
-    ffd_buffer_format(xml, " time=\"%s\"", ffd_number_decimals(fmin(seconds, LONGEST), 6).text);
+    ffd_buffer_format(xml, " time=\"%s\"", ffd_number_decimals(minimum_number(seconds, LONGEST), 6).text);
 }
 
 static void add_case(junit_suite *suite, const junit_case *c)

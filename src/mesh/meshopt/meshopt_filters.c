@@ -1,4 +1,5 @@
 #include "mesh/meshopt/meshopt_filters.h"
+#include "base/arithmetic.h"
 #include "base/little_endian.h"
 #include <math.h>
 
@@ -22,7 +23,7 @@ static void store_16(unsigned char *bytes, int value)
 static int to_integer(double value, double largest)
 {
     const double whole = value < 0 ? ceil(value - 0.5) : floor(value + 0.5);
-    return (int)fmax(fmin(whole, largest), -largest);
+    return (int)maximum_number(minimum_number(whole, largest), -largest);
 }
 
 /* Converts integers in octahedral encoding, in which `one` is the coordinate of a corner, to integers of a
@@ -70,7 +71,7 @@ static void complete(unsigned char *bytes)
         to[(largest + 1 + a) % 4] = to_integer(part * LARGEST_16 / sqrt(square), LARGEST_16);
         rest -= part * part;
     }
-    to[largest] = to_integer(sqrt(fmax(rest, 0) / square) * LARGEST_16, LARGEST_16);
+    to[largest] = to_integer(sqrt(maximum_number(rest, 0) / square) * LARGEST_16, LARGEST_16);
     for (int a = 0; a < 4; a++)
         store_16(bytes + 2 * a, to[a]);
 }
@@ -119,7 +120,7 @@ void ffd_meshopt_scale(unsigned char *bytes, size_t count, size_t stride)
 
 static int limit(double value, double largest)
 {
-    return (int)(fmax(fmin(value, largest), 0) + 0.5);
+    return (int)(maximum_number(minimum_number(value, largest), 0) + 0.5);
 }
 
 /* Converts a colour of luma, two differences of colour, and alpha, whose highest bit tells the scale. */

@@ -30,8 +30,8 @@ static const ffd_bounds empty_bounds = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_V
 static void join(ffd_bounds *box, const ffd_bounds *other)
 {
     for (int a = 0; a < 3; a++) {
-        box->min[a] = fmin(box->min[a], other->min[a]);
-        box->max[a] = fmax(box->max[a], other->max[a]);
+        box->min[a] = minimum_number(box->min[a], other->min[a]);
+        box->max[a] = maximum_number(box->max[a], other->max[a]);
     }
 }
 

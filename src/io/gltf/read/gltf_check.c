@@ -339,7 +339,7 @@ static ffd_status check_matrix(gltf_document *d, uint32_t value, const double *m
     const double row[4] = {m[3], m[7], m[11], m[15] - 1};
     double largest = 0;
     for (int i = 0; i < 4; i++)
-        largest = fmax(largest, fabs(row[i]));
+        largest = maximum_number(largest, fabs(row[i]));
     if (largest <= 0)
         return FFD_OK;
     if (largest <= LAST_ROW_TOLERANCE)

@@ -89,8 +89,8 @@ static void widen(range *r, const double *xyz, size_t count)
         return;
     for (size_t i = 0; i < 3 * count; i++)
         if (isfinite(xyz[i])) {
-            r->min[i % 3] = fmin(r->min[i % 3], xyz[i]);
-            r->max[i % 3] = fmax(r->max[i % 3], xyz[i]);
+            r->min[i % 3] = minimum_number(r->min[i % 3], xyz[i]);
+            r->max[i % 3] = maximum_number(r->max[i % 3], xyz[i]);
         }
 }
 
@@ -132,8 +132,8 @@ static range range_of(const gltf_document *d, size_t a)
                        &search);
     for (size_t t = 0; t < TILES; t++)
         for (size_t c = 0; c < 3; c++) {
-            all.min[c] = fmin(all.min[c], search.found[t].min[c]);
-            all.max[c] = fmax(all.max[c], search.found[t].max[c]);
+            all.min[c] = minimum_number(all.min[c], search.found[t].min[c]);
+            all.max[c] = maximum_number(all.max[c], search.found[t].max[c]);
         }
     return all;
 }
@@ -160,7 +160,7 @@ static double farthest(const range *r)
 {
     double most = 0;
     for (size_t c = 0; c < 3; c++)
-        most = fmax(most, fmax(-r->min[c], r->max[c]));
+        most = maximum_number(most, maximum_number(-r->min[c], r->max[c]));
     return most;
 }
 
@@ -174,7 +174,7 @@ static ffd_status compare(gltf_document *d, size_t a, const range *found, ffd_er
         return FFD_OK;
     double largest = 0;
     for (size_t c = 0; c < 3; c++)
-        largest = fmax(largest, fmax(fabs(stated.min[c]), fabs(stated.max[c])));
+        largest = maximum_number(largest, maximum_number(fabs(stated.min[c]), fabs(stated.max[c])));
     if (largest > 0 && farthest(found) > LARGEST_RATIO * largest)
         return ffd_json_tree_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
                                   "a coordinate of %g is more than 1e15 times the largest number of min and "
@@ -287,7 +287,7 @@ static ffd_status judge_block(gltf_document *d, const gltf_primitive *primitive,
         ffd_gltf_read(d, (size_t)primitive->influences[s].weights, first, count, 4, weights);
         for (size_t i = 0; i < 4 * count; i++) {
             sums[i / 4].total += weights[i];
-            sums[i / 4].least = fmin(sums[i / 4].least, weights[i]);
+            sums[i / 4].least = minimum_number(sums[i / 4].least, weights[i]);
         }
     }
     for (size_t i = 0; i < count; i++)

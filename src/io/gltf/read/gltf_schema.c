@@ -244,6 +244,23 @@ static ffd_status check_object(const checker *c, uint32_t object, const rule *ru
     return FFD_OK;
 }
 
+/* The digits of the largest number. */
+#define FINITE_DIGITS 308
+
+/* Whether a number is finite; without an exponent it takes no parsing. */
+static bool is_finite(const checker *c, uint32_t value)
+{
+    const json_value *const v = &c->tree->values[value];
+    const size_t length = v->end - v->begin;
+    const char *const text = c->tree->text + v->begin;
+    double number;
+    if (v->kind != JSON_NUMBER)
+        return false;
+    if (length < FINITE_DIGITS && !memchr(text, 'e', length) && !memchr(text, 'E', length))
+        return true;
+    return ffd_json_tree_number(c->tree, value, &number) && isfinite(number);
+}
+
 static ffd_status check_numbers(const checker *c, uint32_t value, size_t count)
 {
     if (!is_kind(c, value, JSON_ARRAY))
@@ -254,8 +271,7 @@ static ffd_status check_numbers(const checker *c, uint32_t value, size_t count)
                                   (unsigned long)c->tree->values[value].count);
     for (uint32_t v = ffd_json_tree_first(c->tree, value); v != JSON_NONE;
          v = ffd_json_tree_after(c->tree, v)) {
-        double number;
-        if (!ffd_json_tree_number(c->tree, v, &number) || !isfinite(number))
+        if (!is_finite(c, v))
             return refuse(c, v, "a finite number");
     }
     return FFD_OK;
@@ -263,10 +279,9 @@ static ffd_status check_numbers(const checker *c, uint32_t value, size_t count)
 
 static ffd_status check_finite(const checker *c, uint32_t value)
 {
-    double number;
     for (uint32_t v = is_kind(c, value, JSON_ARRAY) ? ffd_json_tree_first(c->tree, value) : JSON_NONE;
          v != JSON_NONE; v = ffd_json_tree_after(c->tree, v))
-        if (ffd_json_tree_number(c->tree, v, &number) && !isfinite(number))
+        if (is_kind(c, v, JSON_NUMBER) && !is_finite(c, v))
             return refuse(c, v, "a finite number");
     return FFD_OK;
 }

@@ -38,16 +38,23 @@ static void read_vector(const slot_values *values, size_t i, size_t components, 
         ffd_gltf_original(values->document, values->accessor, i, components, vector);
 }
 
+static float larger_size(float a, float b)
+{
+    a = fabsf(a);
+    b = fabsf(b);
+    return b > a ? b : a;
+}
+
 static float largest_of(const float v[4])
 {
-    return fmaxf(fmaxf(fabsf(v[0]), fabsf(v[1])), fmaxf(fabsf(v[2]), fabsf(v[3])));
+    return larger_size(larger_size(v[0], v[1]), larger_size(v[2], v[3]));
 }
 
 /* The distance from a float to the next one away from 0. */
 static double ulp_of(float size)
 {
     size = fabsf(size);
-    return (double)nextafterf(size, HUGE_VALF) - (double)size;
+    return (double)next_float_above(size) - (double)size;
 }
 
 /* A mesh whose uses are compared. */
@@ -125,7 +132,7 @@ static double file_rounding(const slack *allowed, const float x[4], const float 
 {
     if (allowed->step > 0)
         return allowed->step * (1 + 1e-6);
-    return ulp_of(allowed->along ? fmaxf(largest_of(x), largest_of(y)) : fmaxf(fabsf(x[c]), fabsf(y[c])));
+    return ulp_of(allowed->along ? larger_size(largest_of(x), largest_of(y)) : larger_size(x[c], y[c]));
 }
 
 static bool agree_at(const slot_values *a, const slot_values *b, size_t i, const slack *allowed)
