@@ -1,4 +1,5 @@
 #include "view/page_splats.h"
+#include "base/arithmetic.h"
 #include "base/little_endian.h"
 #include <math.h>
 #include <string.h>
@@ -17,10 +18,10 @@ static void fill(const void *of, size_t first, size_t count, unsigned char *byte
         const float *const from = side->covariances + 6 * (size_t)side->mesh->vertices[v];
         float most = 0;
         for (size_t i = 0; i < 6; i++)
-            most = fmaxf(most, fabsf(from[i]));
+            most = fabsf(from[i]) > most ? fabsf(from[i]) : most;
         store_float(bytes, most);
         for (size_t i = 0; i < 6; i++) {
-            const double q = most > 0 ? nearbyint((double)from[i] / (double)most * STEPS) : 0;
+            const double q = most > 0 ? nearest_integer((double)from[i] / (double)most * STEPS) : 0;
             store_u16(bytes + 4 + 2 * i, (uint16_t)(int16_t)q);
         }
     }

@@ -1,4 +1,5 @@
 #include "view/page_targets.h"
+#include "base/arithmetic.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "view/page_text.h"
@@ -13,7 +14,7 @@ static double step_of(const page_mesh *mesh, const view_target *target)
     double most = 0;
     for (size_t i = 0; i < target->count; i++)
         for (size_t a = 0; a < 3 && mesh->places[target->vertices[i]] != VIEW_NONE; a++)
-            most = fmax(most, fabs((double)target->offsets[3 * i + a]));
+            most = larger_of(most, fabs((double)target->offsets[3 * i + a]));
     return most / STEPS;
 }
 
@@ -23,7 +24,7 @@ static bool round_offset(const page_mesh *mesh, const view_target *target, doubl
 {
     bool moves = false;
     for (size_t a = 0; a < 3; a++) {
-        const double q = step > 0 ? nearbyint((double)target->offsets[3 * entry + a] / step) : 0;
+        const double q = step > 0 ? nearest_integer((double)target->offsets[3 * entry + a] / step) : 0;
         rounded[a] = (int16_t)(q > STEPS ? STEPS : q < -STEPS ? -STEPS : q);
         moves = moves || rounded[a] != 0;
     }

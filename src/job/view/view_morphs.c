@@ -1,5 +1,6 @@
 /* view_morphs.c - the job of a view with --morph: a pass for each lattice over the base shape. The shape
    after has all of the targets in full: their displacements and gradients add up. */
+#include "base/arithmetic.h"
 #include "base/memory/memory.h"
 #include "job/input/source.h"
 #include "job/morphs.h"
@@ -65,7 +66,7 @@ static double largest_step(const torn_edges *torn)
 {
     double most = 0;
     for (size_t i = 0; i < torn->count; i++)
-        most = fmax(most, torn->list[i].step);
+        most = larger_of(most, torn->list[i].step);
     return most;
 }
 
