@@ -135,8 +135,8 @@ static const cli_example examples[] = {
      "ffd view cow.obj -l bend.json -o row.png --frames 5 --size 300x400"},
     {"five poses of an animation, and below them deformed",
      "ffd view robot.glb -l tall.json -o walk.png --animation walk --size 300x400"},
-    {"a page with sliders for a new morph target, and for those of the model",
-     "ffd view face.glb --morph smile=smile.json -o smile.html"},
+    {"a page with sliders for new morph targets, and for those of the model",
+     "ffd view robot.glb --morph tall=tall.json --morph turn=twist.json -o targets.html"},
     {NULL, NULL},
 };
 
