@@ -158,18 +158,24 @@ static void find_centroid(const move_work *work, size_t count, double centroid[3
         centroid[c] = (origin ? origin[c] : 0) + sum[c] / (double)count;
 }
 
+/* What rounding makes of the coordinate of points that lie in one plane across the axis, relative to the size
+   of their coordinates: of positions that were computed along axes of a box, or turned by the moves before.
+ */
+#define FLAT_ROUNDING (64 * DBL_EPSILON)
+
 static void find_extent(const move_work *work, ready_move *ready)
 {
-    double first = INFINITY, last = -INFINITY;
+    double first = INFINITY, last = -INFINITY, greatest = vec_greatest(ready->move.about);
     for (size_t i = 0; i < work->lattice->count; i++) {
         if (!work->selected[i])
             continue;
         const double s = ffd_move_along(&ready->move, work->points + 3 * i);
         first = lesser_of(first, s);
         last = larger_of(last, s);
+        greatest = larger_of(greatest, vec_greatest(work->points + 3 * i));
     }
     ready->first = first;
-    ready->length = last - first;
+    ready->length = last - first > FLAT_ROUNDING * greatest ? last - first : 0;
 }
 
 /* Returns the distance of a rest position from a position of the file, divided by the radius. */
