@@ -71,6 +71,7 @@ LAYERS = {
     "job/report": {"base", "base/file", "base/memory", "base/text", "job/figures", "json"},
     "spline": {"base", "base/memory", "base/text"},
     "lattice": {"base", "base/file", "base/memory", "base/text", "base/vector", "spline"},
+    "lattice/author": {"base", "base/file", "base/memory", "lattice", "spline"},
     "lattice/file": {"base", "base/file", "base/memory", "base/text", "base/vector", "json", "lattice"},
     "lattice/tangent": {"base/memory", "base/vector", "lattice"},
     "embed/frame": {"base", "base/memory", "base/vector", "lattice", "spline"},

@@ -21,6 +21,7 @@ typedef struct made_lattice {
 /* Begins with the parts of `from`, without control points: their arrays are NULL. Errors: FFD_E_INVALID where
    `from` has no positions yet, but moves, weights or control points, which need them. */
 ffd_status ffd_made_begin(const ffd_lattice *from, made_lattice *made, ffd_error *error);
+/* Frees the arrays and empties it; it can be freed again. */
 void ffd_made_free(made_lattice *made);
 
 /* Sets the knots of a direction, which are copied. Errors: FFD_E_MEMORY. */
