@@ -9,7 +9,7 @@ import shutil
 import signal
 import subprocess
 
-from batches import PLACE, SUMMARY, batch, case, check, equal, job, lattice, lines_of, main, report, start
+from batches import PLACE, PROGRESS, SUMMARY, batch, case, check, equal, job, lattice, lines_of, main, report, start
 from harness import CUBE, FFD, INVALID, NO, OK, SANITIZED, SECONDS, USAGE, wait_until
 from png import read_png
 from urllib.parse import unquote
@@ -36,7 +36,7 @@ def view(run, *arguments, name="m.jsonl", says=(), **options):
         summary = SUMMARY.match(said[-1])
         check(summary, "no summary:", said)
         equal([int(summary[i]) for i in (2, 4, 5)], counts, f"done, up to date, failed of {said}")
-        others = [line for line in said[:-1] if not PLACE.match(line)]
+        others = [line for line in said[:-1] if not PLACE.match(line) and not PROGRESS.match(line)]
         equal([bool(re.search(pattern, line)) for pattern, line in zip(says, others)], [True] * len(says), f"lines {others}")
         equal(len(others), len(says), f"lines {others}")
     return run.ffd("batch", name, "--view", "v", *SIZE, *arguments, err=judge, **{"code": NO if counts[2] else OK, **options})
