@@ -25,6 +25,7 @@
 #ifndef FFD_FFD_H
 #define FFD_FFD_H
 
+#include <ffd/author.h>
 #include <ffd/batch.h>
 #include <ffd/deform.h>
 #include <ffd/embedding.h>

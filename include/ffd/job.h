@@ -370,7 +370,7 @@ typedef enum ffd_view_color {
                         colours or materials that are not white, else displacement */
 } ffd_view_color;
 
-/* Returns "displacement", "status", "det" or "plain"; NULL for another value. The string is static.
+/* Returns "displacement", "status", "det", "plain" or "auto"; NULL for another value. The string is static.
    Thread-safe. */
 FFD_API const char *ffd_view_color_name(ffd_view_color color);
 

@@ -16,8 +16,9 @@
 extern "C" {
 #endif
 
-/* The greatest degree in any direction; the least is 1. */
-#define FFD_MAX_DEGREE 9
+/* The greatest degree in any direction; the least is 1. Of a higher one the fold proof could not bound its
+ * rounding. */
+#define FFD_MAX_DEGREE 14
 
 /* A control lattice. Functions that take a const lattice may run in several threads at once; no other
    function may run on the lattice at that time. */
@@ -65,7 +66,7 @@ typedef struct ffd_lattice_desc {
     size_t struct_size;      /* sizeof(ffd_lattice_desc) in the caller's header */
     ffd_lattice_shape shape; /* default FFD_SHAPE_BOX */
     size_t size[3];          /* control points along u,v,w; default 4,4,4 */
-    int degree[3];           /* 1..9, less than size; 0 (default): the smaller of 3 and size-1 */
+    int degree[3];           /* 1..14, less than size; 0 (default): the smaller of 3 and size-1 */
     ffd_knots knots[3];      /* default FFD_KNOTS_DEFAULT */
     /* Added on both sides, as a fraction of the extent in that direction; >= 0, default 0.05. Box: along x,
        y, z, or along the principal axes. Cylinder: applied to the radius and the height; all three must be
@@ -142,7 +143,7 @@ FFD_API ffd_status ffd_lattice_create(const ffd_lattice_desc *desc, const double
 typedef struct ffd_lattice_arrays {
     size_t struct_size; /* sizeof(ffd_lattice_arrays) in the caller's header */
     size_t size[3];     /* control points along u,v,w; n is their product */
-    int degree[3];      /* 1..9, less than size; 0 (default): the smaller of 3 and size-1 */
+    int degree[3];      /* 1..14, less than size; 0 (default): the smaller of 3 and size-1 */
     ffd_knots knots[3]; /* FFD_KNOTS_DEFAULT is clamped here; closed needs rest */
     /* NULL: the knots of the kind above. Else the size+degree+1 knots in ascending order (equal ones
        allowed); with FFD_KNOTS_CLOSED the size+1 breakpoints of one period. */

@@ -121,8 +121,8 @@ typedef struct ffd_skin_weight_figures {
     uint64_t room[2];
 } ffd_skin_weight_figures;
 
-/* Results so far from the origin that the file's numbers, float32 or float64, change their shape, in the
-   file's space. */
+/* Results whose shape the file's numbers change, in the file's space: so far from the origin that float32 or
+   float64 are too coarse, or quantized to less than 12 bits of the part's size. */
 typedef struct ffd_precision_figures {
     double error; /* the largest rounding error */
     double side;  /* the largest side of the part that it changes most; 0: all keep their shapes */

@@ -106,9 +106,10 @@ static int deform(settings *s, const char *input, const char *output, ffd_report
     if (!describe(s, input, output, &desc))
         return ffd_status_exit_code(FFD_E_MEMORY);
     if (!ffd_deform_run(&desc, &result, NULL) && s->job.logging.verbose && !s->job.logging.quiet)
-        cli_complain("%s: %llu of %llu %s moved, by %g at most", cli_display_name(input),
-                     (unsigned long long)result.moved, (unsigned long long)result.vertices,
-                     result.vertices == 1 ? "vertex" : "vertices", result.displacement.max);
+        cli_complain(result.moved ? "%s: %llu of %llu %s moved, by %g at most" : "%s: %llu of %llu %s moved",
+                     cli_display_name(input), (unsigned long long)result.moved,
+                     (unsigned long long)result.vertices, result.vertices == 1 ? "vertex" : "vertices",
+                     result.displacement.max);
     return cli_job_ended(&s->job, &result, input, s->job.desc.in_place ? input : output, report);
 }
 

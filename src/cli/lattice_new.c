@@ -46,10 +46,16 @@ static bool parse_count(const char *text, long least, long greatest, long *count
     return *text >= '0' && *text <= '9' && *end == 0 && !errno && *count >= least && *count <= greatest;
 }
 
+/* Returns whether a direction has one layer. */
+static bool is_plane(char part[3][32])
+{
+    return strcmp(part[0], "1") == 0 || strcmp(part[1], "1") == 0 || strcmp(part[2], "1") == 0;
+}
+
 static bool set_size(void *context, const cli_option *option, const char *value)
 {
     settings *s = context;
-    char part[3][32];
+    char part[3][32] = {{0}};
     long count = 0;
     bool right = split_three(value, part);
     for (int a = 0; right && a < 3; a++) {
@@ -57,8 +63,11 @@ static bool set_size(void *context, const cli_option *option, const char *value)
         s->desc.size[a] = (size_t)count;
     }
     if (!right)
-        cli_complain("--%s: \"%s\" is not three whole numbers of at least 2, like 4,4,4", option->name,
-                     value);
+        cli_complain("--%s: \"%s\" is not three whole numbers of at least 2, like 4,4,4%s", option->name,
+                     value,
+                     is_plane(part) ? ": a plane needs two layers that move alike: --size 5,5,2 --degree "
+                                      "3,3,1, and \"at\": [i, j, \"all\"]"
+                                    : "");
     return right;
 }
 
@@ -172,7 +181,7 @@ static const cli_option options[] = {
     {"output", 'o', "LATTICE", "the file to write", cli_set_text, AT(output), NULL},
     {"size", 0, "N,M,O", "control points along u, v, w, or one number for all; default 4,4,4", set_size, 0,
      NULL},
-    {"degree", 0, "N,M,O", "1 to 9, three or one for all; default 3, or less where there are fewer points",
+    {"degree", 0, "N,M,O", "1 to 14, three or one for all; default 3, or less where there are fewer points",
      set_degree, 0, NULL},
     {"knots", 0, "K,K,K", "clamped, open, uniform or closed, three or one for all; default clamped",
      set_knots, 0, knots_names},

@@ -5,8 +5,9 @@
 
 #include <stddef.h>
 
-/* Degree 4 * 9 - 1, of a determinant of four rows with degree 9. */
-#define BERNSTEIN_MAX_ORDER 36
+/* Degree 4 * 14 - 1, of a determinant of four rows with degree 14. Its binomials are the last that a double
+   holds exactly: C(55, 27) is 3.8e15, which the bounds of rounding rely on. */
+#define BERNSTEIN_MAX_ORDER 56
 
 /* Returns the number of coefficients of a polynomial of this order. */
 size_t ffd_bernstein_count(const int order[3]);

@@ -194,19 +194,26 @@ static char *thing_name(const renderer *r, uint32_t thing)
     return name;
 }
 
+/* Begins a line with a name of the file. Returns false in the first walk, in which nothing is written. */
+static bool begin_named(renderer *r, size_t depth, const char *name)
+{
+    const size_t used = INDENT * depth + text_width(name);
+    if (!r->out) {
+        r->width = used > r->width ? used : r->width;
+        return false;
+    }
+    write_spaces(r->out, INDENT * depth);
+    write_string(r->out, name);
+    write_spaces(r->out, r->width + GAP - used);
+    return true;
+}
+
 /* A selector is written verbatim, so that it can be passed to --only. */
 static void render_thing(renderer *r, size_t depth, uint32_t thing)
 {
     char *const name = thing_name(r, thing);
-    const size_t used = INDENT * depth + text_width(name ? name : "");
-    if (!name) {
-        r->failed = true;
-    } else if (!r->out) {
-        r->width = used > r->width ? used : r->width;
-    } else {
-        write_spaces(r->out, INDENT * depth);
-        write_string(r->out, name);
-        write_spaces(r->out, r->width + GAP - used);
+    r->failed = r->failed || !name;
+    if (name && begin_named(r, depth, name)) {
         write_drawing(r, thing);
         ffd_buffer_text(r->out, "\n");
     }
@@ -222,15 +229,8 @@ static void render_animation(renderer *r, size_t depth, uint32_t animation)
     const uint32_t seconds = ffd_json_tree_member(r->facts, animation, "seconds");
     const bool has_name = is_kind(r, own, JSON_STRING);
     char *const name = has_name ? ffd_json_tree_string(r->facts, own, NULL) : NULL;
-    const char *const shown = name ? name : "(no name)";
-    const size_t used = INDENT * depth + text_width(shown);
     r->failed = r->failed || (has_name && !name);
-    if (!r->out) {
-        r->width = used > r->width ? used : r->width;
-    } else {
-        write_spaces(r->out, INDENT * depth);
-        write_string(r->out, shown);
-        write_spaces(r->out, r->width + GAP - used);
+    if (begin_named(r, depth, name ? name : "(no name)")) {
         write_scalar(r, seconds);
         ffd_buffer_text(r->out, is_kind(r, seconds, JSON_NUMBER) ? " s\n" : "\n");
     }

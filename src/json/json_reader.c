@@ -72,9 +72,16 @@ static void write_pointer(json_cursor cursor, char *text, size_t capacity)
     ffd_json_tree_pointer(cursor.tree, cursor.value, text + length, capacity - length);
 }
 
+size_t ffd_cursor_line_from(json_cursor cursor, json_line_mark *mark)
+{
+    return ffd_json_tree_line_from(cursor.file->tree, is_substitute(cursor) ? cursor.replaced : cursor.value,
+                                   mark);
+}
+
 size_t ffd_cursor_line(json_cursor cursor)
 {
-    return ffd_json_tree_line(cursor.file->tree, is_substitute(cursor) ? cursor.replaced : cursor.value);
+    json_line_mark mark = {0};
+    return ffd_cursor_line_from(cursor, &mark);
 }
 
 static ffd_status fail(json_cursor cursor, ffd_status status, const char *format, va_list arguments)

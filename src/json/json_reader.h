@@ -71,6 +71,8 @@ static inline size_t ffd_cursor_count(json_cursor cursor)
 
 /* Returns the line of the value in the file, from 1. */
 size_t ffd_cursor_line(json_cursor cursor);
+/* The same for one of many values: as ffd_json_tree_line_from. */
+size_t ffd_cursor_line_from(json_cursor cursor, json_line_mark *mark);
 
 /* Fills the file's error with a message at the value. Returns FFD_E_INVALID. */
 ffd_status ffd_cursor_fail(json_cursor cursor, const char *format, ...) FFD_PRINTF(2, 3);

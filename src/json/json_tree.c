@@ -223,13 +223,22 @@ void ffd_json_tree_pointer(const json_tree *tree, uint32_t value, char *text, si
         length = pointer_step(tree, path[--depth], text, length, capacity);
 }
 
-size_t ffd_json_tree_line(const json_tree *tree, uint32_t value)
+size_t ffd_json_tree_line_from(const json_tree *tree, uint32_t value, json_line_mark *mark)
 {
     const char *const end = tree->text + tree->values[value].begin;
-    size_t line = tree->line;
-    for (const char *c = tree->whole; line > 0 && c < end; c++)
+    if (!mark->at || end < mark->at)
+        *mark = (json_line_mark){tree->whole, tree->line};
+    size_t line = mark->line;
+    for (const char *c = mark->at; line > 0 && c < end; c++)
         line += *c == '\n';
+    *mark = (json_line_mark){end, line};
     return line;
+}
+
+size_t ffd_json_tree_line(const json_tree *tree, uint32_t value)
+{
+    json_line_mark mark = {0};
+    return ffd_json_tree_line_from(tree, value, &mark);
 }
 
 ffd_status ffd_json_tree_fail(const json_tree *tree, uint32_t value, const char *name, ffd_status status,

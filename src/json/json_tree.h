@@ -93,8 +93,18 @@ bool ffd_json_tree_equal_strings(const json_tree *a, uint32_t x, const json_tree
 /* Writes the JSON pointer (RFC 6901) of a value, "" for the root, truncated to capacity. */
 void ffd_json_tree_pointer(const json_tree *tree, uint32_t value, char *text, size_t capacity);
 
-/* Returns the line of a value, from 1; 0 if the file has no lines. */
+/* Returns the line of a value, from 1; 0 if the file has no lines. Takes time in proportion to what stands
+   before it: in a loop, use ffd_json_tree_line_from. */
 size_t ffd_json_tree_line(const json_tree *tree, uint32_t value);
+
+/* Where lines are counted on from. All zeros: the start. */
+typedef struct json_line_mark {
+    const char *at;
+    size_t line;
+} json_line_mark;
+
+/* The same, counted from the mark, which moves to the value. A value before the mark is counted anew. */
+size_t ffd_json_tree_line_from(const json_tree *tree, uint32_t value, json_line_mark *mark);
 
 /* Fills error with a message at a value, and returns status. */
 ffd_status ffd_json_tree_fail(const json_tree *tree, uint32_t value, const char *name, ffd_status status,

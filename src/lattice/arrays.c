@@ -32,15 +32,17 @@ static ffd_status fill_shape(const ffd_lattice_arrays *arrays, lattice_spec *spe
         const size_t size = arrays->size[a];
         const int degree = arrays->degree[a] ? arrays->degree[a] : size > 3 ? 3 : (int)size - 1;
         if (size < 2)
-            return ffd_fail(error, FFD_E_ARGUMENT, "size %zu along %c is less than 2", size, "uvw"[a]);
+            return ffd_fail(
+                error, FFD_E_ARGUMENT, "size %zu along %c is less than 2%s", size, "uvw"[a],
+                size < 1 ? "" : ": a plane needs two layers that move alike, with degree 1 between them");
         if (size > FFD_MAX_CONTROL_POINTS / spec->count)
             return ffd_fail(error, FFD_E_LIMIT,
                             "a lattice of %zu by %zu by %zu has more than %zu control points",
                             arrays->size[0], arrays->size[1], arrays->size[2], FFD_MAX_CONTROL_POINTS);
         if (degree < 1 || degree > MAX_DEGREE || (size_t)degree >= size)
             return ffd_fail(error, FFD_E_ARGUMENT,
-                            "degree %d along %c is not between 1 and %d, and less than the size %zu", degree,
-                            "uvw"[a], MAX_DEGREE, size);
+                            "degree %d along %c is not between 1 and %d, and less than the size %zu%s",
+                            degree, "uvw"[a], MAX_DEGREE, size, ffd_degree_hint(degree));
         spec->size[a] = size;
         spec->degree[a] = degree;
         spec->count *= size;

@@ -25,16 +25,19 @@ static ffd_status check_counts(const ffd_lattice_desc *desc, ffd_error *error)
     for (int a = 0; a < 3; a++) {
         const int degree = desc->degree[a];
         if (desc->size[a] < 2)
-            return ffd_fail(error, FFD_E_ARGUMENT, "{size} %zu along %c is less than 2", desc->size[a],
-                            "uvw"[a]);
+            return ffd_fail(error, FFD_E_ARGUMENT, "{size} %zu along %c is less than 2%s", desc->size[a],
+                            "uvw"[a],
+                            desc -> size[a] < 1 ? ""
+                                                : ": a plane needs two layers that move alike: {size} 5,5,2, "
+                                                  "{degree} 3,3,1, and \"at\": [i, j, \"all\"]");
         if (desc->size[a] > FFD_MAX_CONTROL_POINTS / count)
             return ffd_fail(error, FFD_E_LIMIT,
                             "{size}: a lattice of %zu by %zu by %zu has more than %zu control points",
                             desc->size[0], desc->size[1], desc->size[2], FFD_MAX_CONTROL_POINTS);
         count *= desc->size[a];
         if (degree < 0 || degree > MAX_DEGREE)
-            return ffd_fail(error, FFD_E_ARGUMENT, "{degree} %d along %c is not between 1 and %d", degree,
-                            "uvw"[a], MAX_DEGREE);
+            return ffd_fail(error, FFD_E_ARGUMENT, "{degree} %d along %c is not between 1 and %d%s", degree,
+                            "uvw"[a], MAX_DEGREE, ffd_degree_hint(degree));
         if (desc->size[a] <= (size_t)degree)
             return ffd_fail(error, FFD_E_ARGUMENT,
                             "{degree} %d along %c needs {size} %d or more there, not %zu", degree, "uvw"[a],

@@ -327,8 +327,20 @@ static void find_step(drag_solver *solver)
     }
 }
 
-/* change = B^T lambda; miss = by - B change. Returns the sum of the squares of miss. */
-static double find_miss(drag_solver *solver, const double *by, double *change)
+/* Returns the power of two of the largest number: squares of numbers in its units neither overflow nor
+   underflow. */
+static double unit_of(const double *numbers, size_t count)
+{
+    double largest = 0;
+    int exponent = 0;
+    for (size_t i = 0; i < count; i++)
+        largest = larger_of(largest, fabs(numbers[i]));
+    frexp(largest, &exponent);
+    return largest > 0 ? ldexp(1, exponent - 1) : 1;
+}
+
+/* change = B^T lambda; miss = by - B change. Returns the sum of the squares of miss, in units of `unit`. */
+static double find_miss(drag_solver *solver, const double *by, double unit, double *change)
 {
     double square = 0;
     memset(change, 0, solver->columns * 3 * sizeof *change);
@@ -338,13 +350,15 @@ static double find_miss(drag_solver *solver, const double *by, double *change)
                 change[3 * solver->column[i] + c] += solver->value[i] * solver->lambda[3 * r + c];
     for (size_t r = 0; r < solver->places; r++) {
         double *const miss = solver->miss + 3 * r;
-        double moved[3] = {0, 0, 0};
+        double moved[3] = {0, 0, 0}, scaled[3];
         for (size_t i = solver->start[r]; i < solver->start[r + 1]; i++)
             for (size_t c = 0; c < 3; c++)
                 moved[c] += solver->value[i] * change[3 * solver->column[i] + c];
-        for (size_t c = 0; c < 3; c++)
+        for (size_t c = 0; c < 3; c++) {
             miss[c] = by[3 * r + c] - moved[c];
-        square += vec_dot(miss, miss);
+            scaled[c] = miss[c] / unit;
+        }
+        square += vec_dot(scaled, scaled);
     }
     return square;
 }
@@ -352,14 +366,15 @@ static double find_miss(drag_solver *solver, const double *by, double *change)
 void ffd_drag_solve(drag_solver *solver, const double *by, double *change)
 {
     const size_t n = 3 * solver->places;
+    const double unit = unit_of(by, n);
     double best = INFINITY;
     memset(solver->lambda, 0, n * sizeof *solver->lambda);
     for (int round = 0; round <= ROUNDS; round++) {
-        const double square = find_miss(solver, by, change);
+        const double square = find_miss(solver, by, unit, change);
         if (round > 0 && !(square < best)) {
             for (size_t i = 0; i < n; i++)
                 solver->lambda[i] -= solver->step[i];
-            find_miss(solver, by, change);
+            find_miss(solver, by, unit, change);
             return;
         }
         if (square == 0 || (round > 1 && square > 0.25 * best))

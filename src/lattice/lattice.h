@@ -1,6 +1,5 @@
 /* lattice.h - the struct behind ffd_lattice, and the evaluation of cells (public functions: ffd/lattice.h).
-   Declares lattice.c and evaluate.c, and
-   a function of file/file.c. */
+   Declares lattice.c and evaluate.c, and a function of file/file.c. */
 #ifndef FFD_LATTICE_LATTICE_H
 #define FFD_LATTICE_LATTICE_H
 

@@ -28,7 +28,7 @@ typedef struct move_work {
     unsigned char *selected; /* by the current move; one byte for each control point */
     bool in_region;          /* lengths and positions are fractions of the region */
     rest_region region;
-    double inverse[9]; /* inverse of the region's frame; box units only */
+    double inverse[9]; /* inverse of the region's frame; only if in_region */
     double slack[3];   /* tolerance of the coordinates that `within` compares */
     mirror_tree rest;  /* for lookups of mirror images; built for the first mirrored move */
     const char *file;
@@ -53,7 +53,7 @@ static void coordinates_of(const move_work *work, const double point[3], double 
         mat_apply(work->inverse, coordinates, coordinates);
 }
 
-/* Converts a matrix that acts on positions in box units: B M B^-1, with B the map from fractions to world
+/* Converts a matrix that acts on fractions of the region: B M B^-1, with B the map from fractions to world
    units. */
 static void matrix_to_world(const move_work *work, double matrix[16])
 {
@@ -158,18 +158,24 @@ static void find_centroid(const move_work *work, size_t count, double centroid[3
         centroid[c] = (origin ? origin[c] : 0) + sum[c] / (double)count;
 }
 
+/* What rounding makes of the coordinate of points that lie in one plane across the axis, relative to the size
+   of their coordinates: of positions that were computed along axes of a box, or turned by the moves before.
+ */
+#define FLAT_ROUNDING (64 * DBL_EPSILON)
+
 static void find_extent(const move_work *work, ready_move *ready)
 {
-    double first = INFINITY, last = -INFINITY;
+    double first = INFINITY, last = -INFINITY, greatest = vec_greatest(ready->move.about);
     for (size_t i = 0; i < work->lattice->count; i++) {
         if (!work->selected[i])
             continue;
         const double s = ffd_move_along(&ready->move, work->points + 3 * i);
         first = lesser_of(first, s);
         last = larger_of(last, s);
+        greatest = larger_of(greatest, vec_greatest(work->points + 3 * i));
     }
     ready->first = first;
-    ready->length = last - first;
+    ready->length = last - first > FLAT_ROUNDING * greatest ? last - first : 0;
 }
 
 /* Returns the distance of a rest position from a position of the file, divided by the radius. */
@@ -190,7 +196,7 @@ static double extent_along(const rest_region *region, const double axis[3])
     return extent;
 }
 
-/* Returns the position between `from` (0) and `to` (1) of a rest point along the axis; in box units along the
+/* Returns the position between `from` (0) and `to` (1) of a rest point along the axis; in fractions along the
    whole region, from its lower corner. Terms are halved, because a difference could overflow. */
 static double way_along(const move_work *work, const move_falloff *falloff, const double rest[3])
 {

@@ -32,7 +32,7 @@ typedef struct move_observer {
    images of these. from: the places, or derivatives of them, of which `by` is taken. */
 void ffd_drag_targets(const move_step *step, const spec_drag *from, double *targets);
 
-/* Applies the moves of the spec to lattice->deformed and lattice->difference. region: for box units.
+/* Applies the moves of the spec to lattice->deformed and lattice->difference. region: for fractions of it.
    observer: called before each step; may be NULL. Errors: FFD_E_INVALID at the move, FFD_E_MEMORY, and those
    of the observer. */
 ffd_status ffd_moves_apply(const lattice_spec *spec, const rest_region *region, ffd_lattice *lattice,

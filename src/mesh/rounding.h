@@ -20,6 +20,27 @@ static inline bool ffd_rounding_is_none(const mesh_rounding *rounding)
     return none;
 }
 
+/* How a format stores x, y, z: what results are rounded to. */
+typedef enum rounding_kind {
+    ROUNDED_TO_DOUBLES, /* or text */
+    ROUNDED_TO_FLOATS,
+    ROUNDED_TO_STEPS, /* integers */
+    ROUNDED_EACH      /* not all three alike */
+} rounding_kind;
+
+static inline rounding_kind ffd_rounding_kind(const mesh_rounding *rounding)
+{
+    int floats = 0, steps = 0;
+    for (int a = 0; a < 3; a++) {
+        floats += rounding->is_float[a];
+        steps += !rounding->is_float[a] && rounding->step[a] > 0;
+    }
+    return floats == 3           ? ROUNDED_TO_FLOATS
+           : steps == 3          ? ROUNDED_TO_STEPS
+           : floats + steps == 0 ? ROUNDED_TO_DOUBLES
+                                 : ROUNDED_EACH;
+}
+
 /* Computes the half sides of the rounding cell of a stored position along x, y, z: half an ulp of a float or
    half a step, whichever is greater. */
 void ffd_rounding_cell(const mesh_rounding *rounding, const double position[3], double half[3]);

@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Marks, for eyes of every kind: diagonal stripes of two colours. */
+/* Diagonal stripes of two colours, by which the colour-blind too tell marks from the scales. */
 typedef enum picture_stripes { STRIPES_NONE, STRIPES_RISING, STRIPES_FALLING } picture_stripes;
 
 typedef struct picture_material {

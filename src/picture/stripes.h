@@ -1,4 +1,4 @@
-/* stripes.h - diagonal stripes, by which marks are told apart from the scales of colours by every eye. */
+/* stripes.h - diagonal stripes, by which the colour-blind too tell marks from the scales of colours. */
 #ifndef FFD_PICTURE_STRIPES_H
 #define FFD_PICTURE_STRIPES_H
 

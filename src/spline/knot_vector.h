@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#define MAX_DEGREE 9
+#define MAX_DEGREE 14
 #define MAX_ORDER (MAX_DEGREE + 1)
 
 typedef enum knot_kind {

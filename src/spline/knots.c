@@ -24,11 +24,18 @@ static const char *word_of(const knot_list *list)
     return list->closed ? "breakpoint" : "knot";
 }
 
+const char *ffd_degree_hint(double degree)
+{
+    if (degree == 0)
+        return ": degree 1 between two layers that move alike does the same";
+    return degree > MAX_DEGREE ? ": as many control points of a lower degree each move a smaller part" : "";
+}
+
 static ffd_status check_shape(int degree, size_t points, char direction, ffd_error *error)
 {
     if (degree < 1 || degree > MAX_DEGREE)
-        return ffd_fail(error, FFD_E_INVALID, "direction %c: degree %d is not between 1 and %d", direction,
-                        degree, MAX_DEGREE);
+        return ffd_fail(error, FFD_E_INVALID, "direction %c: degree %d is not between 1 and %d%s", direction,
+                        degree, MAX_DEGREE, ffd_degree_hint(degree));
     if (points < (size_t)degree + 1)
         return ffd_fail(error, FFD_E_INVALID,
                         "direction %c: %zu control points, but degree %d needs at least %d", direction,

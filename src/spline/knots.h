@@ -5,6 +5,9 @@
 #include "base/fail.h"
 #include "spline/knot_vector.h"
 
+/* Returns what a message says after a degree that is refused: what to do instead; "" if that is not known. */
+const char *ffd_degree_hint(double degree);
+
 /* Makes a knot vector. list: for the two list kinds the list_count knots or breakpoints, which are copied;
    else NULL. direction: 'u', 'v' or 'w', for messages. *knots is empty after a failure. Errors: FFD_E_INVALID
    for what src/maths.md 3 refuses, with direction, index and value; FFD_E_LIMIT, FFD_E_MEMORY. */

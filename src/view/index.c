@@ -24,7 +24,7 @@ static void append_name(byte_buffer *html, const char *name, void (*escape)(byte
     ffd_free(shown);
 }
 
-/* A path from the root of its maker's disk is no business of those who look at a page: the name alone. */
+/* An absolute path would disclose the folders of the page's maker: of it the name is shown. */
 static const char *shown_path(const char *path)
 {
     return path && ffd_path_is_absolute(path) ? ffd_path_name(path) : path;

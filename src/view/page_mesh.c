@@ -216,6 +216,25 @@ ffd_status ffd_page_mesh_index(page_mesh *mesh, ffd_error *error)
     return FFD_OK;
 }
 
+size_t ffd_page_corner_lists(size_t corners)
+{
+    size_t lists = 1;
+    while (lists < corners / 2)
+        lists *= 2;
+    return lists;
+}
+
+size_t ffd_page_corner_list(uint32_t vertex, const float *texcoords, size_t width, size_t lists)
+{
+    uint64_t hash = vertex;
+    for (size_t a = 0; a < width; a++) {
+        uint32_t bits;
+        memcpy(&bits, &texcoords[a], sizeof bits);
+        hash = (hash ^ (hash >> 32) ^ bits) * 0x9e3779b97f4a7c15u; /* 2^64 by the golden ratio */
+    }
+    return (size_t)(hash >> 32) & (lists - 1);
+}
+
 void ffd_page_mesh_free(page_mesh *mesh)
 {
     void *const blocks[] = {mesh->triangles, mesh->flipped, mesh->texcoords, mesh->parts,

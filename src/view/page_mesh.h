@@ -36,6 +36,11 @@ ffd_status ffd_page_mesh_take(const view_scene *scene, page_mesh *mesh, ffd_erro
 size_t ffd_page_mesh_mark(page_mesh *mesh);
 /* Fills vertices, and makes all indices refer to it. Errors: FFD_E_MEMORY. */
 ffd_status ffd_page_mesh_index(page_mesh *mesh, ffd_error *error);
+/* Returns the number of lists, a power of two, by which so many corners are found in steady time. */
+size_t ffd_page_corner_lists(size_t corners);
+/* Returns the list of the corners with this vertex and these texture coordinates: a vertex may have any
+   number of these. */
+size_t ffd_page_corner_list(uint32_t vertex, const float *texcoords, size_t width, size_t lists);
 /* Frees the arrays of a mesh. */
 void ffd_page_mesh_free(page_mesh *mesh);
 

@@ -21,10 +21,12 @@ typedef struct reducer {
     page_mesh *mesh;
     double low[3], scale; /* map positions to 0 .. 1 */
     uint8_t *torn;        /* of each vertex of the scene: whether it is an end of a torn edge */
-    uint32_t *local;  /* of each vertex of the scene: its index in the current run; VIEW_NONE between runs */
-    uint32_t *global; /* of each vertex of the run: its index in the scene */
-    uint32_t
-        *next; /* and another with the same one and other texture coordinates; VIEW_NONE: there is none */
+    /* Of each vertex of the scene: its index in the current run; with texture coordinates the first of a list
+       of these, by hash. VIEW_NONE between runs. */
+    uint32_t *local;
+    size_t lists;     /* of local */
+    uint32_t *global; /* of each vertex of the run: its index in the scene, */
+    uint32_t *next;   /* and the next one of its list, or VIEW_NONE */
     float *texcoords; /* of each vertex of the run, as many as a corner of the mesh has */
     float *positions;
     uint32_t *indices, *result; /* of the run: before and after simplification */
@@ -56,7 +58,8 @@ static bool allocate(reducer *r)
     const size_t vertices = r->mesh->scene->vertex_count,
                  run = r->mesh->triangle_count < RUN_TRIANGLES ? r->mesh->triangle_count : RUN_TRIANGLES;
     r->torn = ffd_alloc_zero(vertices, 1);
-    r->local = ffd_alloc(vertices, sizeof *r->local);
+    r->lists = r->mesh->texcoords ? ffd_page_corner_lists(3 * run) : vertices;
+    r->local = ffd_alloc(r->lists, sizeof *r->local);
     r->global = ffd_alloc(run, 3 * sizeof *r->global);
     r->next = ffd_alloc(run, 3 * sizeof *r->next);
     r->texcoords = ffd_alloc(run, 3 * r->mesh->texcoord_width * sizeof *r->texcoords);
@@ -98,16 +101,23 @@ static void mark_torn(reducer *r, double ratio)
         memset(r->torn, 0, scene->vertex_count);
 }
 
+/* uv: NULL if there are none. */
+static uint32_t *local_of(const reducer *r, uint32_t v, const float *uv)
+{
+    return &r->local[uv ? ffd_page_corner_list(v, uv, r->mesh->texcoord_width, r->lists) : v];
+}
+
 static void enter_vertex(reducer *r, uint32_t v, const float *uv, uint32_t at)
 {
+    uint32_t *const local = local_of(r, v, uv);
     for (size_t a = 0; a < 3; a++)
         r->positions[3 * (size_t)at + a] =
             (float)((r->mesh->scene->before[3 * (size_t)v + a] - r->low[a]) * r->scale);
     if (uv)
         memcpy(r->texcoords + r->mesh->texcoord_width * at, uv, r->mesh->texcoord_width * sizeof *uv);
     r->global[at] = v;
-    r->next[at] = r->local[v];
-    r->local[v] = at;
+    r->next[at] = *local;
+    *local = at;
 }
 
 /* Returns the index in the run of a vertex with these texture coordinates (NULL: none); VIEW_NONE: it has
@@ -115,8 +125,9 @@ static void enter_vertex(reducer *r, uint32_t v, const float *uv, uint32_t at)
 static uint32_t find_vertex(const reducer *r, uint32_t v, const float *uv)
 {
     const size_t width = r->mesh->texcoord_width;
-    uint32_t at = r->local[v];
-    while (uv && at != VIEW_NONE && memcmp(r->texcoords + width * at, uv, width * sizeof *uv) != 0)
+    uint32_t at = *local_of(r, v, uv);
+    while (uv && at != VIEW_NONE &&
+           (r->global[at] != v || memcmp(r->texcoords + width * at, uv, width * sizeof *uv) != 0))
         at = r->next[at];
     return at;
 }
@@ -137,7 +148,7 @@ static size_t enter_run(reducer *r, const uint32_t *corners, const float *texcoo
         r->indices[i] = at;
     }
     for (size_t i = 0; i < vertices; i++)
-        r->local[r->global[i]] = VIEW_NONE;
+        *local_of(r, r->global[i], texcoords ? r->texcoords + r->mesh->texcoord_width * i : NULL) = VIEW_NONE;
     return vertices;
 }
 
@@ -329,7 +340,7 @@ ffd_status ffd_page_reduce(page_mesh *mesh, size_t limit, ffd_error *error)
         return FFD_OK;
     ffd_status status;
     TRY_END(allocate(&r) ? FFD_OK : ffd_fail_memory(error));
-    memset(r.local, 0xff, mesh->scene->vertex_count * sizeof *r.local);
+    memset(r.local, 0xff, r.lists * sizeof *r.local);
     measure(&r);
     mark_torn(&r, (double)limit / (double)used);
     bool is_rough = false;

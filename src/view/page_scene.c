@@ -71,9 +71,7 @@ static void put_material(json_text *json, const mesh_material *material, const p
     ffd_json_vector(json, "emission", material->emission, 3);
     ffd_json_bool(json, "twoSided", material->is_double_sided);
     ffd_json_bool(json, "unlit", material->is_unlit);
-    ffd_json_bool(json, "lost",
-                  material->base.image != MATERIAL_NONE &&
-                      ffd_page_image_of(images, material->base.image) == VIEW_NONE);
+    ffd_json_bool(json, "lost", material->base.image == MATERIAL_LOST);
     put_texture(json, "base", &material->base, images);
     put_texture(json, "glow", &material->glow, images);
     put_texture(json, "opacity", &material->opacity, images);

@@ -9,8 +9,10 @@
 /* Coordinates beyond are drawn at 0: a picture of a texture that is repeated so often is noise. */
 #define FARTHEST 1e6
 
+/* Lists of wedges by hash, which end in VIEW_NONE. */
 typedef struct wedge_table {
-    uint32_t *first, *next; /* the wedges of a vertex: lists that end in VIEW_NONE */
+    size_t lists;
+    uint32_t *first, *next;
 } wedge_table;
 
 static float fit(float x)
@@ -18,34 +20,32 @@ static float fit(float x)
     return fabsf(x) <= (float)FARTHEST ? x : 0;
 }
 
-static uint32_t find(const page_texcoords *t, const wedge_table *table, uint32_t vertex, const float *uv)
+/* Returns the wedge of a vertex with these coordinates, which is added if it is new. */
+static uint32_t find(page_texcoords *t, wedge_table *table, uint32_t vertex, const float *uv)
 {
-    uint32_t at = table->first[vertex];
-    while (at != VIEW_NONE && memcmp(t->values + t->width * at, uv, t->width * sizeof *uv) != 0)
+    uint32_t *const first = &table->first[ffd_page_corner_list(vertex, uv, t->width, table->lists)];
+    uint32_t at = *first;
+    while (at != VIEW_NONE &&
+           (t->vertices[at] != vertex || memcmp(t->values + t->width * at, uv, t->width * sizeof *uv) != 0))
         at = table->next[at];
-    return at;
-}
-
-static uint32_t add(page_texcoords *t, wedge_table *table, uint32_t vertex, const float *uv)
-{
-    const uint32_t at = (uint32_t)t->count++;
+    if (at != VIEW_NONE)
+        return at;
+    at = (uint32_t)t->count++;
     memcpy(t->values + t->width * at, uv, t->width * sizeof *uv);
     t->vertices[at] = vertex;
-    table->next[at] = table->first[vertex];
-    table->first[vertex] = at;
-    return at;
+    table->next[at] = *first;
+    return *first = at;
 }
 
 static void collect(const page_mesh *mesh, wedge_table *table, page_texcoords *t)
 {
-    for (size_t v = 0; v < mesh->vertex_count; v++)
-        table->first[v] = VIEW_NONE;
+    for (size_t i = 0; i < table->lists; i++)
+        table->first[i] = VIEW_NONE;
     for (size_t i = 0; i < t->corner_count; i++) {
         float uv[4];
         for (size_t a = 0; a < t->width; a++)
             uv[a] = fit(mesh->texcoords[t->width * i + a]);
-        const uint32_t vertex = mesh->triangles[i], known = find(t, table, vertex, uv);
-        t->corners[i] = known == VIEW_NONE ? add(t, table, vertex, uv) : known;
+        t->corners[i] = find(t, table, mesh->triangles[i], uv);
     }
 }
 
@@ -72,8 +72,9 @@ ffd_status ffd_page_texcoords_make(const page_mesh *mesh, page_texcoords *t, ffd
     t->corners = ffd_alloc(t->corner_count, sizeof *t->corners);
     t->vertices = ffd_alloc(t->corner_count, sizeof *t->vertices);
     t->values = ffd_alloc(t->corner_count, t->width * sizeof *t->values);
-    wedge_table table = {ffd_alloc(mesh->vertex_count, sizeof *table.first),
-                         ffd_alloc(t->corner_count, sizeof *table.next)};
+    wedge_table table = {.lists = ffd_page_corner_lists(t->corner_count)};
+    table.first = ffd_alloc(table.lists, sizeof *table.first);
+    table.next = ffd_alloc(t->corner_count, sizeof *table.next);
     const bool made = t->corners && t->vertices && t->values && table.first && table.next;
     if (made) {
         collect(mesh, &table, t);

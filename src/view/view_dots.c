@@ -5,7 +5,7 @@
 
 const uint8_t ffd_view_line_color[3] = {60, 64, 72};
 
-/* Splats with less opacity have no say in what a picture shows. */
+/* Splats with less opacity do not widen the picture. */
 #define FAINT 0.05
 
 static bool is_vertices_only(const view_scene *scene)
@@ -47,15 +47,15 @@ static void color_vertex(const view_scene *scene, uint32_t vertex, uint32_t mate
 static ffd_status color_plain(const view_scene *scene, const uint8_t *colors, view_dots *dots,
                               ffd_error *error)
 {
-    dots->plain = ffd_alloc(scene->vertex_count, 4);
-    if (!dots->plain)
+    dots->own = ffd_alloc(scene->vertex_count, 4);
+    if (!dots->own)
         return ffd_fail_memory(error);
     for (size_t v = 0; v < scene->vertex_count; v++)
-        color_vertex(scene, (uint32_t)v, VIEW_NONE, colors, dots->plain);
+        color_vertex(scene, (uint32_t)v, VIEW_NONE, colors, dots->own);
     for (size_t i = 0; i < 2 * scene->segment_count; i++)
-        color_vertex(scene, scene->segments[i], scene->segment_materials[i / 2], colors, dots->plain);
+        color_vertex(scene, scene->segments[i], scene->segment_materials[i / 2], colors, dots->own);
     for (size_t i = 0; i < scene->point_count; i++)
-        color_vertex(scene, scene->points[i], scene->point_materials[i], colors, dots->plain);
+        color_vertex(scene, scene->points[i], scene->point_materials[i], colors, dots->own);
     return FFD_OK;
 }
 
@@ -76,6 +76,20 @@ static ffd_status mix_covariances(const view_scene *scene, double share, view_do
     return dots->covariances ? FFD_OK : ffd_fail_memory(error);
 }
 
+/* A colour of the palette that is a mark has no alpha, which is a splat's opacity: folded volume would not be
+   seen. */
+static ffd_status make_solid(const view_scene *scene, const uint8_t *colors, view_dots *dots,
+                             ffd_error *error)
+{
+    dots->own = ffd_alloc(scene->vertex_count, 4);
+    if (!dots->own)
+        return ffd_fail_memory(error);
+    memcpy(dots->own, colors, 4 * scene->vertex_count);
+    for (size_t v = 0; v < scene->vertex_count; v++)
+        dots->own[4 * v + 3] = 255;
+    return FFD_OK;
+}
+
 ffd_status ffd_view_dots_make(const view_scene *scene, double share, const double *positions,
                               const uint8_t *colors, bool is_plain, uint32_t height, view_dots *dots,
                               ffd_error *error)
@@ -85,6 +99,8 @@ ffd_status ffd_view_dots_make(const view_scene *scene, double share, const doubl
         return FFD_OK;
     if (is_plain)
         TRY(color_plain(scene, colors, dots, error));
+    else if (colors && scene->splats[0])
+        TRY(make_solid(scene, colors, dots, error));
     if (is_alone)
         TRY(list_all(scene, dots, error));
     if (scene->splats[0])
@@ -93,7 +109,7 @@ ffd_status ffd_view_dots_make(const view_scene *scene, double share, const doubl
                                     .vertex_count = scene->vertex_count,
                                     .points = is_alone ? dots->all : scene->points,
                                     .count = is_alone ? scene->vertex_count : scene->point_count,
-                                    .colors = is_plain ? dots->plain : colors,
+                                    .colors = dots->own ? dots->own : colors,
                                     .radius = 1 + height / 900.0,
                                     .covariances = dots->covariances};
     memcpy(dots->points.color, ffd_view_line_color, sizeof ffd_view_line_color);
@@ -104,7 +120,7 @@ void ffd_view_dots_free(view_dots *dots)
 {
     ffd_free(dots->all);
     ffd_free(dots->covariances);
-    ffd_free(dots->plain);
+    ffd_free(dots->own);
     *dots = (view_dots){.all = NULL};
 }
 

@@ -14,7 +14,7 @@ typedef struct view_dots {
     picture_points points; /* count 0: none */
     uint32_t *all;         /* the numbers of all vertices, where the mesh has nothing but these */
     float *covariances;
-    uint8_t *plain; /* colours of vertices by materials */
+    uint8_t *own; /* colours of vertices by materials, or of splats by the palette; NULL: those lent */
 } view_dots;
 
 /* Whether the scene has points or lines; a mesh that has vertices and nothing else is points. */

@@ -25,7 +25,7 @@ typedef struct view_palette {
 } view_palette;
 
 /* Colours of marks, sRGB: of flipped faces, folded volume and torn edges. Each is drawn in stripes of two, so
-   that it is told apart from all colours of the scales by every eye. */
+   that the colour-blind too tell it from all colours of the scales. */
 extern const uint8_t ffd_view_flipped[2][3], ffd_view_folded[2][3], ffd_view_torn[2][3];
 
 /* Fills the marks of a scene for the legend: those that are in it, coloured like this. Returns their

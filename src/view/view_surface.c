@@ -84,7 +84,10 @@ static ffd_status decode_all(const mesh_materials *from, memory_budget *budget, 
                                           is_opacity ? &s->opacities[index] : &s->textures[index], &own);
         if (decoded == FFD_E_MEMORY)
             TRY_END(ffd_fail_memory(error));
-        if (decoded && lost++ == 0)
+        if (!decoded)
+            continue;
+        uses[index] = 0; /* it is lost for the other use too */
+        if (lost++ == 0)
             snprintf(first, sizeof first, "%.100s: %.180s", from->images[index].name, own.message);
     }
     if (lost)

@@ -79,7 +79,7 @@ def moves_that_the_floats_of_a_file_cannot_hold_are_told(run):
     def ply(kind, points):
         return f"ply\nformat ascii 1.0\nelement vertex {len(points)}\n" + "".join(f"property {kind} {a}\n" for a in "xyz") + "end_header\n" \
             + "".join("{} {} {}\n".format(*p) for p in points)
-    told = re.compile(r"no vertex moves in the output: its floats are too coarse for displacements of 0\.173205 at most \(the mesh lies from 5e\+06 ")
+    told = re.compile(r"no vertex moves in the output: its numbers are too coarse for displacements of 0\.173205 at most \(the mesh lies from 5e\+06 ")
     for name, content in (("f.ply", ply("float", far)), ("f.glb", glb(*gltf_json(far)))):
         run.write(name, content)
         run.ffd("deform", name, "o" + name, "-l", "l.json", err=told)

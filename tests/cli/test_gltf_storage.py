@@ -90,12 +90,13 @@ def deform(run, source, content=ALL, normals="keep", options=(), lines=0):
     run.write("l.json", content)
     target = "out" + source[source.rindex("."):]
     done = run.ffd("deform", source, target, "-l", "l.json", "--force", "--normals", normals, *options, err=anything)
-    equal(len([line for line in done.err if "no vertex moves" not in line]), lines, f"lines of {done.err}")
+    said = [line for line in done.err if "no vertex moves" not in line and "rounded to the steps" not in line]
+    equal(len(said), lines, f"lines of {done.err}")
     before, after = Gltf(run.path(source)), Gltf(run.path(target))
     check_rest(before, after)
     for index in range(len(after.asset["accessors"])):
         check_bounds(after, index)
-    return before, after, done.err
+    return before, after, said
 
 
 def check_unmoved(run, source):
@@ -212,8 +213,7 @@ def too_many_zeros_are_refused(run):
         maker = Maker()
         maker.mesh({"POSITION": maker.accessor(count)})
         source = maker.write(run, "in", "data")
-        run.ffd("deform", source, "out.gltf", "-l", "l.json", "--force", code=code)
-
+        run.ffd("deform", source, "out.gltf", "-l", "l.json", "--force", code=code, err=anything)
 
 
 QUANTIZED = {"extensionsUsed": ["KHR_mesh_quantization"], "extensionsRequired": ["KHR_mesh_quantization"]}
@@ -384,7 +384,7 @@ def neighbours_stay_neighbours(run):
     for component, normalized in INTEGERS:
         inner, outer = integers(component, 0.4), integers(component, 1)
         flags = {"normalized": True} if normalized else {}
-        maker = Maker(nodes=[in_scene(component, normalized)])
+        maker = Maker(**QUANTIZED, nodes=[in_scene(component, normalized)])
         maker.mesh({"POSITION": maker.dense(inner, component, **bounds(inner), **flags)},
                    {"POSITION": maker.dense(inner + outer, component, **bounds(inner + outer), **flags)})
         _, after, _ = deform(run, maker.write(run, "in", "glb"), ALL)
@@ -404,7 +404,7 @@ def copies_of_integers_are_aligned(run):
         stride = (size + 3) // 4 * 4 if aligned else size
         data = b"".join(packed([p], component) + b"\xcc" * (stride - size) for p in points)
         node = in_scene(component, normalized)
-        maker = Maker(nodes=[node, {"mesh": 0, "translation": [9, 0, 0]}], scenes=[{"nodes": [0, 1]}])
+        maker = Maker(**QUANTIZED, nodes=[node, {"mesh": 0, "translation": [9, 0, 0]}], scenes=[{"nodes": [0, 1]}])
         view = maker.view(data, **({"byteStride": stride} if aligned else {}), target=34962)
         maker.mesh({"POSITION": maker.accessor(len(points), component, bufferView=view, **bounds(points), **flags)})
         moves = lattice(low=(-1,) * 3, high=(1,) * 3, moves=[{"by": [0.1, -0.2, 0.15]}])
@@ -457,7 +457,8 @@ def directions_in_other_integers(run):
         one = SCALES[component] if normalized else 1
         maker = Maker()
         flags = {"normalized": True} if normalized else {}
-        maker.mesh({"POSITION": maker.dense(points), "NORMAL": maker.dense([(0, 0, one)] * len(points), component, **flags)})
+        normals = maker.dense([(0, 0, one)] * len(points), component, **flags)
+        maker.mesh({"POSITION": maker.dense(points, **bounds(points)), "NORMAL": normals})
         run.write("l.json", twisted)
         source = maker.write(run, "in", "glb")
         run.ffd("deform", source, "out.glb", "-l", "l.json", "--force")
@@ -475,7 +476,7 @@ def other_users():
     size = 6
 
     def maker(nodes=1):
-        made = Maker(nodes=[{**node, "mesh": i} for i in range(nodes)], scenes=[{"nodes": list(range(nodes))}])
+        made = Maker(**QUANTIZED, nodes=[{**node, "mesh": i} for i in range(nodes)], scenes=[{"nodes": list(range(nodes))}])
         made.data = b""
         view = made.view(packed(points, 5122) + b"\0" * 8)
         made.accessor(len(points), 5122, bufferView=view, **bounds(points))

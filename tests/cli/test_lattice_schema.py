@@ -128,7 +128,7 @@ BROKEN = {
     "degree of 3": {**BOX, "degree": [1, 1]},
     "degree of 3 only": {**BOX, "degree": [1, 1, 1, 1]},
     "degree from 1": {**BOX, "degree": [1, 0, 1]},
-    "degree to 9": {**BOX, "size": [2, 2, 11], "degree": [1, 1, 10]},
+    "degree to 14": {**BOX, "size": [2, 2, 16], "degree": [1, 1, 15]},
     "degree is whole": {**BOX, "degree": [1, 1.5, 1]},
     "null is not a default": {**BOX, "degree": None},
     "knots is an array": {**BOX, "knots": "clamped"},

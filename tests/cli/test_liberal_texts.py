@@ -163,4 +163,18 @@ def a_mesh_without_vertices_is_warned_of(run):
         equal([line for line in done.err if "no vertices" in line], [said])
 
 
+@case
+def rows_behind_those_that_are_stated(run):
+    """A PLY with a third vertex where two are stated: a line says it, --strict refuses it, and it stays."""
+    header = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+    said = "6 bytes stand behind the rows that the header states: they stay as they are"
+    run.write("a.ply", header + "0 0 0\n1 0 0\n7 7 7\n")
+    run.write("l.json", lattice(moves=[{"by": [1, 0, 0]}]))
+    run.ffd("deform", "a.ply", "o.ply", "-l", "l.json", "--outside", "extend", err=re.compile(re.escape(said[2:])))
+    check(run.text("o.ply").endswith("7 7 7\n"), run.text("o.ply"))
+    run.ffd("info", "a.ply", "--strict", code=INVALID, err=re.compile("behind the rows"))
+    run.write("b.ply", header + "0 0 0\n1 0 0\n \n\n")
+    run.ffd("info", "b.ply", "--strict")
+
+
 main()

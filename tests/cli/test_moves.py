@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Moves through the program: every action with weight, falloff and mirror against another evaluation of
 data/schema/lattice.md 8, by the formulas as they stand there; exact bends on their circles."""
+import json
 import math
 import random
 
@@ -297,6 +298,23 @@ def placeholders_stand_for_any_of_their_values(run):
     bad = [x for value in values for x in ("--set", value.replace("R=3", "R=0"))]
     done = run.ffd("deform", "a.obj", "d.obj", "-l", "l.json", *bad, code=INVALID, err=anything)
     check("radius 0 is not more than 0" in done.err[0], done.err)
+
+
+@case
+def the_lines_of_many_moves_take_linear_time(run):
+    """Each was counted from the beginning of the file, which took minutes; the last place that is wrong has its own."""
+    count = 60000
+    note = {"by": [0, 0, 0], "comment": "x" * 60}
+    drag = {"drag": [{"by": [0, 0, 0], "point": [0, 0, 0]} for _ in range(900)]}
+    places = json.dumps(drag).replace("}, {", "},\n{").replace("[0, 0, 0]}]", "[5, 0, 0]}]")
+    moves = ",\n".join([json.dumps(note)] * count + [places])
+    text = json.dumps(lattice(moves=[])).replace('"moves": []', '"moves": [\n' + moves + "]")
+    run.write("l.json", text)
+    run.write("a.obj", "v 0 0 0\n")
+    line = text.count("\n", 0, text.rindex("[5, 0, 0]")) + 1
+    equal(line, count + 901 + text.count("\n", 0, text.index("moves")))
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", code=INVALID,
+            err=f"l.json:{line}: /moves/{count}/drag/899/point: the place 5 0 0 is not inside the volume at rest, but outside")
 
 
 @case

@@ -5,6 +5,7 @@ import json
 import os
 import random
 import re
+import struct
 
 from gltf_build import Scene
 from harness import INVALID, case, check, equal, lattice, main, near, obj_of, obj_vertices
@@ -128,6 +129,23 @@ def the_middle_of_a_mesh_that_is_not_symmetric_is_said(run):
     equal(len(lines_with(done, '"mirror": "x" in l.json')), 1, str(done.err))
 
 
+@case
+def positions_of_several_parts_count_once(run):
+    """Two primitives share them, with normals of their own. Behind another lattice the vertices of the parts after them once were
+    looked for beyond the list."""
+    made = Scene(nodes=[{"mesh": 0}], scene=0, scenes=[{"nodes": [0]}])
+    points = figure()
+    shared, right, left = (made.add(rows, bounds=True) for rows in (points, points[:500], points[500:]))
+    normals = [made.add([[0.0, y, 1.0 - y]] * len(points)) for y in (0.0, 1.0)]
+    made.asset["meshes"] = [{"primitives": [{"attributes": {"POSITION": shared, "NORMAL": normal}, "mode": 0} for normal in normals] +
+                             [{"attributes": {"POSITION": half}, "mode": 0} for half in (right, left)]}]
+    run.write("a.glb", made.glb())
+    run.write("up.json", lattice(low=[-2, -1, -2], high=[2, 4, 2], moves=[{"by": [0, 0.5, 0]}]))
+    run.write("l.json", round_mesh([{"mirror": "x", "by": [0, 0, 0.1]}]))
+    for before in ([], ["-l", "up.json"]):
+        no_line(run.ffd("check", "a.glb", *before, "-l", "l.json", err=anything), "mirror")
+
+
 def morphed(weights=None):
     """A man of height 2 on the floor, whose morph targets reach below it and far above."""
     made = Scene(nodes=[{"mesh": 0}], scene=0)
@@ -209,6 +227,21 @@ def info_names_what_options_ask_for(run):
     told = run.ffd("info", "a.obj", "--json", err=anything, data=True).json
     equal(told["bounds"]["min"][0], 0.123456789)
     equal([told[key] for key in ("animations", "morph_targets", "joints", "cameras", "scenes")], [[]] * 5)
+
+
+@case
+def times_that_samplers_share_are_read_once(run):
+    """Minutes, where each of 100,000 samplers read two million times."""
+    count = 2000000
+    made, _ = morphed()
+    times = made.view_accessor(made.view(struct.pack(f"<{count}f", *range(count))), [[0.0], [float(count - 1)]], "SCALAR", 5126, True)
+    made.asset["accessors"][times]["count"] = count
+    turns = made.add([[0.0, 0.0, 0.0, 1.0]] * 3, shape="VEC4")
+    made.asset["animations"] = [{"samplers": [{"input": times, "output": turns}] * 100000,
+                                 "channels": [{"sampler": 0, "target": {"node": 0, "path": "rotation"}}]}]
+    run.write("a.glb", made.glb())
+    told = run.ffd("info", "a.glb", "--json", err=anything, data=True).json
+    equal(told["animations"], [{"name": None, "seconds": count - 1}])
 
 
 main()

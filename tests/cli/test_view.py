@@ -833,6 +833,12 @@ def textures_are_drawn_and_broken_ones_are_grey(run):
         textured(run, broken)
         rows = picture(run, *look, err=re.compile("t.obj: grey in the picture: 1 image"))
         check(is_grey(*rows[100][100]), rows[100][100])
+    # An image that is a colour here and an opacity there is one.
+    run.write("t.png", whole[:60])
+    run.write("two.mtl", "newmtl a\nmap_Kd t.png\nnewmtl b\nmap_d t.png\n")
+    run.write("two.obj", "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\n"
+              "usemtl a\nf 1/1 2/1 3/2\nusemtl b\nf 1/1 3/2 4/1\n")
+    picture(run, "two.obj", *look[1:], err=re.compile("two.obj: grey in the picture: 1 image, as t.png"))
     # Whatever the colour that the image would be multiplied by.
     for name in ("none.png", "../t.png", "m.mtl"):
         textured(run, whole, "1 0 0", name)

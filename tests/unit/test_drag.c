@@ -339,6 +339,31 @@ static void drags_are_written_and_copied(void **state)
     ffd_lattice_destroy(&back);
 }
 
+/* Squares of such vectors overflow, or are 0. */
+static void vectors_of_any_size_are_met(void **state)
+{
+    static const int exponents[] = {660, 540, -540, -900};
+    (void)state;
+    ffd_lattice *const one = make(BOX, "{\"drag\":[{\"point\":[0.3,1,3],\"by\":[0.3,0,-0.7]},"
+                                       "{\"point\":[0.25,1,3.5],\"by\":[0,0.1,0]}]}");
+    for (size_t i = 0; i < COUNT(exponents); i++) {
+        char moves[300];
+        snprintf(
+            moves, sizeof moves,
+            "{\"drag\":[{\"point\":[0.3,1,3],\"by\":[%.17g,0,%.17g]},{\"point\":[0.25,1,3.5],\"by\":[0,%.17g,"
+            "0]}]}",
+            ldexp(0.3, exponents[i]), ldexp(-0.7, exponents[i]), ldexp(0.1, exponents[i]));
+        ffd_lattice *l = make(BOX, moves);
+        for (size_t c = 0; c < 3 * l->count; c++)
+            if (!(fabs(ldexp(l->difference[c], -exponents[i]) - one->difference[c]) <= 0))
+                fail_msg("2^%d, number %zu: %g, expected %g", exponents[i], c,
+                         ldexp(l->difference[c], -exponents[i]), one->difference[c]);
+        ffd_lattice_destroy(&l);
+    }
+    ffd_lattice *l = one;
+    ffd_lattice_destroy(&l);
+}
+
 static void a_failed_allocation_is_reported(void **state)
 {
     (void)state;
@@ -363,6 +388,7 @@ int main(void)
         cmocka_unit_test(mirrored_places_join_the_list),
         cmocka_unit_test(drags_that_cannot_be_are_refused_with_their_place),
         cmocka_unit_test(drags_are_written_and_copied),
+        cmocka_unit_test(vectors_of_any_size_are_met),
         cmocka_unit_test(a_failed_allocation_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -19,7 +19,10 @@
 #define BUFFERS                                                                                              \
     "\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;base64," TRIANGLE "\"}]"
 #define VIEWS "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}]"
-#define ACCESSORS "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}]"
+#define TRIANGLE_BOUNDS "\"min\":[-9,-9,-9],\"max\":[9,9,9]"
+#define ACCESSORS                                                                                            \
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"," TRIANGLE_BOUNDS \
+    "}]"
 #define MESHES "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]"
 #define SCENE "\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}]"
 #define DATA ASSET "," BUFFERS "," VIEWS
@@ -219,7 +222,8 @@ static void flaws_are_noted_or_refused(void **state)
          ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"mode\":7}]}]}",
          "/meshes/0/primitives/0/mode",
          "a mode is from 0 to 6, not 7: what the primitive draws is not known"},
-        {"{" DATA ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
+        {"{" DATA ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":"
+         "\"VEC3\"," TRIANGLE_BOUNDS "},"
          "{\"bufferView\":0,\"componentType\":5123,\"count\":12,\"type\":\"SCALAR\"}],"
          "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1}]}]," SCENE "}",
          "/meshes/0/primitives/0",

@@ -213,9 +213,23 @@ typedef struct refusal {
 } refusal;
 
 static const refusal refusals[] = {
-    {KNOTS_CLAMPED, 0, 4, 0, {0}, FFD_E_INVALID, "direction v: degree 0 is not between 1 and 9"},
-    {KNOTS_CLAMPED, -3, 4, 0, {0}, FFD_E_INVALID, "direction v: degree -3 is not between 1 and 9"},
-    {KNOTS_OPEN, 10, 40, 0, {0}, FFD_E_INVALID, "direction v: degree 10 is not between 1 and 9"},
+    {KNOTS_CLAMPED,
+     0,
+     4,
+     0,
+     {0},
+     FFD_E_INVALID,
+     "direction v: degree 0 is not between 1 and 14: degree 1 between two layers that move alike does the "
+     "same"},
+    {KNOTS_CLAMPED, -3, 4, 0, {0}, FFD_E_INVALID, "direction v: degree -3 is not between 1 and 14"},
+    {KNOTS_OPEN,
+     15,
+     40,
+     0,
+     {0},
+     FFD_E_INVALID,
+     "direction v: degree 15 is not between 1 and 14: as many control points of a lower degree each move a "
+     "smaller part"},
     {KNOTS_CLAMPED,
      3,
      3,

@@ -243,7 +243,8 @@ static void bad_versions_sizes_degrees_and_weights_are_refused(void **state)
         {HEAD "\"size\":[2,2]," UNIT "}", FFD_E_INVALID,
          "f.json:1: /size: must be an array of 3 sizes, not an array of 2"},
         {HEAD "\"size\":[2,1,2]," UNIT "}", FFD_E_INVALID,
-         "f.json:1: /size/1: is 1, but a direction has at least 2 control points"},
+         "f.json:1: /size/1: is 1, but a direction has at least 2 control points: a plane needs two layers "
+         "that move alike: \"size\": [5, 5, 2], \"degree\": [3, 3, 1], and \"at\": [i, j, \"all\"]"},
         {HEAD "\"size\":[2,2.5,2]," UNIT "}", FFD_E_INVALID,
          "f.json:1: /size/1: must be a whole number, not the number 2.5"},
         {HEAD "\"size\":[2,true,2]," UNIT "}", FFD_E_INVALID,
@@ -254,8 +255,12 @@ static void bad_versions_sizes_degrees_and_weights_are_refused(void **state)
          "f.json:1: /size/0: size 9007199254740992 makes more than 67108864 control points"},
         {HEAD "\"size\":[1e300,2,2]," UNIT "}", FFD_E_INVALID,
          "f.json:1: /size/0: must be a whole number, not the number 1e+300"},
-        {BOX ",\"degree\":[1,0,1]}", FFD_E_INVALID, "f.json:1: /degree/1: degree 0 is not between 1 and 9"},
-        {BOX ",\"degree\":[1,1,10]}", FFD_E_INVALID, "f.json:1: /degree/2: degree 10 is not between 1 and 9"},
+        {BOX ",\"degree\":[1,0,1]}", FFD_E_INVALID,
+         "f.json:1: /degree/1: degree 0 is not between 1 and 14: degree 1 between two layers that move alike "
+         "does the same"},
+        {BOX ",\"degree\":[1,1,15]}", FFD_E_INVALID,
+         "f.json:1: /degree/2: degree 15 is not between 1 and 14: as many control points of a lower degree "
+         "each move a smaller part"},
         {BOX ",\"degree\":[2,1,1]}", FFD_E_INVALID,
          "f.json:1: /degree/0: degree 2 needs at least 3 control points, not 2"},
         {BOX ",\"degree\":[1,1]}", FFD_E_INVALID,

@@ -613,6 +613,26 @@ static void maps_of_libraries(void **state)
     assert_string_equal(logged, "");
 }
 
+/* Of -s and -o numbers may be left out: a name that begins with one is none. */
+static void names_that_begin_with_a_number(void **state)
+{
+    (void)state;
+    put_png("512.png", "a");
+    put_png("2d.png", "b");
+    put_png("-1.png", "c");
+    list_library("newmtl a\nmap_Kd -s 3 512.png\nnewmtl b\nmap_Kd -o 0.5 2d.png\nnewmtl c\n"
+                 "map_Kd -s 2 4 -o 0.25 -1.png\n");
+    check_image(0, "512.png", "a");
+    check_image(1, "2d.png", "b");
+    check_image(2, "-1.png", "c");
+    const double expected[3][4] = {{3, 1, 0, 0}, {1, 1, 0.5, 0}, {2, 4, 0.25, 0}};
+    for (size_t i = 0; i < 3; i++) {
+        assert_memory_equal(found.list[i].base.scale, expected[i], 2 * sizeof(double));
+        assert_memory_equal(found.list[i].base.offset, expected[i] + 2, 2 * sizeof(double));
+    }
+    assert_string_equal(logged, "");
+}
+
 static void libraries_that_cannot_be_read(void **state)
 {
     (void)state;
@@ -709,6 +729,7 @@ int main(void)
         cmocka_unit_test(clearness_that_means_opaque),
         cmocka_unit_test(light_of_libraries),
         cmocka_unit_test(maps_of_libraries),
+        cmocka_unit_test(names_that_begin_with_a_number),
         cmocka_unit_test(libraries_that_cannot_be_read),
         cmocka_unit_test(images_count_in_the_budget),
         cmocka_unit_test(memory_may_run_out_anywhere),

@@ -349,6 +349,53 @@ static void what_is_written_reads_back(void **state)
     } while (status);
 }
 
+/* What a JPEG file is passed on in. */
+typedef struct pieces {
+    file f;
+    size_t count, largest, most; /* most: of the count */
+} pieces;
+
+static ffd_status keep_piece(void *context, const void *bytes, size_t size, ffd_error *error)
+{
+    pieces *const p = context;
+    if (p->count == p->most)
+        return ffd_fail(error, FFD_E_IO, "it is full");
+    p->count++;
+    p->largest = size > p->largest ? size : p->largest;
+    return keep(&p->f, bytes, size, error);
+}
+
+/* Nothing of the size of the file is held on the way, and a sink that fails ends it. */
+static void a_jpeg_is_passed_on_piece_by_piece(void **state)
+{
+    enum { SIDE = 200 };
+    static pieces p, again;
+    static uint8_t pixels[4 * SIDE * SIDE];
+    image found;
+    ffd_error error;
+    (void)state;
+    for (size_t i = 0; i < SIDE * SIDE; i++) {
+        memset(pixels + 4 * i, (int)(i * i / 3 % 251), 3);
+        pixels[4 * i + 3] = 7;
+    }
+    p.most = again.most = SIZE_MAX;
+    assert_int_equal(ffd_jpeg_write(pixels, SIDE, SIDE, keep_piece, &p, &error), FFD_OK);
+    assert_int_equal(ffd_jpeg_write(pixels, SIDE, SIDE, keep_piece, &again, &error), FFD_OK);
+    assert_true(p.f.size == again.f.size && memcmp(p.f.bytes, again.f.bytes, p.f.size) == 0);
+    assert_true(p.f.size > 10000 && p.count > 2);
+    assert_in_range(p.largest, 1000, 5000);
+    assert_int_equal(ffd_image_decode(p.f.bytes, p.f.size, NULL, &found, &error), FFD_OK);
+    for (size_t i = 0; i < 4 * SIDE * SIDE; i++)
+        if (i % 4 == 3 ? found.pixels[i] != 255 : abs(found.pixels[i] - pixels[i]) > 40)
+            fail_msg("byte %zu: %d, expected %d", i, found.pixels[i], pixels[i]);
+    ffd_free(found.pixels);
+    for (again.most = 0; again.most < p.count; again.most++) {
+        again.f.size = again.count = 0;
+        assert_int_equal(ffd_jpeg_write(pixels, SIDE, SIDE, keep_piece, &again, &error), FFD_E_IO);
+        assert_string_equal(error.message, "it is full");
+    }
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
@@ -361,6 +408,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(sizes_are_checked_before_memory_is_taken),
         cmocka_unit_test(memory_may_run_out_anywhere),
         cmocka_unit_test(what_is_written_reads_back),
+        cmocka_unit_test(a_jpeg_is_passed_on_piece_by_piece),
     };
     if (argc != 3)
         return 2;

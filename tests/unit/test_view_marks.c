@@ -12,6 +12,7 @@
 #include "picture/layout.h"
 #include "picture/letters.h"
 #include "picture/stripes.h"
+#include "view/view_dots.h"
 #include "view/view_palette.h"
 #include <string.h>
 
@@ -128,6 +129,30 @@ static void the_legend_has_the_marks_that_are_there(void **state)
     dets[0] = 0.1;
 }
 
+/* Its mark has no alpha, which would be the opacity of a splat. */
+static void a_splat_in_folded_volume_is_seen(void **state)
+{
+    static float spread[12] = {1, 0, 0, 1, 0, 1, 1, 0, 0, 1, 0, 1};
+    static view_palette palette;
+    uint8_t colors[8];
+    view_dots dots = {.all = NULL};
+    (void)state;
+    view_scene scene = make_scene();
+    scene.splats[0] = scene.splats[1] = spread;
+    dets[0] = -0.5;
+    ffd_view_palette_make(&scene, FFD_VIEW_DET, &palette);
+    ffd_view_palette_fill(&palette, &scene, 1, colors);
+    assert_int_equal(colors[3], 0);
+    assert_int_equal(ffd_view_dots_make(&scene, 1, moved, colors, false, 900, &dots, NULL), FFD_OK);
+    assert_int_equal(dots.points.count, 2);
+    for (size_t i = 0; i < 2; i++) {
+        assert_memory_equal(dots.points.colors + 4 * i, colors + 4 * i, 3);
+        assert_int_equal(dots.points.colors[4 * i + 3], 255);
+    }
+    ffd_view_dots_free(&dots);
+    dets[0] = 0.1;
+}
+
 /* Letters in a picture of 1600 x 900 that is shrunk to 320 pixels. */
 #define SHRINK 5
 #define CELL 80
@@ -203,6 +228,7 @@ int main(void)
         cmocka_unit_test(stripes_in_the_legend_are_those_of_surfaces),
         cmocka_unit_test(stripes_go_round_every_corner),
         cmocka_unit_test(the_legend_has_the_marks_that_are_there),
+        cmocka_unit_test(a_splat_in_folded_volume_is_seen),
         cmocka_unit_test(letters_can_be_read_in_a_thumbnail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

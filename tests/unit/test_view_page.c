@@ -435,6 +435,36 @@ static void a_page_opens_as_it_is_told(void **state)
     ffd_view_scene_free(&scene);
 }
 
+/* A texture that is not there is grey; one that a mesh without coordinates cannot show is not missing. */
+static void only_a_texture_that_is_not_there_is_lost(void **state)
+{
+    static const mesh_texture none = {.image = MATERIAL_NONE};
+    static const struct {
+        uint32_t image;
+        const char *lost;
+    } cases[] = {
+        {0, "\"lost\": false"}, {MATERIAL_LOST, "\"lost\": true"}, {MATERIAL_NONE, "\"lost\": false"}};
+    (void)state;
+    view_scene scene = hand_grid(1);
+    hand_part(&scene, "", 0, scene.triangle_count);
+    scene.parts[0].material = 0;
+    scene.materials.list = hand_array(1, sizeof *scene.materials.list);
+    scene.materials.count = 1;
+    scene.materials.images = hand_array(1, sizeof *scene.materials.images);
+    scene.materials.image_count = 1;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        ffd_free(scene.materials.list[0].name);
+        scene.materials.list[0] =
+            (mesh_material){.name = hand_text(""), .base = none, .glow = none, .opacity = none};
+        scene.materials.list[0].base.image = cases[i].image;
+        char *const page = page_of(&scene, false);
+        if (count_of(page, cases[i].lost) != 1)
+            fail_msg("image %u: not %s", (unsigned)cases[i].image, cases[i].lost);
+        ffd_free(page);
+    }
+    ffd_view_scene_free(&scene);
+}
+
 static void indices_beyond_the_arrays_are_refused(void **state)
 {
     (void)state;
@@ -487,6 +517,7 @@ int main(void)
         cmocka_unit_test(a_page_of_many_vertices_is_reduced_and_says_so),
         cmocka_unit_test(a_scene_of_nothing_is_a_page),
         cmocka_unit_test(a_page_opens_as_it_is_told),
+        cmocka_unit_test(only_a_texture_that_is_not_there_is_lost),
         cmocka_unit_test(indices_beyond_the_arrays_are_refused),
         cmocka_unit_test(no_allocation_may_fail_unseen),
     };

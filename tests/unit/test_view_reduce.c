@@ -135,6 +135,43 @@ static void a_texture_is_not_torn_at_its_seam(void **state)
     ffd_view_scene_free(&scene);
 }
 
+/* A vertex with other texture coordinates in each triangle: what is looked for one by one takes minutes. */
+static void a_vertex_may_have_any_number_of_texture_coordinates(void **state)
+{
+    enum { RIM = 300000 };
+    static const mesh_texture none = {.image = MATERIAL_NONE};
+    (void)state;
+    view_scene scene = hand_scene(RIM + 1, RIM);
+    hand_part(&scene, "", 0, RIM);
+    scene.parts[0].material = 0;
+    scene.materials.list = hand_array(1, sizeof *scene.materials.list);
+    scene.materials.count = 1;
+    scene.materials.list[0] = (mesh_material){.name = hand_text(""), .glow = none, .opacity = none};
+    scene.materials.images = hand_array(1, sizeof *scene.materials.images);
+    scene.materials.image_count = 1;
+    scene.texcoords = hand_array(RIM, 6 * sizeof *scene.texcoords);
+    for (uint32_t i = 0; i < RIM; i++) {
+        const uint32_t corners[3] = {RIM, i, (i + 1) % RIM};
+        scene.before[3 * (size_t)i] = cos(i * (8 * atan(1) / RIM));
+        scene.before[3 * (size_t)i + 1] = sin(i * (8 * atan(1) / RIM));
+        memcpy(scene.triangles + 3 * (size_t)i, corners, sizeof corners);
+        for (size_t c = 0; c < 3; c++)
+            scene.texcoords[6 * (size_t)i + 2 * c] = (float)i;
+    }
+    memcpy(scene.after, scene.before, 3 * scene.vertex_count * sizeof(double));
+    page_mesh mesh;
+    page_texcoords texcoords;
+    ffd_error error;
+    take(&scene, &mesh);
+    ffd_page_mesh_mark(&mesh);
+    assert_int_equal(ffd_page_mesh_index(&mesh, &error), FFD_OK);
+    assert_int_equal(ffd_page_texcoords_make(&mesh, &texcoords, &error), FFD_OK);
+    assert_int_equal(texcoords.count, 3 * RIM);
+    ffd_page_texcoords_free(&texcoords);
+    ffd_page_mesh_free(&mesh);
+    ffd_view_scene_free(&scene);
+}
+
 /* Unconnected triangles consist of borders only: simplification cannot reduce them. */
 static void a_soup_is_reduced_too(void **state)
 {
@@ -215,6 +252,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_reduced_mesh_keeps_parts_marks_and_tears),
         cmocka_unit_test(a_texture_is_not_torn_at_its_seam),
+        cmocka_unit_test(a_vertex_may_have_any_number_of_texture_coordinates),
         cmocka_unit_test(a_soup_is_reduced_too),
         cmocka_unit_test(segments_and_points_are_thinned_out),
         cmocka_unit_test(no_allocation_may_fail_unseen),

@@ -44,44 +44,63 @@ static ffd_status write_names(const gltf_document *d, const char *list, json_tex
     return FFD_OK;
 }
 
-/* Raises last to the latest time of a sampler, if its times can be read. */
-static void find_last(const gltf_document *d, const gltf_animation_sampler *sampler, double *last)
+/* Returns the latest of the times of an accessor; NAN if they cannot be read, or there is none. */
+static double read_last(const gltf_document *d, size_t accessor)
 {
-    double times[BLOCK];
-    if (sampler->input == GLTF_NONE || !d->layouts[sampler->input].readable)
-        return;
-    const gltf_accessor *const input = &d->model.accessors[sampler->input];
-    if (input->rows * input->columns != 1 || input->component != GLTF_FLOAT)
-        return;
+    const gltf_accessor *const input = &d->model.accessors[accessor];
+    double times[BLOCK], last = NAN;
+    if (!d->layouts[accessor].readable || input->rows * input->columns != 1 || input->component != GLTF_FLOAT)
+        return last;
     for (size_t first = 0; first < (size_t)input->count; first += BLOCK) {
         const size_t left = (size_t)input->count - first, count = left < BLOCK ? left : BLOCK;
-        ffd_gltf_read(d, sampler->input, first, count, 1, times);
+        ffd_gltf_read(d, accessor, first, count, 1, times);
         for (size_t i = 0; i < count; i++)
-            if (isfinite(times[i]) && !(times[i] <= *last))
-                *last = times[i];
+            if (isfinite(times[i]) && !(times[i] <= last))
+                last = times[i];
     }
+    return last;
+}
+
+/* Returns the latest time of an animation. lasts: of each accessor, -INFINITY before it was read: many
+   samplers share their times. */
+static double find_last(const gltf_document *d, const gltf_animation *animation, double *lasts)
+{
+    double last = NAN;
+    for (size_t s = 0; s < animation->sampler_count; s++) {
+        const size_t input = animation->samplers[s].input;
+        if (input == GLTF_NONE)
+            continue;
+        if (isinf(lasts[input]))
+            lasts[input] = read_last(d, input);
+        if (!isnan(lasts[input]) && !(lasts[input] <= last))
+            last = lasts[input];
+    }
+    return last;
 }
 
 /* An animation lasts from 0 to its last key; its seconds are not known without keys. */
 static ffd_status write_animations(gltf_document *d, json_text *json, ffd_error *error)
 {
+    const size_t accessors = d->model.accessor_count;
+    double *const lasts = ffd_alloc(accessors, sizeof *lasts);
     gltf_animations animations;
     ffd_status status;
     TRY_END(ffd_gltf_list_animations(d, &animations, error));
+    TRY_END(lasts ? FFD_OK : ffd_fail_memory(error));
+    for (size_t i = 0; i < accessors; i++)
+        lasts[i] = -INFINITY;
     ffd_json_array(json, "animations", false);
     for (size_t a = 0; a < animations.count; a++) {
         const gltf_animation *const animation = &animations.list[a];
-        double last = NAN;
-        for (size_t s = 0; s < animation->sampler_count; s++)
-            find_last(d, &animation->samplers[s], &last);
         ffd_json_object(json, NULL, true);
         TRY_END(write_name(d, animation->value, "name", json, error));
-        ffd_json_number(json, "seconds", last);
+        ffd_json_number(json, "seconds", find_last(d, animation, lasts));
         ffd_json_end(json, '}');
     }
     ffd_json_end(json, ']');
 end:
     ffd_gltf_free_animations(d, &animations);
+    ffd_free(lasts);
     return status;
 }
 

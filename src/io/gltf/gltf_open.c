@@ -3,7 +3,9 @@
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
 #include "base/text/content.h"
+#include "base/text/words.h"
 #include "io/gltf/edit/gltf_edit.h"
+#include "io/gltf/model/gltf_faults.h"
 #include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/model/gltf_instancing.h"
 #include "io/gltf/model/gltf_parts.h"
@@ -54,6 +56,26 @@ static bool begins_as_object(const char *text, size_t size)
     return kind && kind->format == FFD_FORMAT_GLTF;
 }
 
+/* What is wrong with the container, though its meaning is plain. */
+static ffd_status note_container(gltf_document *d, ffd_error *error)
+{
+    mesh_flaws *const flaws = &d->base.flaws;
+    const size_t behind = d->input.size - d->glb.end;
+    if (behind > 0)
+        TRY(ffd_flaw_line(
+            flaws, d->name, 0, error,
+            "GLB: %zu %s behind the length that the header states: %s left out when the file changes", behind,
+            ffd_plural(behind, "byte stands", "bytes stand"), ffd_plural(behind, "it is", "they are")));
+    if (d->glb.uneven > 0)
+        TRY(ffd_flaw_line(flaws, d->name, 0, error,
+                          "GLB: the size of the chunk at byte %zu is not a multiple of 4",
+                          d->glb.uneven - GLB_CHUNK_HEADER_SIZE));
+    if (d->glb.more_bins > 0)
+        TRY(ffd_flaw_line(flaws, d->name, 0, error, "GLB: %zu more BIN %s not read", d->glb.more_bins,
+                          ffd_plural(d->glb.more_bins, "chunk is", "chunks are")));
+    return FFD_OK;
+}
+
 static ffd_status find_json(gltf_document *d, ffd_format format, ffd_error *error)
 {
     const char *text = (const char *)d->input.data;
@@ -64,6 +86,7 @@ static ffd_status find_json(gltf_document *d, ffd_format format, ffd_error *erro
                              "is a glTF file in JSON, not a GLB file: its name must end in .gltf");
     if (format == FFD_FORMAT_GLB || (format == FFD_FORMAT_AUTO && is_glb)) {
         TRY(ffd_glb_parse(d->input.data, d->input.size, d->name, &d->glb, error));
+        TRY(note_container(d, error));
         d->binary = true;
         text += d->glb.json_begin;
         size = d->glb.json_size;
@@ -355,6 +378,7 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
     ffd_gltf_find_held(d);
     TRY(ffd_gltf_list_skins(d, error));
     TRY(ffd_gltf_make_scene(d, error));
+    TRY(ffd_gltf_note_weights(d, error));
     TRY(ffd_gltf_settle_skins(d, error));
     TRY(ffd_gltf_make_parts(d, error));
     TRY(ffd_gltf_make_shapes(d, error));

@@ -139,6 +139,23 @@ static ffd_status note_marks(ply_document *d, ffd_error *error)
     return status ? status : ffd_file_document_note_mark(&d->file, d->header.end, error);
 }
 
+/* More rows than the header states would stay where they are, and a text behind them belongs to no format. A
+   Ctrl-Z, the end mark of old texts, is a flaw of its own. */
+static ffd_status note_behind(ply_document *d, const file_input *input, ffd_error *error)
+{
+    const char *at = (const char *)input->data + d->behind;
+    const char *const last = (const char *)input->data + input->size;
+    while (at < last && (*at == ' ' || *at == '\t' || *at == '\r' || *at == '\n' || *at == '\x1a'))
+        at++;
+    if (at == last)
+        return FFD_OK;
+    return ffd_flaw_line(&d->file.base.flaws, d->file.name, 0, error,
+                         "%zu %s behind the rows that the header states: %s as %s", (size_t)(last - at),
+                         ffd_plural((uint64_t)(last - at), "byte stands", "bytes stand"),
+                         ffd_plural((uint64_t)(last - at), "it stays", "they stay"),
+                         ffd_plural((uint64_t)(last - at), "it is", "they are"));
+}
+
 ffd_status ffd_ply_open(file_input *input, const ffd_source *source, mesh_document **document,
                         ffd_error *error)
 {
@@ -151,6 +168,7 @@ ffd_status ffd_ply_open(file_input *input, const ffd_source *source, mesh_docume
     TRY_END(note_marks(d, error));
     TRY_END(ffd_ply_find_roles(d, error));
     TRY_END(ffd_ply_walk_check(&d->header, input, d->file.name, &d->behind, error));
+    TRY_END(note_behind(d, input, error));
     TRY_END(read_vertices(d, error));
     describe_part(d);
     *document = ffd_file_document_ready(&d->file, d->header.encoding == PLY_ASCII, source);

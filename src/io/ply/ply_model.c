@@ -28,7 +28,7 @@ static const ply_property *find_scalar(const ply_element *element, const char *n
     return found && !found->is_list ? found : NULL;
 }
 
-/* Finds the colours of Gaussian splats, where whoever shows the model wants them. */
+/* Finds the colours of Gaussian splats, if details are wanted: for pictures and pages. */
 static void find_harmonics(extractor *e)
 {
     static const char *const names[] = {"f_dc_0", "f_dc_1", "f_dc_2", "opacity"};

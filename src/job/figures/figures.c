@@ -180,6 +180,7 @@ const figure ffd_figures[] = {
     {FROM(shapes, JOIN_BOUNDS)},
     {FROM(rounding.box, JOIN_NONE)},
     {FROM(lost.of_doubles, JOIN_NONE)},
+    {FROM(lost.of_steps, JOIN_NONE)},
     {FROM(outside_all, JOIN_SUM)},
     {FROM(misses.count, JOIN_SUM)},
     {FROM(misses.examined, JOIN_SUM)},

@@ -25,7 +25,7 @@ void ffd_totals_add_stored(const pass_totals *stored, bool written, pass_totals 
    next power of two makes of them. */
 #define COARSER 2
 
-void ffd_totals_judge_rounding(const pass_totals *tiles, size_t count, double tolerance, bool doubles,
+void ffd_totals_judge_rounding(const pass_totals *tiles, size_t count, double tolerance, rounding_kind kind,
                                pass_totals *all)
 {
     part_rounding part = {.box = ffd_bounds_empty()};
@@ -40,7 +40,7 @@ void ffd_totals_judge_rounding(const pass_totals *tiles, size_t count, double to
         return;
     if (all->lost.side > 0 && part.error / side <= all->lost.error / all->lost.side)
         return;
-    all->lost = (rounding_loss){part.error, side, doubles};
+    all->lost = (rounding_loss){part.error, side, kind == ROUNDED_TO_DOUBLES, kind == ROUNDED_TO_STEPS};
 }
 
 void ffd_totals_note_splats(pass_totals *totals, size_t part, uint64_t moved)

@@ -16,7 +16,7 @@ typedef struct part_rounding {
 /* The part whose shape rounding changes most. */
 typedef struct rounding_loss {
     double error, side; /* the largest error, and the part's largest side; zeros: none */
-    bool of_doubles;
+    bool of_doubles, of_steps;
 } rounding_loss;
 
 /* Vertices that are left outside although they miss the lattice by next to nothing. */
@@ -100,8 +100,8 @@ void ffd_totals_note_splats(pass_totals *totals, size_t part, uint64_t moved);
    weights show. written: the results of the stored ones go to the file. */
 void ffd_totals_add_stored(const pass_totals *stored, bool written, pass_totals *shown);
 
-/* Judges the rounding of all tiles of a part. tolerance: of ffd_part_tolerance. doubles: it is stored so. */
-void ffd_totals_judge_rounding(const pass_totals *tiles, size_t count, double tolerance, bool doubles,
+/* Judges the rounding of all tiles of a part. tolerance: of ffd_part_tolerance. kind: how it is stored. */
+void ffd_totals_judge_rounding(const pass_totals *tiles, size_t count, double tolerance, rounding_kind kind,
                                pass_totals *all);
 
 /* Adds the figures of a tile. Tiles must be added in order. */

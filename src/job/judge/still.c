@@ -111,6 +111,6 @@ void ffd_still_warn(const pass_totals *totals, const lattice_chain *chain, const
     if (!still && !is_target && !totals->is_visible)
         ffd_log_line(
             log, FFD_LOG_WARNING,
-            "no vertex moves in the output: its floats are too coarse for displacements of %g at most%s",
+            "no vertex moves in the output: its numbers are too coarse for displacements of %g at most%s",
             sqrt(totals->displacement_square_max), where);
 }

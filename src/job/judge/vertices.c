@@ -239,7 +239,13 @@ void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool
                      ffd_plural(totals->normals_collapsed, "normal is", "normals are"),
                      ffd_plural(totals->normals_collapsed, "it", "them"));
     warn_of_splats(totals, log);
-    if (totals->lost.side > 0)
+    if (totals->lost.side > 0 && totals->lost.of_steps)
+        ffd_log_line(
+            log, FFD_LOG_WARNING,
+            "positions are rounded to the steps in which the file has them quantized: off by up to %g, in a "
+            "shape of %g",
+            totals->lost.error, totals->lost.side);
+    else if (totals->lost.side > 0)
         ffd_log_line(log, FFD_LOG_WARNING,
                      "%s cannot hold: the precision of coordinates that far from the origin (off by up to "
                      "%g, in a shape of %g)",

@@ -56,10 +56,12 @@ static void walk(const shape_walk *shape, place_visit *visit, void *context)
     double block[3 * BLOCK];
     for (size_t p = 0; p < document->part_count; p++) {
         const mesh_part *const part = &document->parts[p];
+        if (part->repeats_positions)
+            continue;
         for (size_t first = 0; first < part->vertex_count; first += BLOCK) {
             const size_t left = part->vertex_count - first, count = left < BLOCK ? left : BLOCK;
             const double *const xyz = behind ? behind + 3 * first : block;
-            if (part->repeats_positions || part->hidden || part->skipped)
+            if (part->hidden || part->skipped)
                 break;
             if (!behind)
                 ffd_source_positions(document, shape->state, p, first, count, block);

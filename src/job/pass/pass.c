@@ -594,8 +594,9 @@ static ffd_status pass_over_part(part_work *work, pass_totals *totals, ffd_error
     const ffd_status status = count_others(work, tiles, size, error);
     for (size_t i = 0; i < tiles; i++)
         ffd_totals_join(&work->tiles[i], totals);
-    ffd_totals_judge_rounding(work->tiles, tiles, ffd_part_tolerance(work->whole.pass->document),
-                              ffd_rounding_is_none(&work->whole.part->rounding), totals);
+    ffd_totals_judge_rounding(work->tiles, tiles,
+                              ffd_part_tolerance(work->whole.pass->document, &work->whole.part->rounding),
+                              ffd_rounding_kind(&work->whole.part->rounding), totals);
     ffd_free(work->tiles);
     TRY(status);
     for (int i = 0; i < work->workers; i++)

@@ -9,7 +9,7 @@
 
 /* Memory per thread of a pass, and additionally, for each lattice, of the measuring of edges after it
    (quality_edges.h). */
-#define THREAD_BYTES ((size_t)21 << 18)
+#define THREAD_BYTES ((size_t)23 << 18)
 #define THREAD_LINK_BYTES ((size_t)400 << 10)
 
 /* Returns how many threads, at most `threads`, fit into the rest of the memory budget. edge_links: the number

@@ -159,7 +159,7 @@ ffd_status ffd_tile_find_misses(const pass_tile *tile, ffd_error *error);
 
 /* Returns the rounding error of a part's results above which its shape changes, relative to its largest
    side. */
-double ffd_part_tolerance(const mesh_document *document);
+double ffd_part_tolerance(const mesh_document *document, const mesh_rounding *rounding);
 
 /* Notes how fine the floats of a tile's positions are before it is displaced. */
 void ffd_tile_rounding_at_rest(const pass_tile *tile);

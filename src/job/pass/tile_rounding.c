@@ -1,26 +1,37 @@
-/* tile_rounding.c - what the rounding of results does to a tile (mesh/precision.h): to floats, or to the
-   doubles that they are computed in. The floats of a conversion are judged by the model that is written. */
+/* tile_rounding.c - what the rounding of results does to a tile (mesh/precision.h): to floats, to the steps
+   of quantized positions, or to the doubles that they are computed in. The floats of a conversion are judged
+   by the model that is written. */
 #include "base/vector/array_kernel.h"
 #include "base/vector/vec.h"
 #include "job/pass/tile.h"
 #include "mesh/precision.h"
 #include <math.h>
 
-double ffd_part_tolerance(const mesh_document *document)
+double ffd_part_tolerance(const mesh_document *document, const mesh_rounding *rounding)
 {
-    return document->part_count == 1 ? SHAPE_TOLERANCE : PART_TOLERANCE;
+    /* Whoever quantizes to 12 bits and more has chosen that rounding. */
+    return document->part_count == 1 && ffd_rounding_kind(rounding) != ROUNDED_TO_STEPS ? SHAPE_TOLERANCE
+                                                                                        : PART_TOLERANCE;
 }
 
-/* Whether the results are rounded to floats here. */
-static bool rounds(const pass_tile *tile)
+/* Returns what the results are rounded to here; ROUNDED_EACH: nothing that is judged. */
+static rounding_kind kind_of(const pass_tile *tile)
 {
-    const bool *const floats = tile->part->rounding.is_float;
-    return tile->pass->write && !tile->pass->is_converted && floats[0] && floats[1] && floats[2];
+    const rounding_kind kind = ffd_rounding_kind(&tile->part->rounding);
+    if (!tile->pass->write || (kind != ROUNDED_TO_DOUBLES && tile->pass->is_converted))
+        return ROUNDED_EACH;
+    return kind;
 }
 
-static bool are_doubles(const pass_tile *tile)
+/* Returns the error of a displacement that is rounded to the steps on which its point stands. */
+static double step_error(const mesh_rounding *rounding, const double delta[3])
 {
-    return tile->pass->write && ffd_rounding_is_none(&tile->part->rounding);
+    double error = 0;
+    for (int a = 0; a < 3; a++) {
+        const double steps = delta[a] / rounding->step[a];
+        error = larger_of(error, fabs(steps - nearest_integer(steps)) * rounding->step[a]);
+    }
+    return error;
 }
 
 /* Returns the bounds of the finite coordinates of the tile's positions in the file. counted: the bounds of
@@ -57,7 +68,8 @@ static double coarsest(const mesh_rounding *rounding, const ffd_bounds *box)
 void ffd_tile_rounding_at_rest(const pass_tile *tile)
 {
     part_rounding *const rounding = &tile->totals->rounding;
-    if (!rounds(tile) && !are_doubles(tile))
+    /* Steps are as coarse afterwards as they are at rest. */
+    if (kind_of(tile) != ROUNDED_TO_FLOATS && kind_of(tile) != ROUNDED_TO_DOUBLES)
         return;
     const ffd_bounds box = bounds_of(tile, &tile->totals->before);
     rounding->before = larger_of(rounding->before, coarsest(&tile->part->rounding, &box));
@@ -67,26 +79,32 @@ void ffd_tile_rounding_at_rest(const pass_tile *tile)
 bool ffd_tile_shows(const pass_tile *tile)
 {
     const double *const stored = tile->scratch->base.stored, *const delta = tile->scratch->base.delta;
-    bool shows = !rounds(tile) || tile->part->carried;
+    const double *const step = tile->part->rounding.step;
+    const rounding_kind kind = kind_of(tile);
+    bool shows = (kind != ROUNDED_TO_FLOATS && kind != ROUNDED_TO_STEPS) || tile->part->carried;
     for (size_t k = 0; k < 3 * tile->count && !shows; k++)
-        shows = delta[k] != 0 && (float)(stored[k] + delta[k]) != (float)stored[k];
+        shows = kind == ROUNDED_TO_FLOATS ? delta[k] != 0 && (float)(stored[k] + delta[k]) != (float)stored[k]
+                                          : nearest_integer(delta[k] / step[k % 3]) != 0;
     return shows;
 }
 
 void ffd_tile_rounding_of_results(const pass_tile *tile)
 {
     part_rounding *const rounding = &tile->totals->rounding;
-    const bool doubles = are_doubles(tile);
-    if (!rounds(tile) && !doubles)
+    const rounding_kind kind = kind_of(tile);
+    if (kind == ROUNDED_EACH)
         return;
     const ffd_bounds box = bounds_of(tile, &tile->totals->after);
     ffd_bounds_join(&rounding->box, &box);
     /* The part is no smaller than the tile: errors within the tile's tolerance are within the part's. */
     const double step = coarsest(&tile->part->rounding, &box);
-    if (step <= ffd_part_tolerance(tile->pass->document) * ffd_bounds_side(&box))
+    const mesh_rounding *const stored = &tile->part->rounding;
+    if (step <= ffd_part_tolerance(tile->pass->document, stored) * ffd_bounds_side(&box))
         return;
-    if (doubles) /* the numbers that they round are not known */
+    if (kind == ROUNDED_TO_DOUBLES) /* the numbers that they round are not known */
         rounding->error = larger_of(rounding->error, step);
-    for (size_t i = 0; i < tile->count && !doubles; i++)
+    for (size_t i = 0; i < tile->count && kind == ROUNDED_TO_FLOATS; i++)
         rounding->error = larger_of(rounding->error, ffd_float_error(tile->scratch->base.stored + 3 * i));
+    for (size_t i = 0; i < tile->count && kind == ROUNDED_TO_STEPS; i++)
+        rounding->error = larger_of(rounding->error, step_error(stored, tile->scratch->base.delta + 3 * i));
 }

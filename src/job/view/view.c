@@ -130,8 +130,7 @@ static ffd_status make_report(view_work *work, const ffd_job_result *result, ffd
     return work->scene.report ? FFD_OK : ffd_fail_memory(error);
 }
 
-/* Names of files without their folders: a page is sent to people who need not know where its maker keeps
-   things. */
+/* Names of files without their folders: a page must not disclose those of its maker. */
 static ffd_status name_scene(view_work *work, ffd_error *error)
 {
     const ffd_source *const deformed = work->desc->deformed;

@@ -47,7 +47,10 @@ static ffd_status read_direction_size(json_cursor cursor, lattice_spec *spec, si
     double size;
     TRY(ffd_json_read_integer(cursor, &size));
     if (size < 2)
-        return ffd_cursor_fail(cursor, "is %.0f, but a direction has at least 2 control points", size);
+        return ffd_cursor_fail(cursor, "is %.0f, but a direction has at least 2 control points%s", size,
+                               size < 1 ? ""
+                                        : ": a plane needs two layers that move alike: \"size\": [5, 5, 2], "
+                                          "\"degree\": [3, 3, 1], and \"at\": [i, j, \"all\"]");
     /* Because count <= the limit, dividing the limit avoids an overflow. */
     if (size > (double)(FFD_MAX_CONTROL_POINTS / spec->count))
         return ffd_cursor_fail_as(cursor, FFD_E_LIMIT, "size %.0f makes more than %zu control points", size,
@@ -72,7 +75,8 @@ static ffd_status read_direction_degree(json_cursor cursor, lattice_spec *spec, 
     double degree;
     TRY(ffd_json_read_integer(cursor, &degree));
     if (degree < 1 || degree > MAX_DEGREE)
-        return ffd_cursor_fail(cursor, "degree %.0f is not between 1 and %d", degree, MAX_DEGREE);
+        return ffd_cursor_fail(cursor, "degree %.0f is not between 1 and %d%s", degree, MAX_DEGREE,
+                               ffd_degree_hint(degree));
     if (degree > (double)(spec->size[a] - 1))
         return ffd_cursor_fail(cursor, "degree %.0f needs at least %.0f control points, not %zu", degree,
                                degree + 1, spec->size[a]);

@@ -222,7 +222,6 @@ static ffd_status read_drag(json_cursor cursor, lattice_move *move)
         spec_drag *const to = &move->drags[move->drag_count++];
         TRY(ffd_spec_read_object(drag, keys, COUNT_OF(keys)));
         TRY(ffd_json_member_doubles(drag, "point", 3, to->point));
-        to->line = ffd_cursor_line(ffd_cursor_member(drag, "point"));
         TRY(ffd_json_member_doubles(drag, "by", 3, to->by));
     }
     return FFD_OK;
@@ -456,6 +455,15 @@ static ffd_status make_drags(json_cursor moves, lattice_spec *spec)
     return spec->drags ? FFD_OK : ffd_fail_memory(moves.file->error);
 }
 
+/* Notes the lines of a move and of its dragged places, for messages when it is applied. */
+static void note_lines(json_cursor cursor, json_line_mark *mark, lattice_move *move)
+{
+    json_cursor drag = ffd_cursor_first(ffd_cursor_member(cursor, "drag"));
+    move->line = ffd_cursor_line_from(cursor, mark);
+    for (size_t i = 0; i < move->drag_count; i++, drag = ffd_cursor_next(drag))
+        move->drags[i].line = ffd_cursor_line_from(ffd_cursor_member(drag, "point"), mark);
+}
+
 ffd_status ffd_spec_parse_moves(json_cursor cursor, lattice_spec *spec)
 {
     if (!ffd_cursor_is(cursor, JSON_ARRAY))
@@ -467,12 +475,13 @@ ffd_status ffd_spec_parse_moves(json_cursor cursor, lattice_spec *spec)
     spec->move_count = count;
     TRY(make_drags(cursor, spec));
     spec_drag *drags = spec->drags;
+    json_line_mark mark = {0};
     json_cursor move = ffd_cursor_first(cursor);
     for (size_t i = 0; i < count; i++, move = ffd_cursor_next(move)) {
         spec->moves[i].drags = drags;
-        spec->moves[i].line = ffd_cursor_line(move);
         snprintf(spec->moves[i].pointer, sizeof spec->moves[i].pointer, "/moves/%zu", i);
         TRY(read_move(move, spec, &spec->moves[i]));
+        note_lines(move, &mark, &spec->moves[i]);
         drags += spec->moves[i].drag_count;
     }
     return FFD_OK;

@@ -25,7 +25,7 @@ typedef struct material_images {
 ffd_status ffd_images_find(material_images *images, const char *name, bool *is_known, uint32_t *image,
                            ffd_error *error);
 /* Adds a copy of bytes, if they are PNG, JPEG or WebP, with the name that ffd_images_find did not find last.
- *Sets image to its index, or to MATERIAL_LOST. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+ *image becomes its index, or MATERIAL_LOST. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_images_add(material_images *images, const char *name, const unsigned char *bytes, size_t size,
                           uint32_t *image, ffd_error *error);
 /* Loads a file unless it is known. path: relative to the mesh's folder, normalized. Sets *image to its index,

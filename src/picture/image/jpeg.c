@@ -6,7 +6,6 @@
 #include <setjmp.h>
 #include <stdbool.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <jpeglib.h>
@@ -146,18 +145,64 @@ ffd_status ffd_jpeg_decode(const unsigned char *bytes, size_t size, const memory
 }
 
 #define QUALITY 88
+#define PIECE 4096
 
-/* Local variables must not change between setjmp and longjmp. *bytes: of the library, freed by the caller. */
+/* Where the library writes to: a piece at a time, which the sink gets. Its own memory would be lost, or freed
+   twice, where it runs out while that grows. */
+typedef struct jpeg_writer {
+    struct jpeg_destination_mgr manager; /* first member, as in jpeg_task */
+    image_sink sink;
+    void *context;
+    ffd_error *error;
+    ffd_status status; /* of the sink */
+    unsigned char piece[PIECE];
+} jpeg_writer;
+
+static jpeg_writer *writer_of(j_compress_ptr jpeg)
+{
+    return (jpeg_writer *)(void *)jpeg->dest;
+}
+
+static void begin_piece(j_compress_ptr jpeg)
+{
+    jpeg_writer *const writer = writer_of(jpeg);
+    writer->manager.next_output_byte = writer->piece;
+    writer->manager.free_in_buffer = PIECE;
+}
+
+static void give_piece(j_compress_ptr jpeg, size_t size)
+{
+    jpeg_writer *const writer = writer_of(jpeg);
+    writer->status = writer->sink(writer->context, writer->piece, size, writer->error);
+    if (writer->status)
+        longjmp(task_of((j_common_ptr)jpeg)->failed, 1);
+    begin_piece(jpeg);
+}
+
+/* Called where the piece is full, whatever free_in_buffer says. */
+static boolean end_piece(j_compress_ptr jpeg)
+{
+    give_piece(jpeg, PIECE);
+    return TRUE;
+}
+
+static void end_last_piece(j_compress_ptr jpeg)
+{
+    give_piece(jpeg, PIECE - writer_of(jpeg)->manager.free_in_buffer);
+}
+
+/* Local variables must not change between setjmp and longjmp. */
 static ffd_status write_pixels(struct jpeg_compress_struct *jpeg, jpeg_task *task, const uint8_t *pixels,
-                               unsigned char **bytes, unsigned long *size, ffd_error *error)
+                               ffd_error *error)
 {
     if (setjmp(task->failed)) {
+        if (writer_of(jpeg)->status)
+            return writer_of(jpeg)->status;
         if (task->is_out_of_memory)
             return ffd_fail_memory(error);
         return ffd_fail(error, FFD_E_UNSUPPORTED, "the image cannot be written: %s", task->message);
     }
     const uint32_t width = jpeg->image_width;
-    jpeg_mem_dest(jpeg, bytes, size);
     jpeg->input_components = 3;
     jpeg->in_color_space = JCS_RGB;
     jpeg_set_defaults(jpeg);
@@ -180,22 +225,23 @@ ffd_status ffd_jpeg_write(const uint8_t *pixels, uint32_t width, uint32_t height
 {
     struct jpeg_compress_struct jpeg;
     jpeg_task task;
-    unsigned char *bytes = NULL;
-    unsigned long size = 0;
+    jpeg_writer writer = {.manager = {.init_destination = begin_piece,
+                                      .empty_output_buffer = end_piece,
+                                      .term_destination = end_last_piece},
+                          .sink = sink,
+                          .context = context,
+                          .error = error};
     memset(&jpeg, 0, sizeof jpeg);
     memset(&task, 0, sizeof task);
     jpeg.err = jpeg_std_error(&task.manager);
     task.manager.error_exit = fail;
-    ffd_status status;
     if (setjmp(task.failed))
         return ffd_fail_memory(error);
     jpeg_create_compress(&jpeg);
+    jpeg.dest = &writer.manager;
     jpeg.image_width = width;
     jpeg.image_height = height;
-    TRY_END(write_pixels(&jpeg, &task, pixels, &bytes, &size, error));
-    status = sink(context, bytes, size, error);
-end:
+    const ffd_status status = write_pixels(&jpeg, &task, pixels, error);
     jpeg_destroy_compress(&jpeg);
-    free(bytes);
     return status;
 }

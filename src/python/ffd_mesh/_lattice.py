@@ -15,7 +15,8 @@ from . import _library as library
 from ._embedding import Embedding
 from ._errors import InvalidError
 from ._library import Owned, Progress, Run, call, lib
-from ._values import Deformed, Folds, Parameter, csr, described, folds_of, parameters, parameters_of, settings, shape_of, three, vertices_of
+from ._values import (Deformed, Folds, Parameter, csr, described, folds_of, parameters, parameters_of, settings, shape_of, three,
+                      vertices_of, wishes_of)
 
 REST, DEFORMED = declared.ENUMERATIONS["ffd_volume"].values()
 
@@ -58,7 +59,7 @@ class Lattice:
 
         size, degree, knots and margin: one value, or three for u, v, w
         size: number of control points
-        degree: 1 to 9; None: 3, or size-1 if that is less
+        degree: 1 to 14; None: 3, or size-1 if that is less
         knots: "clamped", "open", "uniform" or "closed"
         margin: fraction of the extent that is added on both sides
         shape: "box" (principal=True: along the principal axes of the points), or "cylinder" round axis
@@ -228,6 +229,22 @@ class Lattice:
         call(lib.ffd_lattice_fit, copy._pointer, arrays.address(bounds[0]), arrays.address(bounds[1]))
         copy._bounds = bounds
         return copy
+
+    def refine(self, size: Any = None, degree: Any = None, *, insert: dict[str, Any] | None = None) -> Lattice:
+        """Returns a lattice with more control points, or of higher degree, that is the same map, at rest and deformed.
+
+        degree: not less than now, at most 14; one for all directions, or three for u, v, w; None: as it is
+        insert: knots to insert, as {"u": [0.25, 0.5]}; one that is there already becomes a knot of so many more
+        size: control points, by halving the longest spans, the first ones first; one for all directions, or three for u, v, w;
+              None: as it is
+        This is the order of the steps. A direction that is neither clamped nor closed is clamped where its degree rises.
+        Each coordinate of the map differs by at most 4 eps (du + dv + dw) times the largest one of a control point (times the
+        ratio of the weights). Control points that did not move, nor their neighbours, do not move, to the bit; those
+        among whose knots none is inserted keep their bits. A box stays one, unless there are weights.
+        Blossoms: Piegl and Tiller, The NURBS Book, 2nd ed., 5.2 and 5.5.
+        """
+        desc, _kept = wishes_of(size, degree, insert)
+        return self._new(lib.ffd_lattice_refine, self._pointer, ctypes.byref(desc))
 
     def moved(self, Q: Any = None, *, offsets: Any = None, weights: Any = None) -> Lattice:
         """Returns this lattice with other deformed control points Q or offsets from rest, (nu, nv, nw, 3), and deformed weights

@@ -107,8 +107,29 @@ def three(value: Any, what: str) -> tuple[Any, Any, Any]:
 def shape_of(size: Any, degree: Any) -> tuple[list[int], list[int]]:
     """Converts sizes and degrees for the library, which takes 0 for a degree that is not given."""
     sizes = [library.integer(value, "size", 1, 2**62) for value in three(size, "size")]
-    degrees = [0 if value is None else library.integer(value, "degree", 1, 9) for value in three(degree, "degree")]
-    return sizes, degrees
+    return sizes, degrees_of(degree)
+
+
+def degrees_of(degree: Any) -> list[int]:
+    """Converts degrees for the library, which takes 0 for one that is not given, and knows the greatest one."""
+    degrees = [0 if value is None else library.integer(value, "degree") for value in three(degree, "degree")]
+    if any(found == 0 and value is not None for found, value in zip(degrees, three(degree, "degree"))):
+        raise ValueError("degree must be at least 1, not 0: degree 1 between two layers that move alike does the same")
+    return degrees
+
+
+def wishes_of(size: Any, degree: Any, insert: Any) -> tuple[Any, list[np.ndarray]]:
+    """Makes an ffd_refine_desc. Returns it with the arrays that must stay alive."""
+    desc, kept = library.filled("ffd_refine_desc"), []
+    desc.size[:] = [0 if value is None else library.integer(value, "size", 1, 2**62) for value in three(size, "size")]
+    desc.degree[:] = degrees_of(degree)
+    for direction, knots in (insert or {}).items():
+        if direction not in ("u", "v", "w"):
+            raise ValueError(f"insert has the directions u, v and w, not {direction!r}")
+        kept.append(arrays.doubles(knots, "insert", (np.size(knots),)))
+        desc.insert["uvw".index(direction)] = arrays.address(kept[-1])
+        desc.insert_count["uvw".index(direction)] = len(kept[-1])
+    return desc, kept
 
 
 def _has_breakpoints(knots: Any) -> bool:

@@ -160,11 +160,11 @@ static void log_replaced(const morph_writer *w, size_t mesh)
     const char *const loses = w->loses ? ", and nodes that are not selected lose its offsets, too" : "";
     if (found > 1)
         ffd_log_line(w->log, FFD_LOG_WARNING,
-                     "mesh %zu has %zu morph targets of that name already: the first is replaced%s", mesh,
-                     found, loses);
+                     "mesh %zu has %zu morph targets \"%s\" already: the first is replaced%s", mesh, found,
+                     w->morph->name, loses);
     else
-        ffd_log_line(w->log, FFD_LOG_WARNING,
-                     "mesh %zu has a morph target of that name already: it is replaced%s", mesh, loses);
+        ffd_log_line(w->log, FFD_LOG_WARNING, "mesh %zu has a morph target \"%s\" already: it is replaced%s",
+                     mesh, w->morph->name, loses);
 }
 
 static void add_to_meshes(morph_writer *w)

@@ -60,8 +60,12 @@ ffd_status ffd_glb_parse(const unsigned char *data, size_t size, const char *nam
     layout->json_begin = chunk.begin;
     layout->json_size = chunk.size;
     layout->rest_begin = at;
+    layout->uneven = chunk.size % 4 ? chunk.begin : 0;
     for (bool first = true; at < layout->end; first = false) {
         TRY(read_chunk(data, layout->end, name, &at, &chunk, error));
+        if (layout->uneven == 0 && chunk.size % 4)
+            layout->uneven = chunk.begin;
+        layout->more_bins += !first && chunk.type == GLB_CHUNK_BIN;
         if (!first || chunk.type != GLB_CHUNK_BIN)
             continue;
         layout->has_bin = true;

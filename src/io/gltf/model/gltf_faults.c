@@ -1,4 +1,5 @@
 /* gltf_faults.c - finds values that glTF does not allow but that viewers can do without. */
+#include "io/gltf/model/gltf_faults.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "io/gltf/model/gltf_functions.h"
@@ -30,26 +31,6 @@ static void add_value(fault_list *list, uint32_t value)
     list->count++;
 }
 
-/* Adds an element of a list as "mesh NAME", or "mesh 3" if it has no name. */
-static ffd_status add_name(fault_list *list, uint32_t value, const char *kind, size_t index, ffd_error *error)
-{
-    const json_tree *const tree = &list->document->tree;
-    const uint32_t name = ffd_json_tree_member(tree, value, "name");
-    char *const text = name == JSON_NONE ? NULL : ffd_json_tree_string(tree, name, NULL);
-    if (name != JSON_NONE && !text)
-        return ffd_fail_memory(error);
-    if (list->count < SHOWN) {
-        char *const shown = list->shown[list->count];
-        const size_t capacity = sizeof list->shown[list->count], used = strlen(kind) + 1;
-        snprintf(shown, capacity, "%s %zu", kind, index);
-        if (text && *text)
-            ffd_name_shown(text, shown + used, capacity - used);
-    }
-    list->count++;
-    ffd_free(text);
-    return FFD_OK;
-}
-
 /* Writes "a, b, c and 2 more". */
 static void write_list(const fault_list *list, char *text, size_t capacity)
 {
@@ -59,44 +40,6 @@ static void write_list(const fault_list *list, char *text, size_t capacity)
             (size_t)snprintf(text + length, capacity - length, "%s%s", i > 0 ? ", " : "", list->shown[i]);
     if (list->count > SHOWN)
         snprintf(text + length, capacity - length, " and %zu more", list->count - SHOWN);
-}
-
-/* Whether an object's default weights, if any, are one number per target. */
-static bool has_sound_weights(const gltf_document *d, uint32_t object, size_t targets)
-{
-    const uint32_t array = ffd_json_tree_member(&d->tree, object, "weights");
-    double weight;
-    if (array == JSON_NONE)
-        return true;
-    if (d->tree.values[array].kind != JSON_ARRAY || d->tree.values[array].count != targets)
-        return false;
-    for (uint32_t v = ffd_json_tree_first(&d->tree, array); v != JSON_NONE;
-         v = ffd_json_tree_after(&d->tree, v))
-        if (!ffd_gltf_weight(d, v, &weight))
-            return false;
-    return true;
-}
-
-static ffd_status warn_of_weights(const gltf_document *d, const mesh_log *log, ffd_error *error)
-{
-    fault_list list = {.document = d};
-    char names[sizeof list.shown + 60];
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        if (!has_sound_weights(d, d->mesh_values.values[m], d->mesh_uses[m].target_count))
-            TRY(add_name(&list, d->mesh_values.values[m], "mesh", m, error));
-    for (size_t n = 0; n < d->model.node_count; n++) {
-        const int mesh = d->model.nodes[n].mesh;
-        if (!has_sound_weights(d, d->node_values.values[n], mesh < 0 ? 0 : d->mesh_uses[mesh].target_count))
-            TRY(add_name(&list, d->node_values.values[n], "node", n, error));
-    }
-    if (list.count == 0)
-        return FFD_OK;
-    write_list(&list, names, sizeof names);
-    ffd_log_line(log, FFD_LOG_WARNING,
-                 "the default weights of %s are not one finite number for each morph target: a missing or "
-                 "other one counts as 0",
-                 names);
-    return FFD_OK;
 }
 
 static void check_details(fault_list *list, uint32_t node)
@@ -176,12 +119,47 @@ static ffd_status check_animations(fault_list *list, ffd_error *error)
     return FFD_OK;
 }
 
+/* Whether an object's default weights, if any, are one number per target. */
+static bool has_sound_weights(const gltf_document *d, uint32_t object, size_t targets)
+{
+    const uint32_t array = ffd_json_tree_member(&d->tree, object, "weights");
+    double weight;
+    if (array == JSON_NONE)
+        return true;
+    if (d->tree.values[array].kind != JSON_ARRAY || d->tree.values[array].count != targets)
+        return false;
+    for (uint32_t v = ffd_json_tree_first(&d->tree, array); v != JSON_NONE;
+         v = ffd_json_tree_after(&d->tree, v))
+        if (!ffd_gltf_weight(d, v, &weight))
+            return false;
+    return true;
+}
+
+static ffd_status note_weights(gltf_document *d, uint32_t object, size_t targets, ffd_error *error)
+{
+    if (has_sound_weights(d, object, targets))
+        return FFD_OK;
+    return ffd_gltf_flaw(d, ffd_json_tree_member(&d->tree, object, "weights"), error,
+                         "the default weights are not one finite number for each morph target: a missing or "
+                         "other one counts as 0");
+}
+
+ffd_status ffd_gltf_note_weights(gltf_document *d, ffd_error *error)
+{
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        TRY(note_weights(d, d->mesh_values.values[m], d->mesh_uses[m].target_count, error));
+    for (size_t n = 0; n < d->model.node_count; n++) {
+        const int mesh = d->model.nodes[n].mesh;
+        TRY(note_weights(d, d->node_values.values[n], mesh < 0 ? 0 : d->mesh_uses[mesh].target_count, error));
+    }
+    return FFD_OK;
+}
+
 ffd_status ffd_gltf_warn_of_faults(const mesh_document *document, const mesh_log *log, ffd_error *error)
 {
     const gltf_document *const d = ffd_gltf_of(document);
     fault_list list = {.document = d};
     char places[sizeof list.shown + 60];
-    TRY(warn_of_weights(d, log, error));
     check_nodes(&list);
     TRY(check_animations(&list, error));
     check_textures(&list);

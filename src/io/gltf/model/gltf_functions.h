@@ -37,10 +37,9 @@ mesh_place_name_function ffd_gltf_place_name;
 
 mesh_read_transforms_function ffd_gltf_read_transforms;
 
-/* Warns of values that glTF does not allow but that viewers can do without: default weights of morph targets;
-   levels of detail, visibility, cameras, lights and physics shapes of nodes; targets of animations; the
-   texture coordinates of textures. One line for the weights and one for the others, which --strict refuses.
-   Errors: FFD_E_INVALID (strict), FFD_E_MEMORY. */
+/* Warns of values that glTF does not allow but that viewers can do without: levels of detail, visibility,
+   cameras, lights and physics shapes of nodes; targets of animations; the texture coordinates of textures.
+   One line, and --strict refuses them. Errors: FFD_E_INVALID (strict), FFD_E_MEMORY. */
 ffd_status ffd_gltf_warn_of_faults(const mesh_document *document, const mesh_log *log, ffd_error *error);
 
 mesh_begin_results_function ffd_gltf_begin_results;

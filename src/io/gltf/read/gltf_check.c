@@ -1,5 +1,6 @@
 #include "io/gltf/read/gltf_check.h"
 #include "base/text/words.h"
+#include "io/gltf/read/gltf_conformance.h"
 #include "io/gltf/read/gltf_draco.h"
 #include "io/gltf/read/gltf_drawing.h"
 #include "io/gltf/read/gltf_elements.h"
@@ -394,5 +395,6 @@ ffd_status ffd_gltf_check(gltf_document *d, ffd_error *error)
     const size_t skin_count = ffd_json_tree_count(&d->tree, skins);
     for (size_t i = 0; i < d->model.node_count; i++)
         TRY(check_node(d, i, skin_count, error));
-    return check_scenes(d, error);
+    TRY(check_scenes(d, error));
+    return ffd_gltf_note_errors(d, error);
 }

@@ -169,8 +169,7 @@ static bool read_integer(const checker *c, uint32_t value, double largest, doubl
     return true;
 }
 
-/* Whether the file lists an extension as used. */
-static bool is_used(const json_tree *tree, const char *extension)
+bool ffd_gltf_uses(const json_tree *tree, const char *extension)
 {
     const uint32_t used = ffd_json_tree_member(tree, 0, "extensionsUsed");
     for (uint32_t v = ffd_json_tree_first(tree, used); v != JSON_NONE; v = ffd_json_tree_after(tree, v))
@@ -187,7 +186,7 @@ static ffd_status check_component(const checker *c, uint32_t value, bool known, 
     if (known && number >= 5120 && number <= 5126 && (number < 5124 || number > 5124))
         return FFD_OK;
     if (!(known && number >= COMPONENT_DOUBLE && number <= COMPONENT_DOUBLE) ||
-        !is_used(c->tree, "KHR_accessor_float64"))
+        !ffd_gltf_uses(c->tree, "KHR_accessor_float64"))
         return refuse(c, value, "a component type (5120 to 5123, 5125, 5126)");
     return ffd_json_tree_fail(c->tree, value, c->name, FFD_E_UNSUPPORTED, c->error,
                               "component type %d, double precision, of KHR_accessor_float64 is not supported",

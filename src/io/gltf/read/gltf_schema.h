@@ -12,4 +12,7 @@
 ffd_status ffd_gltf_check_schema(const json_tree *tree, const char *name, json_edits *integers,
                                  ffd_error *error);
 
+/* Whether the file lists an extension as used. */
+bool ffd_gltf_uses(const json_tree *tree, const char *extension);
+
 #endif

@@ -73,9 +73,15 @@ static const map_option *option_of(text_word word)
 static bool pass_option(text_scan *scan, const map_option *option, text_word *word, double numbers[3])
 {
     bool there = ffd_text_word(scan, word);
-    for (int i = 0; there && i < option->words && (!option->numbers || ffd_text_number(*word, &numbers[i]));
-         i++)
+    for (int i = 0; there && i < option->words; i++) {
+        if (option->numbers) {
+            double number; /* a name may begin with one: "512.png" */
+            if (!ffd_text_number(*word, &number))
+                break;
+            numbers[i] = number;
+        }
         there = ffd_text_word(scan, word);
+    }
     return there;
 }
 

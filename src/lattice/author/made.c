@@ -1,0 +1,176 @@
+#include "lattice/author/made.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "lattice/build.h"
+#include "lattice/shapes.h"
+#include <string.h>
+
+ffd_status ffd_made_begin(const ffd_lattice *from, made_lattice *made, ffd_error *error)
+{
+    const lattice_spec *const spec = from->spec;
+    *made = (made_lattice){.from = from};
+    if (!from->rest &&
+        (spec->move_count > 0 || spec->weights || spec->deformed_weights || spec->deformed_points))
+        return ffd_fail(error, FFD_E_INVALID,
+                        "the box of the lattice is that of a mesh, and its %s need positions ({meshes})",
+                        spec->move_count > 0    ? "moves"
+                        : spec->deformed_points ? "deformed points"
+                                                : "weights");
+    return FFD_OK;
+}
+
+void ffd_made_free(made_lattice *made)
+{
+    for (int a = 0; a < 3; a++)
+        ffd_free(made->knots[a]);
+    ffd_free(made->points);
+    ffd_free(made->offsets);
+    ffd_free(made->weights);
+    ffd_free(made->moved_weights);
+    *made = (made_lattice){0};
+}
+
+ffd_status ffd_made_copy(const double *numbers, size_t count, double **copy, ffd_error *error)
+{
+    *copy = ffd_alloc_whole(count, sizeof **copy);
+    if (!*copy)
+        return ffd_fail_memory(error);
+    memcpy(*copy, numbers, count * sizeof **copy);
+    return FFD_OK;
+}
+
+static size_t knot_count(const made_lattice *made, int a)
+{
+    return made->closed[a] ? made->size[a] + 1 : made->size[a] + (size_t)made->degree[a] + 1;
+}
+
+ffd_status ffd_made_set_knots(made_lattice *made, int a, int degree, size_t size, bool closed,
+                              const double *knots, ffd_error *error)
+{
+    made->degree[a] = degree;
+    made->size[a] = size;
+    made->closed[a] = closed;
+    return ffd_made_copy(knots, knot_count(made, a), &made->knots[a], error);
+}
+
+bool ffd_made_is_box(const made_lattice *made)
+{
+    const lattice_spec *const spec = made->from->spec;
+    return (spec->rest == SPEC_BOX || spec->rest == SPEC_BOX_MESH) && spec->spacing == FFD_SPACING_GREVILLE &&
+           !made->from->rest_weights;
+}
+
+ffd_status ffd_made_allocate(made_lattice *made, bool moved_weights, ffd_error *error)
+{
+    const size_t count = made->size[0] * made->size[1] * made->size[2];
+    made->points = ffd_alloc_whole(count, 3 * sizeof *made->points);
+    made->offsets = ffd_alloc_whole(count, 3 * sizeof *made->offsets);
+    made->weights = ffd_alloc_whole(count, sizeof *made->weights);
+    made->moved_weights = moved_weights ? ffd_alloc_whole(count, sizeof *made->moved_weights) : NULL;
+    return made->points && made->offsets && made->weights && (made->moved_weights || !moved_weights)
+               ? FFD_OK
+               : ffd_fail_memory(error);
+}
+
+/* Returns whether the knots of a preset are those of the direction, to the bit. */
+static bool is_preset(const made_lattice *made, int a, knot_kind kind)
+{
+    knot_vector preset;
+    if (ffd_knots_make(kind, made->degree[a], made->size[a], NULL, 0, "uvw"[a], &preset, NULL))
+        return false;
+    const double *const first = preset.t + (made->closed[a] ? made->degree[a] : 0);
+    const bool same = memcmp(first, made->knots[a], knot_count(made, a) * sizeof *first) == 0;
+    ffd_knots_free(&preset);
+    return same;
+}
+
+static void set_knots(made_lattice *made, int a, lattice_spec *spec)
+{
+    static const knot_kind presets[] = {KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_UNIFORM};
+    spec->kind[a] = made->closed[a] ? KNOTS_CLOSED_LIST : KNOTS_LIST;
+    for (size_t i = 0; i < sizeof presets / sizeof *presets && !made->closed[a]; i++)
+        if (is_preset(made, a, presets[i])) {
+            spec->kind[a] = presets[i];
+            return;
+        }
+    if (made->closed[a] && is_preset(made, a, KNOTS_CLOSED)) {
+        spec->kind[a] = KNOTS_CLOSED;
+        return;
+    }
+    spec->list[a] = made->knots[a];
+    spec->list_count[a] = knot_count(made, a);
+    made->knots[a] = NULL;
+}
+
+/* Sets the rest as a box: that of the file, or as it was laid round a mesh, or still to be laid. */
+static ffd_status set_box(const made_lattice *made, lattice_spec *spec, ffd_error *error)
+{
+    const lattice_spec *const from = made->from->spec;
+    memcpy(spec->box_axes, from->box_axes, sizeof spec->box_axes);
+    memcpy(spec->margin, from->margin, sizeof spec->margin);
+    memcpy(spec->box_min, from->box_min, sizeof spec->box_min);
+    memcpy(spec->box_max, from->box_max, sizeof spec->box_max);
+    spec->has_axes = from->has_axes;
+    spec->spacing = FFD_SPACING_GREVILLE;
+    spec->rest = made->from->rest ? SPEC_BOX : from->rest;
+    if (!made->from->rest || from->rest != SPEC_BOX_MESH)
+        return FFD_OK;
+    return ffd_shape_grow_box(made->from->fitted.min, made->from->fitted.max, from->margin, spec->box_min,
+                              spec->box_max, error);
+}
+
+static bool move_anything(const made_lattice *made, size_t count)
+{
+    for (size_t i = 0; made->offsets && i < 3 * count; i++)
+        if (made->offsets[i] != 0)
+            return true;
+    return false;
+}
+
+static bool move_weights(const made_lattice *made, size_t count)
+{
+    return made->moved_weights &&
+           memcmp(made->weights, made->moved_weights, count * sizeof *made->weights) != 0;
+}
+
+/* Moves an array into the spec. */
+static void take(double **from, double **to)
+{
+    *to = *from;
+    *from = NULL;
+}
+
+static ffd_status fill(made_lattice *made, lattice_spec *spec, ffd_error *error)
+{
+    spec->count = made->size[0] * made->size[1] * made->size[2];
+    for (int a = 0; a < 3; a++) {
+        spec->size[a] = made->size[a];
+        spec->degree[a] = made->degree[a];
+        set_knots(made, a, spec);
+    }
+    if (!(spec->name = ffd_text_copy("")))
+        return ffd_fail_memory(error);
+    if (move_anything(made, spec->count))
+        take(&made->offsets, &spec->deformed_offsets);
+    if (move_weights(made, spec->count))
+        take(&made->moved_weights, &spec->deformed_weights);
+    take(&made->weights, &spec->weights);
+    if (!made->points)
+        return set_box(made, spec, error);
+    spec->rest = SPEC_POINTS;
+    take(&made->points, &spec->points);
+    return FFD_OK;
+}
+
+ffd_status ffd_made_finish(made_lattice *made, ffd_lattice **lattice, ffd_error *error)
+{
+    lattice_spec *const spec = ffd_alloc_zero(1, sizeof *spec);
+    ffd_status status;
+    TRY_END(spec ? FFD_OK : ffd_fail_memory(error));
+    TRY_END(fill(made, spec, error));
+    TRY_END(ffd_spec_build(spec, NULL, lattice, error));
+end:
+    if (status)
+        ffd_spec_free(spec);
+    return status;
+}
