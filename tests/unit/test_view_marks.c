@@ -140,7 +140,8 @@ static void a_splat_in_folded_volume_is_seen(void **state)
     view_scene scene = make_scene();
     scene.splats[0] = scene.splats[1] = spread;
     dets[0] = -0.5;
-    ffd_view_palette_make(&scene, FFD_VIEW_DET, &palette);
+    const view_frame frame = frame_of(&scene);
+    ffd_view_palette_make(&scene, &frame, FFD_VIEW_DET, &palette);
     ffd_view_palette_fill(&palette, &scene, 1, colors);
     assert_int_equal(colors[3], 0);
     assert_int_equal(ffd_view_dots_make(&scene, 1, moved, colors, false, 900, &dots, NULL), FFD_OK);
