@@ -386,7 +386,9 @@ FFD_API ffd_status ffd_view_camera(const char *name, ffd_up up, double direction
 typedef struct ffd_view_desc {
     size_t struct_size; /* sizeof(ffd_view_desc) in the caller's header */
     /* The mesh and its deformation, as for ffd_check_run, except that lattice_count may be 0, to show the
-       mesh as it is. job->log receives the warnings; the output is added to job->written. */
+       mesh as it is, and morphs may be set: the shape after then has these targets in full, beside the
+       default weights of those of the file. job->log receives the warnings; the output is added to
+       job->written. A page has sliders for the weights of all targets. */
     const ffd_deform_desc *job;
     /* The deformed mesh as a file with the same number of vertices; the lattices are then drawn, but do not
        deform anything. NULL: the lattices deform the mesh in memory. */
@@ -422,7 +424,8 @@ FFD_API void ffd_view_desc_init(ffd_view_desc *desc, size_t size);
 /* Runs the job. The output is complete or absent. If a gate of the job is violated, the output is written all
    the same, and the result is FFD_E_GATE. A missing or broken image of the mesh is drawn grey in a picture,
    with a warning. The memory budget of the mesh is by default at least 400 MB. result is filled in every
-   case: if lattices deform the mesh, as by ffd_check_run, for the shapes that are shown; and with picture.
+   case: if lattices deform the mesh, as by ffd_check_run, for the shapes that are shown; with morphs as by
+   ffd_deform_run, but without the results of each; and with picture.
    Returns result->status. Errors: any. */
 FFD_API ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error);
 

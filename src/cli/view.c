@@ -16,6 +16,9 @@ typedef struct settings {
 static const cli_option options[] = {
     {"output", 'o', "FILE.html|FILE.png", "a page, which a browser opens without a network; or a picture",
      cli_set_text, AT(output), NULL},
+    {"morph", 0, "NAME=LATTICE",
+     "in place of -l: the morph target that this lattice makes; a page has a slider; repeatable",
+     cli_set_member, AT(job.desc), NULL},
     CLI_PICTURE_OPTIONS(AT(look)),
     CLI_SIDE_OPTIONS(AT(look)),
     {"full", 0, NULL, "a page shows all vertices; else a mesh of more than 200,000 is simplified",
@@ -52,6 +55,8 @@ static int show(cli_job *job, const char *input, ffd_report *report)
    NULL. */
 static const char *mistake_of_files(settings *s, const cli_words *words)
 {
+    if (s->job.desc.morphs)
+        return "--morph makes targets of IN: it takes no OUT-MESH";
     if (s->job.desc.fail_on)
         return "--fail-on judges a deformation: it needs -l, and no OUT-MESH";
     if (s->job.report)
@@ -130,6 +135,8 @@ static const cli_example examples[] = {
      "ffd view cow.obj -l bend.json -o row.png --frames 5 --size 300x400"},
     {"five poses of an animation, and below them deformed",
      "ffd view robot.glb -l tall.json -o walk.png --animation walk --size 300x400"},
+    {"a page with sliders for new morph targets, and for those of the model",
+     "ffd view robot.glb --morph tall=tall.json --morph turn=twist.json -o targets.html"},
     {NULL, NULL},
 };
 
@@ -137,6 +144,9 @@ const cli_command cli_view = {
     "view",
     "a page or picture: before and after, cage, colours, what went wrong",
     "usage: ffd view IN -l LATTICE [-l LATTICE ...] -o FILE.html|FILE.png [options]    deforms in memory\n"
+    "       ffd view IN --morph NAME=LATTICE [--morph ...] -o FILE.html|FILE.png [options]    new targets, "
+    "in "
+    "full\n"
     "       ffd view IN [OUT-MESH] [-l LATTICE ...] -o FILE.html|FILE.png [options]    shows files, and the "
     "cage of "
     "-l\n"

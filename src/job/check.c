@@ -7,6 +7,7 @@ static ffd_status check(const ffd_deform_desc *desc, ffd_job_result *result)
     deform_job job;
     ffd_status status;
     TRY_END(ffd_deform_job_begin(&job, desc, true, result));
+    TRY_END(ffd_deform_job_refuse_morphs(desc, &result->error));
     TRY_END(ffd_deform_job_open(&job, JOB_NEEDS_NORMALS, result, &result->error));
     TRY_END(ffd_deform_job_run(&job, result, &result->error));
 end:

@@ -73,10 +73,14 @@ ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bo
     *job = (deform_job){
         .desc = desc, .check = check, .losses = ffd_mapping_losses(), .log = log, .file_log = log};
     TRY(check_desc(desc, &result->error));
-    if (check && desc->morphs)
-        return ffd_fail(&result->error, FFD_E_ARGUMENT,
-                        "morphs: only ffd_deform_run supports several targets");
     return ffd_threads_check(desc->threads, &result->error);
+}
+
+ffd_status ffd_deform_job_refuse_morphs(const ffd_deform_desc *desc, ffd_error *error)
+{
+    return desc->morphs ? ffd_fail(error, FFD_E_ARGUMENT,
+                                   "morphs: only ffd_deform_run and ffd_view_run support several targets")
+                        : FFD_OK;
 }
 
 /* Returns the number of threads of the job. A plain job on a part of few vertices is done by one; figures of

@@ -10,6 +10,9 @@
 ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bool check,
                                 ffd_job_result *result);
 
+/* Refuses several morph targets, for jobs of one deformation. Errors: FFD_E_ARGUMENT. */
+ffd_status ffd_deform_job_refuse_morphs(const ffd_deform_desc *desc, ffd_error *error);
+
 /* What a job needs beside positions and displacements: the normals of the mesh; the derivatives of the
    control points by placeholders. */
 enum { JOB_NEEDS_NORMALS = 1, JOB_NEEDS_DERIVATIVES = 2 };

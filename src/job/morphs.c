@@ -96,13 +96,26 @@ static ffd_status begin(deform_job *job, ffd_error *error)
     return status;
 }
 
-/* Conversion: adds the deformed shape to the model as a morph target. */
-static ffd_status keep_shape(deform_job *job, const char *name, ffd_error *error)
+static ffd_status keep_base(void *context, deform_job *job, size_t target, ffd_error *error)
 {
+    (void)context;
+    (void)target;
+    return job->converts
+               ? FFD_OK
+               : job->document->format->morphs->keep_base(job->document, job->desc->as_morph, error);
+}
+
+/* Conversion: adds the deformed shape to the model as a morph target. */
+static ffd_status keep_shape(void *context, deform_job *job, size_t target, ffd_error *error)
+{
+    (void)context;
+    (void)target;
+    if (!job->converts)
+        return FFD_OK;
     mesh_model after = {.budget = &job->document->budget};
     ffd_status status;
     TRY_END(job->document->format->model(job->document, ffd_job_written(job), &after, error));
-    TRY_END(ffd_model_add_morph(&job->base, &after, name, error));
+    TRY_END(ffd_model_add_morph(&job->base, &after, job->desc->as_morph, error));
 end:
     ffd_model_free(&after);
     return status;
@@ -121,8 +134,8 @@ static void name_target(const char *name, size_t count, ffd_error *error)
 
 /* Runs the pass for one target. Its warnings name it; warnings about the file come with the first one
    only. */
-static ffd_status add_target(deform_job *job, size_t k, const mesh_log *log, ffd_job_result *result,
-                             ffd_error *error)
+static ffd_status add_target(deform_job *job, size_t k, const morph_steps *steps, const mesh_log *log,
+                             ffd_job_result *result, ffd_error *error)
 {
     const ffd_deform_desc *const all = job->desc;
     const char *const name = all->morphs[k];
@@ -138,10 +151,12 @@ static ffd_status add_target(deform_job *job, size_t k, const mesh_log *log, ffd
     lattice_chain whole = job->chain;
     job->chain = ffd_chain_link_alone(&whole, k);
     ffd_status status;
-    TRY_END(job->converts ? FFD_OK : job->document->format->morphs->keep_base(job->document, name, error));
-    TRY_END(ffd_deform_job_run(job, result, error));
-    if (job->converts)
-        TRY_END(keep_shape(job, name, error));
+    TRY_END(steps->before ? steps->before(steps->context, job, k, error) : FFD_OK);
+    status = ffd_deform_job_run(job, result, error);
+    if (steps->after && (!status || status == FFD_E_GATE)) {
+        const ffd_status taken = steps->after(steps->context, job, k, error);
+        status = taken ? taken : status;
+    }
 end:
     if (status)
         name_target(name, all->lattice_count, error);
@@ -162,26 +177,34 @@ static bool fits_budget(const deform_job *job, size_t targets)
 }
 
 /* *done: the number of targets with figures, including one that a gate refuses. */
-static ffd_status add_targets(deform_job *job, ffd_job_result *results, size_t *done, ffd_error *error)
+static ffd_status add_targets(deform_job *job, const morph_steps *steps, ffd_job_result *results,
+                              size_t *done, ffd_error *error)
 {
     const mesh_log log = job->log;
     const size_t count = job->desc->lattice_count;
+    ffd_status refused = FFD_OK;
+    ffd_error own;
     job->forgets_locations = !fits_budget(job, count);
-    TRY(keep_clips(job, error));
-    TRY(begin(job, error));
     for (size_t k = 0; k < count; k++) {
-        const ffd_status status = add_target(job, k, &log, &results[k], error);
-        *done += !status || status == FFD_E_GATE;
-        TRY(status);
+        const ffd_status status = add_target(job, k, steps, &log, &results[k], refused ? &own : error);
+        const bool is_refused = status == FFD_E_GATE;
+        *done += !status || is_refused;
+        if (status && !(is_refused && steps->goes_on)) {
+            if (refused)
+                *error = own;
+            return status;
+        }
+        refused = is_refused ? status : refused;
         ffd_log_line(&log, FFD_LOG_INFO, "morph target \"%s\": %llu of %llu %s moved, by %g at most",
                      job->desc->morphs[k], (unsigned long long)results[k].moved,
                      (unsigned long long)results[k].vertices,
                      ffd_plural(results[k].vertices, "vertex", "vertices"), results[k].displacement.max);
     }
-    return FFD_OK;
+    return refused;
 }
 
-ffd_status ffd_morphs_run(deform_job *job, ffd_job_result *result, ffd_error *error)
+ffd_status ffd_morphs_run_each(deform_job *job, const morph_steps *steps, ffd_job_result *result,
+                               ffd_error *error)
 {
     const ffd_deform_desc *const desc = job->desc;
     ffd_job_result *const own = desc->morph_results ? NULL : ffd_alloc_zero(desc->lattice_count, sizeof *own);
@@ -189,7 +212,7 @@ ffd_status ffd_morphs_run(deform_job *job, ffd_job_result *result, ffd_error *er
     if (!results)
         return ffd_fail_memory(error);
     size_t done = 0;
-    const ffd_status status = add_targets(job, results, &done, error);
+    const ffd_status status = add_targets(job, steps, results, &done, error);
     if (!status || status == FFD_E_GATE) {
         ffd_results_join(results, done, result);
         result->morphs.count = done;
@@ -199,4 +222,12 @@ ffd_status ffd_morphs_run(deform_job *job, ffd_job_result *result, ffd_error *er
     }
     ffd_free(own);
     return status;
+}
+
+ffd_status ffd_morphs_run(deform_job *job, ffd_job_result *result, ffd_error *error)
+{
+    const morph_steps steps = {.before = keep_base, .after = keep_shape};
+    TRY(keep_clips(job, error));
+    TRY(begin(job, error));
+    return ffd_morphs_run_each(job, &steps, result, error);
 }

@@ -24,11 +24,40 @@ typedef ffd_status mesh_keep_base_function(mesh_document *document, const char *
 typedef ffd_status mesh_keep_clips_function(mesh_document *document, const morph_clip *clips, size_t count,
                                             const char *const *names, size_t name_count, ffd_error *error);
 
+/* A morph target of what a node shows, as readers list it. */
+typedef struct mesh_target {
+    char *name;          /* as in the file; NULL: none. The list's to free */
+    size_t mesh, number; /* the mesh that has it, and its number there, from 0 */
+    size_t part;         /* whose vertices it moves */
+    double weight;       /* without animation */
+    size_t rig_weight;   /* index in the weights of a skeleton (rig.h); RIG_NONE: there are none */
+    size_t source;       /* the format's own, for read_target */
+} mesh_target;
+
+typedef struct mesh_targets {
+    mesh_target *list;
+    size_t count;
+} mesh_targets;
+
+/* Lists the targets that move positions, each under every node that shows it; parts that are shown several
+   times count once. Fill an empty list, which the caller frees in every case (ffd_mesh_targets_free). Errors:
+   FFD_E_LIMIT, FFD_E_MEMORY. */
+typedef ffd_status mesh_list_targets_function(const mesh_document *document, mesh_targets *targets,
+                                              ffd_error *error);
+/* Reads by how much a target moves all vertices of its part in the space of the lattice, 3 numbers each.
+   after: the results, which are those of stored shapes. */
+typedef void mesh_read_target_function(const mesh_document *document, const mesh_target *target, bool after,
+                                       double *offsets);
+/* Frees a list; leaves an empty one. */
+void ffd_mesh_targets_free(mesh_targets *targets);
+
 struct mesh_morph_calls {
     mesh_read_offsets_function *read_offsets;
     mesh_write_offsets_function *write_offsets;
     mesh_keep_base_function *keep_base;
     mesh_keep_clips_function *keep_clips;
+    mesh_list_targets_function *list_targets;
+    mesh_read_target_function *read_target;
 };
 
 #endif

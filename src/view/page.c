@@ -6,6 +6,7 @@
 #include "view/page_images.h"
 #include "view/page_reduce.h"
 #include "view/page_scene.h"
+#include "view/page_splats.h"
 #include "view/page_texcoords.h"
 #include "view/page_text.h"
 #include <inttypes.h>
@@ -21,6 +22,7 @@ typedef struct page_work {
     page_texcoords texcoords;
     page_images images;
     page_rig rig;
+    page_targets targets;
     page_description description;
     bool *has_cage;
     page_writer writer;
@@ -115,6 +117,16 @@ static ffd_status make_textures(page_work *work, ffd_error *error)
     return FFD_OK;
 }
 
+static ffd_status make_targets(page_work *work, ffd_error *error)
+{
+    const page_targets *const targets = &work->targets;
+    TRY(ffd_page_targets_make(&work->mesh, work->options->full, &work->targets, error));
+    if (targets->left_out)
+        give_notice(work, "%zu of %zu morph targets have no slider: more than %d offsets (see {full})",
+                    targets->left_out, work->scene->slider_count, VIEW_PAGE_OFFSETS);
+    return FFD_OK;
+}
+
 static ffd_status prepare(page_work *work, ffd_error *error)
 {
     TRY(ffd_page_mesh_take(work->scene, &work->mesh, error));
@@ -126,6 +138,7 @@ static ffd_status prepare(page_work *work, ffd_error *error)
     log_omissions(work, used);
     TRY(make_textures(work, error));
     TRY(make_rig(work, error));
+    TRY(make_targets(work, error));
     return choose_cages(work, error);
 }
 
@@ -162,9 +175,11 @@ static void write_data(page_work *work)
     ffd_page_describe(&work->description, &description);
     write_json(work, "scene", &description);
     ffd_page_data_write(&work->data, &work->writer);
+    ffd_page_splats_write(&work->mesh, &work->writer);
     ffd_page_texcoords_write(&work->texcoords, &work->writer);
     ffd_page_images_write(&work->images, &work->writer);
     ffd_page_rig_write(&work->rig, &work->writer);
+    ffd_page_targets_write(&work->targets, &work->writer);
     for (size_t i = 0; i < scene->cage_count; i++) {
         char id[40];
         snprintf(id, sizeof id, "data-cage-%zu", i);
@@ -181,6 +196,7 @@ ffd_status ffd_view_page_write(const view_scene *scene, const view_page_options 
     work.description.texcoords = &work.texcoords;
     work.description.images = &work.images;
     work.description.rig = &work.rig;
+    work.description.targets = &work.targets;
     work.description.options = options;
     ffd_status status;
     TRY_END(prepare(&work, error));
@@ -197,6 +213,7 @@ end:
     ffd_page_images_free(&work.images);
     ffd_page_mesh_free(&work.mesh);
     ffd_page_rig_free(&work.rig);
+    ffd_page_targets_free(&work.targets);
     ffd_free(work.has_cage);
     return status;
 }

@@ -6,16 +6,18 @@
 #include "view/page_images.h"
 #include "view/page_options.h"
 #include "view/page_rig.h"
+#include "view/page_targets.h"
 #include "view/page_texcoords.h"
 
 /* The most notices of what a page leaves out; one sentence each. */
-#define PAGE_NOTICES 6
+#define PAGE_NOTICES 8
 
 typedef struct page_description {
     const page_data *data;
     const page_texcoords *texcoords;
     const page_images *images;
     const page_rig *rig;
+    const page_targets *targets;
     const view_page_options *options;
     const bool *has_cage; /* of each cage: whether the page has its points */
     char notices[PAGE_NOTICES][160];

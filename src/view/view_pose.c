@@ -41,6 +41,29 @@ static void join_bones(const pose_work *w)
     }
 }
 
+double *ffd_view_rest_matrices(mesh_skeleton *s, ffd_error *error)
+{
+    const view_rig rig = {.skeleton = s};
+    double *const matrices = ffd_alloc_zero(s->vertex_count, 9 * sizeof *matrices);
+    pose_work w = {0};
+    const bool made = matrices && !allocate(&rig, &w, error);
+    if (made) {
+        s->pose(s, RIG_NONE, 0, w.worlds, w.weights);
+        join_bones(&w);
+    }
+    for (size_t v = 0; made && v < s->vertex_count; v++)
+        for (size_t i = s->starts[v]; i < s->starts[v + 1]; i++)
+            for (size_t k = 0; k < 9; k++)
+                matrices[9 * v + k] +=
+                    (double)s->influences[i].weight * w.bones[12 * (size_t)s->influences[i].bone + k];
+    free_work(&w);
+    if (made)
+        return matrices;
+    ffd_free(matrices);
+    ffd_fail_memory(error);
+    return NULL;
+}
+
 static void add_targets(const view_rig *rig, const pose_work *w)
 {
     if (w->skeleton->vertex_count > 0)

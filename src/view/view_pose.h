@@ -11,4 +11,8 @@
 ffd_status ffd_view_pose(const view_scene *scene, int side, size_t animation, double time, double **positions,
                          ffd_error *error);
 
+/* Returns the linear parts of the matrices that each vertex of a skeleton's document follows at rest, 9
+   numbers each, row by row; the caller frees them. NULL: memory ran out, and error says so. */
+double *ffd_view_rest_matrices(mesh_skeleton *skeleton, ffd_error *error);
+
 #endif

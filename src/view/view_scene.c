@@ -41,6 +41,24 @@ void ffd_view_scene_free_rigs(view_scene *scene)
     scene->animation_count = 0;
 }
 
+void ffd_view_scene_free_targets(view_scene *scene)
+{
+    for (size_t side = 0; side < 2; side++) {
+        view_target_list *const targets = &scene->targets[side];
+        for (size_t t = 0; t < targets->count; t++) {
+            ffd_free(targets->list[t].vertices);
+            ffd_free(targets->list[t].offsets);
+        }
+        ffd_free(targets->list);
+        *targets = (view_target_list){0};
+    }
+    for (size_t i = 0; i < scene->slider_count; i++)
+        ffd_free(scene->sliders[i].name);
+    ffd_free(scene->sliders);
+    scene->sliders = NULL;
+    scene->slider_count = 0;
+}
+
 void ffd_view_scene_free(view_scene *scene)
 {
     void *const blocks[] = {scene->name,
@@ -67,6 +85,7 @@ void ffd_view_scene_free(view_scene *scene)
                             scene->splats[1]};
     free_lists(scene);
     ffd_view_scene_free_rigs(scene);
+    ffd_view_scene_free_targets(scene);
     ffd_materials_free(&scene->materials);
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         ffd_free(blocks[i]);

@@ -45,6 +45,26 @@ typedef struct view_rig {
     size_t *order; /* index in its document of each vertex that the scene numbers; NULL: the number itself */
 } view_rig;
 
+/* The weight of morph targets of one name, which a page lets one change. */
+typedef struct view_slider {
+    char *name;
+    double weight; /* of the shapes before and after */
+} view_slider;
+
+/* What a morph target moves on one side, by 1 of its weight. */
+typedef struct view_target {
+    size_t slider;
+    size_t rig_weight;  /* index in the weights of the side's skeleton; RIG_NONE: there are none */
+    size_t count;       /* of the vertices that it moves */
+    uint32_t *vertices; /* of the scene */
+    float *offsets;     /* 3 each */
+} view_target;
+
+typedef struct view_target_list {
+    view_target *list;
+    size_t count;
+} view_target_list;
+
 /* An animation of the mesh before, and the one of the same name of the mesh after. */
 typedef struct view_animation {
     char *name;
@@ -86,8 +106,12 @@ typedef struct view_scene {
     view_rig rigs[2]; /* before, after */
     view_animation *animations;
     size_t animation_count;
-    size_t animation;      /* index of the one shown first; animation_count or more: none */
-    char *report;          /* JSON as in data/schema/formats.md 2; NULL: none */
+    size_t animation; /* index of the one shown first; animation_count or more: none */
+    view_slider *sliders;
+    size_t slider_count;
+    view_target_list targets[2]; /* before, after */
+    bool same_targets;           /* those after are those before; their list is then empty */
+    char *report;                /* JSON as in data/schema/formats.md 2; NULL: none */
     uint64_t vertices_all; /* vertices of the mesh in the file, if vertex_count is what a reduction left; else
                               equal to it */
 } view_scene;
@@ -101,6 +125,8 @@ static inline size_t ffd_view_vertex_of(const view_scene *scene, int side, size_
 
 /* Frees the rigs and animations. Must be called while their documents are still open. */
 void ffd_view_scene_free_rigs(view_scene *scene);
+/* Frees the sliders and their targets. */
+void ffd_view_scene_free_targets(view_scene *scene);
 /* Frees all that a scene owns, its rigs included; leaves an empty scene. */
 void ffd_view_scene_free(view_scene *scene);
 

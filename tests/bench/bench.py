@@ -25,6 +25,7 @@ import pictures
 import programs
 import pythons
 import table
+import views
 
 SUBJECTS = {
     "start": jobs.start,
@@ -44,6 +45,7 @@ SUBJECTS = {
     "arrays": kernels.arrays,
     "python": pythons.calls,
     "picture": pictures.picture,
+    "views": views.views,
     "batch": batches.batch,
     "sweep": batches.sweep,
     "positions": batches.positions,

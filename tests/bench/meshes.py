@@ -4,8 +4,10 @@ import array
 import json
 import math
 import os
+import random
 import struct
 import sys
+import zlib
 
 
 def surface(side):
@@ -97,6 +99,51 @@ def write_glb_with_tangents(path, side):
     positions, normals = surface(side)
     write_streams(path, side, [("POSITION", "VEC3", positions), ("NORMAL", "VEC3", normals),
                                ("TANGENT", "VEC4", tangents_of(normals))])
+
+
+def write_png(side):
+    """Waves of colours with grain: what a painted texture compresses to, about 2.5 bytes a pixel."""
+    grain = random.Random(1)
+    wave = [int(100 + 80 * math.sin(0.05 * i)) for i in range(side)]
+    rows = (b"\0" + bytes(c for i in range(side) for c in (wave[i] + grain.getrandbits(4), wave[j] + grain.getrandbits(4), wave[(i + j) % side]))
+            for j in range(side))
+    chunks = ((b"IHDR", struct.pack(">IIBBBBB", side, side, 8, 2, 0, 0, 0)), (b"IDAT", zlib.compress(b"".join(rows), 6)), (b"IEND", b""))
+    return b"\x89PNG\r\n\x1a\n" + b"".join(struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+                                          for kind, data in chunks)
+
+
+def write_textured(path, side, images, pixels):
+    """The surface with so many images of pixels x pixels, beside path as image-0.png ..: a material each, of a run of its rows.
+    images 0: no material, and no coordinates."""
+    positions, normals = surface(side)
+    texcoords = array.array("f", (x for j in range(side) for i in range(side) for x in (i / (side - 1), j / (side - 1))))
+    indices = triangles(side)
+    streams = [("POSITION", "VEC3", positions), ("NORMAL", "VEC3", normals)] + ([("TEXCOORD_0", "VEC2", texcoords)] if images else [])
+    document = gltf_of(streams, indices)
+    data = b"".join(part.tobytes() for _, _, part in streams) + indices.tobytes()
+    document["buffers"] = [{"byteLength": len(data), "uri": os.path.basename(path) + ".bin"}]
+    with open(path + ".bin", "wb") as file:
+        file.write(data)
+    if images:
+        add_materials(document, path, images, pixels)
+    with open(path, "w", encoding="ascii") as file:
+        json.dump(document, file)
+
+
+def add_materials(document, path, images, pixels):
+    """A primitive and a material for each run of triangles."""
+    (mesh,) = document["meshes"]
+    whole, count = mesh["primitives"][0], document["accessors"][-1]["count"] // 3
+    mesh["primitives"] = []
+    for i in range(images):
+        first, end = 3 * (count * i // images), 3 * (count * (i + 1) // images)
+        document["accessors"].append({**document["accessors"][whole["indices"]], "byteOffset": 4 * first, "count": end - first})
+        mesh["primitives"].append({**whole, "indices": len(document["accessors"]) - 1, "material": i})
+        with open(os.path.join(os.path.dirname(path), f"image-{i}.png"), "wb") as file:
+            file.write(write_png(pixels))
+    document["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": i}}} for i in range(images)]
+    document["textures"] = [{"source": i} for i in range(images)]
+    document["images"] = [{"uri": f"image-{i}.png"} for i in range(images)]
 
 
 def obj_lines(side, corner):

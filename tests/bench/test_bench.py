@@ -36,6 +36,8 @@ SUBJECTS = {
     "Arrays in memory": ["float32: kernels", "float32: one call", "float64, gradients: one call", "u,v,w: one call",
                          "float64: a point a call"],
     "Picture of 1600x900": ["copy of its bytes, new memory", "copy of its bytes, the same memory", "3200 triangles"],
+    "Pages and pictures with textures": ["page, all vertices: grey", "page, all vertices: textured", "page: textured", "picture: grey",
+                                         "picture: textured"],
     "Batch of 20 meshes": ["obj, box: batch", "glb, warped: a command each"],
     "Sweep of 2 lattices": ["box: a command each", "box: batch", "warped: batch"],
     "Array of 1,000 variants": ["box: rows", "warped: a mesh file each"],

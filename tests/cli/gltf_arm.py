@@ -43,3 +43,29 @@ def arm(names=("turn", "lift"), times=(0, 2), interpolation="LINEAR"):
     asset.asset["buffers"] = [{"byteLength": len(asset.data), "uri": "data:application/octet-stream;base64,"
                                + base64.b64encode(asset.data).decode()}]
     return asset.asset
+
+
+def face(names, weights=None):
+    """The arm, whose skin has two targets of these names: one that lifts, one that widens it; beside a mesh under a turned
+    node that has a target of the first name. weights: the default ones, of each mesh."""
+    asset = GltfAsset()
+    asset.asset = arm()
+    asset.data = base64.b64decode(asset.asset["buffers"][0]["uri"].split(",")[1])
+    up = [(0, 0, 0.25 * (v % 3)) for v in range(8)]
+    wide = [(0, 0.5 if v % 2 else -0.5, 0) for v in range(8)]
+    mesh = asset.asset["meshes"][0]
+    mesh["primitives"][0]["targets"] = [{"POSITION": accessor(asset, rows, "VEC3")} for rows in (up, wide)]
+    mesh["extras"] = {"targetNames": list(names)}
+    places = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    lifted = accessor(asset, [(0, 0, 0), (0, 0, 0), (0, 1, 0.5), (0, 0, 0)], "VEC3")
+    asset.asset["meshes"].append({"primitives": [{"attributes": {"POSITION": accessor(asset, places, "VEC3")}, "targets": [{"POSITION": lifted}],
+                                                  "indices": accessor(asset, [(c,) for c in (0, 1, 2, 0, 3, 1)], "SCALAR", UBYTE)}],
+                                  "extras": {"targetNames": list(names[:1])}})
+    asset.asset["nodes"].append({"mesh": 1, "translation": [1, 1, 0], "rotation": [0, 0, 0.6, 0.8], "scale": [1, 2, 1]})
+    asset.asset["scenes"][0]["nodes"].append(len(asset.asset["nodes"]) - 1)
+    for number, one in enumerate(asset.asset["meshes"]):
+        if weights:
+            one["weights"] = weights[number]
+    asset.asset["buffers"] = [{"byteLength": len(asset.data), "uri": "data:application/octet-stream;base64,"
+                               + base64.b64encode(asset.data).decode()}]
+    return asset.asset

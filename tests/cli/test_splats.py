@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Gaussian splats: their ellipsoids and spherical harmonics beside exact ones that are computed here, in 40 digits and by
 values in directions; what stays as it is, and what is said."""
+import base64
 import decimal
 import json
 import math
 import random
+import re
 import struct
 from decimal import Decimal
 
@@ -12,6 +14,7 @@ from gltf_build import SHIFT, Scene
 from gltf_reader import Gltf
 from harness import INVALID, case, check, equal, float32, lattice, main, obj_of, threaded_case
 from messages import anything, lines_with, one_line
+from page import read_page
 
 decimal.getcontext().prec = 40
 
@@ -253,6 +256,43 @@ def each_splat_of_a_bent_cloud_has_its_own_gradient(run):
     gradients = [transposed([[(a - b) / (2 * h) for a, b in zip(moved[6 * s + 2 * axis], moved[6 * s + 2 * axis + 1])] for axis in range(3)])
                  for s in range(12)]
     check_covariances(before, after, gradients, 1e-4)
+
+
+def page_covariances(page, name):
+    """Of each vertex xx, xy, xz, yy, yz, zz."""
+    data = base64.b64decode(page.blocks[name])
+    return [[most * q / 32767 for q in rounded_to] for most, *rounded_to in struct.iter_unpack("<f6h", data)]
+
+
+@case
+def pages_have_the_ellipsoids_before_and_after(run):
+    """In 16 bits of the largest entry of each; without a deformation once."""
+    rows = cloud(300, 0, "float", seed=7)
+    shear = [[1, 0.7, 0], [0, 1, 0], [0, 0.5, 1]]
+    run.write("a.ply", ply(rows))
+    run.write("l.json", by(shear))
+    run.ffd("view", "a.ply", "-l", "l.json", "-o", "p.html")
+    page = read_page(run, "p.html")
+    pairs = ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))
+    f = [[Decimal(x) for x in line] for line in shear]
+    for name, change in (("data-splat-before", None), ("data-splat-after", f)):
+        for row, found in zip(rows, page_covariances(page, name), strict=True):
+            exact = product(product(change, covariance(row)), transposed(change)) if change else covariance(row)
+            most = max(abs(x) for line in exact for x in line)
+            check(all(abs(float(exact[i][j]) - x) <= 2e-5 * float(most) for (i, j), x in zip(pairs, found)), name, row, found)
+    run.ffd("view", "a.ply", "-o", "alone.html")
+    alone = read_page(run, "alone.html")
+    check("data-splat-before" in alone.blocks and "data-splat-after" not in alone.blocks, "the same ellipsoids twice")
+    equal([alone.scene["points"], alone.scene["notices"]], [300, []], "all splats")
+
+
+@case
+def a_page_of_many_splats_says_what_it_leaves_out(run):
+    rows = cloud(50, 0, "float", seed=8)
+    run.write("a.ply", ply([rows[i % 50] for i in range(200050)]))
+    run.ffd("view", "a.ply", "-o", "p.html", err=re.compile("of 200050 vertices are drawn"))
+    page = read_page(run, "p.html")
+    check(0 < page.scene["points"] <= 200000 and len(page_covariances(page, "data-splat-before")) == page.scene["points"], "splats that are left")
 
 
 @case

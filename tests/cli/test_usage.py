@@ -18,7 +18,7 @@ OPTIONS = {
                  "--only", "--threads", "--isa", "--memory", "--allow-extension", "--strict", "--input-format", "--force"},
     "compare": {"--recursive", "--tolerance", "--normal-tolerance", "--json", "--input-format", "--memory", "--strict"},
     "info": {"--json", "--parts", "--set", "--input-format", "--memory", "--strict"},
-    "view": {"--output", "--size", "--camera", "--up", "--no-cage", "--color", "--frames", "--animation", "--full", "--lattice", "--set", "--shared-box", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--rig", "--only", "--space", "--embedding",
+    "view": {"--output", "--morph", "--size", "--camera", "--up", "--no-cage", "--color", "--frames", "--animation", "--full", "--lattice", "--set", "--shared-box", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--rig", "--only", "--space", "--embedding",
              "--as-morph", "--fail-on", "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict",
              "--allow-extension", "--timeout"},
     "lattice new": {"--output", "--size", "--degree", "--knots", "--margin", "--spacing", "--shape", "--axis", "--axes", "--only",

@@ -215,6 +215,15 @@ class Views(Folder):
         with self.assertRaises(ffd.ExistsError):
             ffd.view_file("spot.obj", "v.png")
 
+    def test_morph_targets_are_those_of_the_program(self):
+        for output, words in (("v.html", []), ("v.png", ["--size", "200x100"])):
+            support.program("view", "spot.obj", "--morph", "turn=twist.json", "--morph", "more=twist.json", "-o", output, "--force", *words)
+            lattices = {"turn": "twist.json", "more": "twist.json"}
+            size = {"size": (200, 100)} if words else {}
+            self.assertEqual(ffd.view_bytes(read("spot.obj"), lattices, name="spot.obj", output=output, **size).data, read(output))
+            ffd.view_file("spot.obj", "ours-" + output, lattices, force=True, **size)
+            self.assertTrue(filecmp.cmp(output, "ours-" + output, shallow=False))
+
     def test_cameras_are_those_of_the_program(self):
         for camera in ("front", "back", "left", "right", "top", "iso"):
             support.program("view", "spot.obj", "-o", "v.png", "--size", "64x64", "--camera", camera, "--force")

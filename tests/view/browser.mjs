@@ -8,9 +8,12 @@ const {chromium, firefox} = createRequire(join(nodeFolder, 'node_modules', 'x'))
 
 export const folder = process.argv[4];
 
-// args: of Chromium.
+// args: of Chromium. Firefox has no WebGL without a screen: where there is one (browser.py), it is used. It takes no option for
+// less motion.
 export function launch(args = []) {
-  if (basename(executablePath).startsWith('firefox')) return firefox.launch({executablePath, channel: 'moz-firefox'});
+  if (basename(executablePath).startsWith('firefox')) {
+    return firefox.launch({executablePath, channel: 'moz-firefox', headless: !process.env.DISPLAY, firefoxUserPrefs: {'webgl.force-enabled': true, 'ui.prefersReducedMotion': 1}});
+  }
   return chromium.launch({executablePath, args: ['--no-sandbox', ...args]});
 }
 
@@ -26,8 +29,8 @@ export async function watch(browser, url, isAllowed, options) {
   if (options.prepare) await page.addInitScript(options.prepare);
   await page.goto(url);
   const end = async () => {
-    if (process.env.FFD_SCREENSHOTS) await page.screenshot({path: join(process.env.FFD_SCREENSHOTS, `${options.name}.png`)});
     assert.deepEqual(said, []);
+    if (process.env.FFD_SCREENSHOTS) await page.screenshot({path: join(process.env.FFD_SCREENSHOTS, `${options.name}.png`)});
     await context.close();
   };
   return {page, end, said};

@@ -31,3 +31,22 @@ def run_script(name, found, pages, home, timeout, *words):
     done = subprocess.run(["node", os.path.join(HERE, name), *found, pages, *words], check=False, env={**os.environ, "HOME": home},
                           timeout=timeout)
     return done.returncode
+
+
+class Screen:
+    """A screen that nobody sees, for what a browser draws only on one: DISPLAY names it. Skips the test without Xvfb."""
+
+    def __enter__(self):
+        if not shutil.which("Xvfb"):
+            skip("Xvfb is not there (Debian's package xvfb)")
+        reader, writer = os.pipe()
+        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(writer), "-screen", "0", "1600x1200x24", "-nolisten", "tcp"],
+                                       pass_fds=[writer], stderr=subprocess.DEVNULL)
+        os.close(writer)
+        with os.fdopen(reader, encoding="ascii") as numbers:
+            os.environ["DISPLAY"] = ":" + numbers.readline().strip()
+        return self
+
+    def __exit__(self, *_):
+        self.server.terminate()
+        self.server.wait()

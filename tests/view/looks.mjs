@@ -1,11 +1,12 @@
-// Pages of models beside three.js, with one camera and the page's lights: looks.mjs NODE-FOLDER BROWSER FOLDER NAME...
-// For each FOLDER/NAME.glb with its page FOLDER/NAME.html prints [name, difference of the blocks' colours, agreement of the silhouettes].
+// Pages of models beside three.js, with one camera and the page's lights: looks.mjs NODE-FOLDER BROWSER FOLDER FILE...
+// For each FOLDER/FILE with its page FOLDER/FILE.html prints [file, difference of the blocks' colours, agreement of the silhouettes].
+// FFD_SCREENSHOTS names a folder for both as pictures, FILE.page.png and FILE.three.png, / as -.
 import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {folder, launch} from './browser.mjs';
 
 const [nodeFolder] = process.argv.slice(2);
-const names = process.argv.slice(5);
+const files = process.argv.slice(5);
 const SIZE = {width: 640, height: 480}, BLOCK = 8, HOST = 'http://looks.test/';
 
 // Notes the matrices with which a page draws its surface.
@@ -65,15 +66,26 @@ async function drawByThree({url, matrices, space, size}) {
   document.body.replaceChildren(renderer.domElement);
   const gl = renderer.getContext(), bytes = new Uint8Array(4 * size.width * size.height);
   gl.readPixels(0, 0, size.width, size.height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
-  return Array.from(bytes);
+  return window.base64(bytes);
 }
 
-// Of the canvas, rows from below as three.js has them.
-function pixelsOfPage() {
+// Bytes as text: as a list of numbers they take seconds.
+function addBase64() {
+  window.base64 = (bytes) => {
+    let text = '';
+    for (let at = 0; at < bytes.length; at += 4096) text += String.fromCharCode(...bytes.subarray(at, at + 4096));
+    return btoa(text);
+  };
+}
+
+// Of the canvas, once it is drawn again, rows from below as three.js has them.
+async function pixelsOfPage() {
+  document.getElementById('view').dispatchEvent(new WheelEvent('wheel', {deltaY: 0, cancelable: true}));
+  await new Promise((done) => requestAnimationFrame(done));
   const gl = document.getElementById('view').getContext('webgl2');
   const {width, height} = gl.canvas, bytes = new Uint8Array(4 * width * height);
   gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
-  return Array.from(bytes);
+  return window.base64(bytes);
 }
 
 function compare(a, b, {width, height}) {
@@ -113,13 +125,15 @@ await three.route(HOST + '**', (route) => {
   }
   const isModel = path.startsWith('/model/');
   const file = isModel ? join(folder, path.slice('/model/'.length)) : join(nodeFolder, 'node_modules', path);
-  return route.fulfill({contentType: isModel ? 'model/gltf-binary' : 'text/javascript', body: readFileSync(file)});
+  return route.fulfill({contentType: isModel ? 'application/octet-stream' : 'text/javascript', body: readFileSync(decodeURIComponent(file))});
 });
 const other = await three.newPage();
-for (const name of names) {
+await other.addInitScript(addBase64);
+for (const file of files) {
   const page = await browser.newPage({viewport: {width: SIZE.width + 350, height: 900}, reducedMotion: 'reduce'});
   await page.addInitScript(noteMatrices);
-  await page.goto('file://' + join(folder, name + '.html'));
+  await page.addInitScript(addBase64);
+  await page.goto('file://' + encodeURI(join(folder, file + '.html')));
   await page.waitForSelector('html[data-ready]');
   await page.waitForFunction(() => window.matrices);
   await page.waitForTimeout(700);
@@ -129,12 +143,13 @@ for (const name of names) {
   const low = data.low, high = data.low.map((x, a) => x + 65535 * data.step[a]);
   const whole = {center: low.map((x, a) => (x + high[a]) / 2), scale: Math.max(...low.map((x, a) => (high[a] - x) / 2)) || 1};
   await other.goto(HOST);
-  const theirs = await other.evaluate(drawByThree, {url: HOST + 'model/' + name + '.glb', matrices, space: whole, size});
+  const theirs = await other.evaluate(drawByThree, {url: HOST + 'model/' + encodeURI(file), matrices, space: whole, size});
   if (process.env.FFD_SCREENSHOTS) {
-    await page.locator('#view').screenshot({path: join(process.env.FFD_SCREENSHOTS, `looks_${name}_page.png`)});
-    await other.locator('canvas').screenshot({path: join(process.env.FFD_SCREENSHOTS, `looks_${name}_three.png`)});
+    const shot = join(process.env.FFD_SCREENSHOTS, file.replaceAll('/', '-'));
+    await page.locator('#view').screenshot({path: shot + '.page.png'});
+    await other.locator('canvas').screenshot({path: shot + '.three.png'});
   }
-  console.log(JSON.stringify([name, ...compare(mine, theirs, size)]));
+  console.log(JSON.stringify([file, ...compare(Buffer.from(mine, 'base64'), Buffer.from(theirs, 'base64'), size)]));
   await page.close();
 }
 await browser.close();

@@ -1,4 +1,4 @@
-// Opens pages of ffd view in a browser and uses them as people do: page.mjs NODE-FOLDER BROWSER PAGES made|real
+// Opens pages of ffd view in a browser and uses them as people do: page.mjs NODE-FOLDER BROWSER PAGES made|real|firefox
 import assert from 'node:assert/strict';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
@@ -392,6 +392,68 @@ async function phonesAndDarkAreServed() {
   await end();
 }
 
+// Ellipses of their colours, the nearest in front from each side, as the deformation stretches them.
+async function splatsAreEllipsesInOrder() {
+  const {page, end} = await open('real_splats', {viewport: {width: 1300, height: 900}});
+  assert.ok(await page.locator('#color-plain').isChecked(), 'a page opens in the colours of the splats');
+  const middle = [0.5, 0.5], aside = [0.7, 0.5], below = (height) => [0.5, 0.5 + 0.8 / height];
+  const isRed = ([r, , b]) => r > 200 && b < 60, isBlue = ([r, , b]) => b > 200 && r < 60, isEmpty = (color) => color.every((c) => c === 0);
+  await page.locator('#blend').fill('0');
+  let seen = await coloursAt(page, [middle, aside, below(3), [0, 0]]);
+  assert.ok(isRed(seen[0]) && seen[1][0] > 150 && isEmpty(seen[2]), `before: ${seen.join('; ')}`);
+  await page.locator('#blend').fill('100');
+  seen = await coloursAt(page, [middle, aside, below(9)]);
+  assert.ok(isRed(seen[0]) && seen[2][0] > 120, `three times as high after: ${seen.join('; ')}`);
+  await page.locator('#view').focus();
+  await changes(page, 'key b', () => page.keyboard.press('b'));
+  seen = await coloursAt(page, [middle]);
+  assert.ok(isBlue(seen[0]), `from the back: ${seen[0]}`);
+  await changes(page, 'status', () => page.locator('#color-status').check({force: true}));
+  const [status] = await coloursAt(page, [middle]);
+  [74, 144, 217].forEach((c, a) => assert.ok(Math.abs(status[a] - c) <= 3, `inside: ${status}`));
+  await end();
+}
+
+// Sliders at their defaults show what the file does; each changes the picture, also while an animation plays.
+async function morphTargetsHaveSliders() {
+  const {page, end} = await open('real_face');
+  const row = (number) => page.locator('#targets input').nth(number);
+  assert.match(await text(page, '#targets'), /Morph targets \(3\)[^]*up[^]*0\.5[^]*<\/script><img src=x onerror=alert\(5\)>\\n\\u\{202e\}[^]*up/);
+  assert.deepEqual(await page.locator('#targets input').evaluateAll((all) => all.map((one) => [one.min, one.max, one.value])),
+    [['0', '1', '0.5'], ['0', '1', '0'], ['0', '1', '0']]);
+  const first = await settled(page);
+  await eachChanges(page, [['a slider', () => row(0).fill('1')], ['another', () => row(1).fill('0.8')], ['a third', () => row(2).fill('1')],
+    ['the way before', () => page.locator('#blend').fill('0')], ['a slider, before', () => row(1).fill('0.1')]]);
+  await page.locator('#blend').fill('100');
+  await page.click('#targets button');
+  assert.equal(await picture(page), first, 'the weights of the file');
+  await page.locator('#animation').selectOption({label: 'turn'});
+  await page.locator('#time').fill('150');
+  const posed = await picture(page);
+  await eachChanges(page, [['a slider, in a pose', () => row(1).fill('1')], ['the time', () => page.locator('#time').fill('60')]]);
+  await page.locator('#time').fill('150');
+  await page.click('#targets button');
+  assert.equal(await picture(page), posed, 'the pose as before');
+  await end();
+}
+
+async function newTargetsAreInFull() {
+  const {page, end} = await open('real_morph');
+  assert.match(await text(page, '#targets'), /<img src=x onerror=alert\(6\)>[^]*1$/);
+  const row = page.locator('#targets input').last();
+  assert.deepEqual(await row.evaluate((one) => [one.min, one.max, one.value]), ['0', '1', '1']);
+  await changes(page, 'the new target', () => row.fill('0'));
+  const without = await picture(page);
+  await page.locator('#blend').fill('0');
+  // The cage moves all the same.
+  await page.locator('#show-showCage').uncheck();
+  const before = await picture(page);
+  await page.locator('#blend').fill('100');
+  assert.equal(await picture(page), before, 'a target at 0 leaves the mesh as it is');
+  assert.notEqual(without, before);
+  await end();
+}
+
 async function thePolicyForbidsRequests() {
   const {page, said} = await open('empty');
   assert.deepEqual(said, []);
@@ -418,6 +480,8 @@ const tests = {
     hostileNamesAreText, largeAndEmptyMeshesOpen, aCutPageSaysSo, withoutWebGLThereAreFigures, phonesAndDarkAreServed,
     thePolicyForbidsRequests],
   real: [aRealFoldIsPicked, realTearsAreListed, filesAreColouredByDisplacement, aMeshAloneHasNoSlider,
-    farControlPointsLeaveTheMeshItsSize, materialsLookAsTheyAre, whatPointsUpwardsStandsUpright, realHostileNamesAreText, animationsArePlayed],
+    farControlPointsLeaveTheMeshItsSize, materialsLookAsTheyAre, whatPointsUpwardsStandsUpright, realHostileNamesAreText, animationsArePlayed, splatsAreEllipsesInOrder, morphTargetsHaveSliders, newTargetsAreInFull],
+  // In Firefox: one page of each kind of content.
+  firefox: [materialsLookAsTheyAre, realHostileNamesAreText, animationsArePlayed, splatsAreEllipsesInOrder, morphTargetsHaveSliders],
 };
 await runAll(browser, tests[process.argv[5]]);

@@ -9,7 +9,7 @@ const blocks = {};
 for (const [, id, text] of readFileSync(file, 'utf8').matchAll(/<script type="[^"]*" id="([^"]*)">([^<]*)<\/script>/g)) {
   blocks[id] = {textContent: text, remove() {}};
 }
-const source = ['rig.js', 'decode.js', 'normals.js'].map((name) => readFileSync(join(scripts, name), 'utf8')).join('\n');
+const source = ['rig.js', 'morph.js', 'decode.js', 'normals.js'].map((name) => readFileSync(join(scripts, name), 'utf8')).join('\n');
 const page = vm.runInNewContext(source + '\n;({readScene, poseScene, splitVertices, poseNormals, jointMarks})',
   {byId: (id) => blocks[id] || null, atob, console});
 const scene = page.readScene();

@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
 """Pages of ffd view in Chromium, opened as files: the slider, colours, parts, marks, names, sizes of windows, and that
 nothing is asked of a network. Those of `made` are made by hand, with what a page may have at the most; those of `real` by
-the program, of a lattice that folds, of one that tears, and of names that are markup.
+the program, of a lattice that folds, of one that tears, and of names that are markup. `firefox`: five of these in Firefox.
 
-    test_page.py FFD MAKE_PAGE MODEL.obj made|real
+    test_page.py FFD MAKE_PAGE MODEL.obj made|real|firefox
 
 FFD_NODE names the folder whose node_modules holds playwright-core. FFD_SCREENSHOTS names a folder for pictures to be
 looked at.
 """
 
 import base64
+import contextlib
 import json
+import math
 import os
 import shutil
 import struct
@@ -18,10 +20,10 @@ import subprocess
 import sys
 import tempfile
 
-from browser import find_browser, run_script
+from browser import Screen, find_browser, run_script
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
-from gltf_arm import arm  # noqa: E402 (a neighbour of this folder)
+from gltf_arm import arm, face  # noqa: E402 (a neighbour of this folder)
 from png_make import make_png  # noqa: E402
 
 KINDS = ("torn", "fold", "hostile", "large", "empty")
@@ -95,6 +97,16 @@ def looks_gltf():
             "buffers": [{"byteLength": len(whole), "uri": "data:application/octet-stream;base64," + base64.b64encode(whole).decode()}]}
 
 
+def splats_ply():
+    """Long ellipsoids, a red one before a blue one; small green ones at the corners of 4 x 3."""
+    names = ["x", "y", "z", "f_dc_0", "f_dc_1", "f_dc_2", "opacity", *(f"scale_{i}" for i in range(3)), *(f"rot_{i}" for i in range(4))]
+    rows = [((0, 0, 0.2), (1, 0, 0), (0.8, 0.2, 0.05)), ((0, 0, -0.2), (0, 0, 1), (0.8, 0.2, 0.05)),
+            *(((x, y, 0), (0, 1, 0), (0.02, 0.02, 0.02)) for x in (-2, 2) for y in (-1.5, 1.5))]
+    head = f"ply\nformat ascii 1.0\nelement vertex {len(rows)}\n" + "".join(f"property float {name}\n" for name in names) + "end_header\n"
+    lines = [(*place, *((c - 0.5) / 0.28209479177387814 for c in color), 3, *map(math.log, size), 1, 0, 0, 0) for place, color, size in rows]
+    return head + "".join(" ".join(map(repr, line)) + "\n" for line in lines)
+
+
 def make_real(ffd, model, folder):
     """Pages as users make them."""
     def write(name, content):
@@ -129,6 +141,15 @@ def make_real(ffd, model, folder):
     write("arm.gltf", arm(names=("turn", "</script><img src=x onerror=alert(4)>\n\u202e")))
     wide = write("wide.json", {"format": "ffd-lattice", "version": 1, **WIDE})
     subprocess.run([ffd, "view", "arm.gltf", "-l", wide, "--animation", "turn", "-o", "real_arm.html", "-q"], cwd=folder, check=True)
+    with open(os.path.join(folder, "splats.ply"), "w", encoding="ascii") as file:
+        file.write(splats_ply())
+    tall = write("tall.json", {"format": "ffd-lattice", "version": 1, "size": [2, 2, 2], "degree": [1, 1, 1],
+                               "rest": {"box": {"min": [-5, -5, -5], "max": [5, 5, 5]}}, "moves": [{"scale": {"factor": [1, 3, 1], "about": [0, 0, 0]}}]})
+    subprocess.run([ffd, "view", "splats.ply", "-l", tall, "--camera", "front", "--no-cage", "-o", "real_splats.html", "-q"], cwd=folder, check=True)
+    write("face.gltf", face(("up", "</script><img src=x onerror=alert(5)>\n\u202e"), [[0.5, 0], [0]]))
+    subprocess.run([ffd, "view", "face.gltf", "-l", wide, "--color", "plain", "-o", "real_face.html", "-q"], cwd=folder, check=True)
+    subprocess.run([ffd, "view", "face.gltf", "--morph", f"'<img src=x onerror=alert(6)>'={os.path.basename(wide)}", "-o", "real_morph.html", "-q"],
+                   cwd=folder, check=True)
     for kind, mesh, moves in (("far", "high.obj", FAR), ("fold", "fold.obj", FOLD), ("tear", "a.obj", TEAR), ("hostile", os.path.basename(hostile), FOLD)):
         lattice = write("<b>cage.json" if kind == "hostile" else kind + ".json",
                         {"format": "ffd-lattice", "version": 1, **moves})
@@ -145,13 +166,14 @@ def make_by_hand(make_page, model, folder):
 def main():
     ffd, make_page, model = [os.path.abspath(path) for path in sys.argv[1:4]]
     origin = sys.argv[4]
-    found = find_browser()
+    found = find_browser(*(("firefox-esr", "firefox") if origin == "firefox" else ()))
     with tempfile.TemporaryDirectory() as folder:
         if origin == "made":
             make_by_hand(make_page, model, folder)
         else:
             make_real(ffd, model, folder)
-        code = run_script("page.mjs", found, folder, folder, 140, origin)
+        with Screen() if origin == "firefox" else contextlib.nullcontext():
+            code = run_script("page.mjs", found, folder, folder, 140, origin)
     sys.exit(code)
 
 

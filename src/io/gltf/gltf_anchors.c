@@ -3,6 +3,7 @@
 #include "io/gltf/gltf_skeleton.h"
 #include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/model/gltf_parts.h"
+#include "io/gltf/model/gltf_results.h"
 #include "io/gltf/model/gltf_scene.h"
 #include "io/gltf/read/gltf_elements.h"
 #include <string.h>
@@ -31,17 +32,6 @@ static const double *rest_of(const anchor_work *w, size_t part)
     return mat_invert(world, inverse) ? world : identity;
 }
 
-/* Overwrites values by a stream's results where they differ; stored integers may be more precise than
-   floats. */
-static void put_results(const gltf_stream *stream, size_t count, double *values)
-{
-    for (size_t i = 0; i < 3 * count && stream->result; i++) {
-        const bool filled = !stream->filled || stream->filled[i / 3 / MESH_RANGE_STEP];
-        if (filled && ((float)values[i] < stream->result[i] || (float)values[i] > stream->result[i]))
-            values[i] = stream->result[i];
-    }
-}
-
 static void place_part(const anchor_work *w, size_t part)
 {
     const gltf_document *const d = w->rig->document;
@@ -50,7 +40,7 @@ static void place_part(const anchor_work *w, size_t part)
     const double *const rest = rest_of(w, part);
     ffd_gltf_read_shown(d, part, GLTF_POSITION, w->state, 0, count, 3, points);
     if (w->after)
-        put_results(&d->parts[part].streams[GLTF_POSITION], count, points);
+        ffd_gltf_put_results(&d->parts[part].streams[GLTF_POSITION], count, points);
     for (size_t i = 0; i < count; i++)
         ffd_point_transform(rest, rest + 9, points + 3 * i);
 }
@@ -79,7 +69,7 @@ static ffd_status add_target(anchor_work *w, size_t part, size_t target, size_t 
     w->anchors->target_count++;
     ffd_gltf_read(d, d->parts[target].streams[GLTF_POSITION].accessor, 0, count, 3, to->offsets);
     if (w->after)
-        put_results(&d->parts[target].streams[GLTF_POSITION], count, to->offsets);
+        ffd_gltf_put_results(&d->parts[target].streams[GLTF_POSITION], count, to->offsets);
     for (size_t i = 0; i < count; i++)
         mat_apply(rest, to->offsets + 3 * i, to->offsets + 3 * i);
     return FFD_OK;

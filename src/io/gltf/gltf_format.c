@@ -92,6 +92,8 @@ static const mesh_morph_calls morphs = {
     .write_offsets = ffd_gltf_write_offsets,
     .keep_base = ffd_gltf_keep_base,
     .keep_clips = ffd_gltf_keep_clips,
+    .list_targets = ffd_gltf_list_targets,
+    .read_target = ffd_gltf_read_target,
 };
 static const mesh_rig_calls rig = {.read_skeleton = ffd_gltf_read_skeleton,
                                    .read_anchors = ffd_gltf_read_anchors};

@@ -109,6 +109,7 @@ static ffd_status differentiate(const ffd_jacobian_desc *desc, ffd_jacobian_resu
     jacobian j = {.desc = desc};
     ffd_status status;
     TRY_END(ffd_deform_job_begin(&j.job, desc->job, true, &figures));
+    TRY_END(ffd_deform_job_refuse_morphs(desc->job, &figures.error));
     TRY_END(ffd_deform_job_open(&j.job, desc->by == FFD_BY_PARAMETERS ? JOB_NEEDS_DERIVATIVES : 0, &figures,
                                 &figures.error));
     if (!desc->job->sink)

@@ -38,6 +38,7 @@ typedef struct view_work {
     view_scene scene;
     uint32_t *faces;      /* of each triangle: its polygon */
     mesh_document *other; /* the deformed mesh file, kept open for its animations */
+    view_morphs morphs;
 } view_work;
 
 void ffd_view_desc_init(ffd_view_desc *desc, size_t size)
@@ -97,10 +98,17 @@ static ffd_status check_desc(const view_work *work, ffd_error *error)
     return desc->sink || work->frames->measured ? FFD_OK : ffd_output_check(desc->output, desc->force, error);
 }
 
+/* Whether the shapes without any morph target are shown. The job of --morph deforms these, but the mesh is
+   shown with its default weights, as viewers show its output. */
+static bool is_stored(const view_work *work)
+{
+    return work->job.stored && !work->desc->job->morphs;
+}
+
 /* What is shown of a mesh: the base, or what default weights of morph targets make of it. */
 static mesh_state shown_state(const view_work *work, const mesh_document *document)
 {
-    return !work->job.stored && ffd_mesh_shows_shapes(document) ? MESH_SHOWN : MESH_STORED;
+    return !is_stored(work) && ffd_mesh_shows_shapes(document) ? MESH_SHOWN : MESH_STORED;
 }
 
 /* Reads the mesh in the shape that is shown. */
@@ -148,7 +156,8 @@ static ffd_status make_rigs(view_work *work, bool deformed, ffd_error *error)
                                  .deformed = deformed,
                                  .follows = deformed && desc->job->rig == FFD_RIG_FOLLOW,
                                  .gradients = work->details.gradients,
-                                 .state = work->job.stored ? MESH_STORED : MESH_SHOWN,
+                                 .shift = work->morphs.shift,
+                                 .state = is_stored(work) ? MESH_STORED : MESH_SHOWN,
                                  .before_name = ffd_source_name(&desc->job->input),
                                  .after_name = desc->deformed ? ffd_source_name(desc->deformed) : NULL,
                                  .animation = desc->animation,
@@ -157,17 +166,36 @@ static ffd_status make_rigs(view_work *work, bool deformed, ffd_error *error)
     return ffd_view_make_rigs(&rigs, &work->scene, error);
 }
 
+/* Adds the morph targets of a page. The rigs come first: they take results that these may replace. */
+static ffd_status make_targets(view_work *work, bool deformed, ffd_error *error)
+{
+    const ffd_deform_desc *const job = work->desc->job;
+    const view_targets_desc targets = {.before = work->job.document,
+                                       .after = work->other,
+                                       .job = &work->job,
+                                       .deforms = deformed && !job->morphs && !job->as_morph,
+                                       .stored = is_stored(work),
+                                       .morph_names = job->morphs,
+                                       .morph_count = work->morphs.count,
+                                       .morphs = &work->morphs,
+                                       .log = &work->job.log};
+    return is_page(work->desc->output) ? ffd_view_add_targets(&targets, &work->scene, error) : FFD_OK;
+}
+
 /* Takes the job's figures into the scene, as marks and a report. */
 static ffd_status take_findings(view_work *work, const ffd_job_result *result, ffd_error *error)
 {
     deform_job *const job = &work->job;
     TRY(ffd_view_take_mesh(&work->model, &work->scene, &work->faces, &job->log, error));
-    TRY(ffd_view_place_after(&work->model, work->details.deformed, &work->scene, error));
+    TRY(ffd_view_place_after(&work->model, job->desc->morphs ? work->morphs.after : work->details.deformed,
+                             &work->scene, error));
     TRY(ffd_view_add_marks(job, result, &work->model, work->faces, &work->scene, error));
-    TRY(ffd_view_add_splats(job->document, NULL, work->details.gradients, &work->scene, error));
+    TRY(ffd_view_add_splats(job->document, NULL, job->desc->morphs ? NULL : work->details.gradients,
+                            &work->scene, error));
     if (!work->desc->no_cage)
         TRY(ffd_view_add_cages(&job->chain, work->desc->job->lattices, &work->scene, error));
-    TRY(make_rigs(work, true, error));
+    TRY(make_rigs(work, !job->desc->morphs, error));
+    TRY(make_targets(work, true, error));
     return make_report(work, result, error);
 }
 
@@ -188,9 +216,10 @@ static ffd_status run_job(view_work *work, ffd_job_result *result, ffd_error *er
     TRY(check_mesh(work, &work->desc->job->input, job->document, error));
     TRY(read_model(work, error));
     /* Deform the shape with default weights, as for a conversion. */
-    job->converts = shown_state(work, job->document) == MESH_SHOWN;
+    job->converts = !job->desc->morphs && shown_state(work, job->document) == MESH_SHOWN;
     job->details = &work->details;
-    ffd_status status = ffd_deform_job_run(job, result, &result->error);
+    ffd_status status = job->desc->morphs ? ffd_view_run_morphs(job, &work->morphs, result, &result->error)
+                                          : ffd_deform_job_run(job, result, &result->error);
     result->status = status;
     if (status == FFD_E_GATE)
         ffd_fail_name_file(&result->error, ffd_source_name(&work->desc->job->input));
@@ -226,27 +255,6 @@ static ffd_status load_cages(view_work *work, ffd_error *error)
                                : ffd_view_add_cages(&job->chain, desc->lattices, &work->scene, error);
 }
 
-/* Reads the positions of all vertices, in the order of `ffd embed`. */
-static ffd_status read_positions(const view_work *work, mesh_document *document, double **positions,
-                                 ffd_error *error)
-{
-    const size_t count = (size_t)ffd_mesh_vertex_count(document);
-    size_t first = 0;
-    TRY(ffd_budget_take(&document->budget, count, 3 * sizeof **positions, error));
-    *positions = ffd_alloc(count, 3 * sizeof **positions);
-    if (!*positions)
-        return ffd_fail_memory(error);
-    for (size_t i = 0; i < document->part_count; i++) {
-        const mesh_part *const part = &document->parts[i];
-        if (part->repeats_positions)
-            continue;
-        ffd_source_positions(document, shown_state(work, document), i, 0, part->vertex_count,
-                             *positions + 3 * first);
-        first += part->vertex_count;
-    }
-    return FFD_OK;
-}
-
 /* Sets the positions after to those of the deformed mesh file. */
 static ffd_status read_deformed(view_work *work, ffd_error *error)
 {
@@ -260,7 +268,7 @@ static ffd_status read_deformed(view_work *work, ffd_error *error)
                               "has %llu vertices, and %s has %llu: they are not one mesh before and after",
                               (unsigned long long)ffd_mesh_vertex_count(work->other),
                               ffd_source_name(&work->desc->job->input), (unsigned long long)count));
-    TRY_END(read_positions(work, work->other, &positions, error));
+    TRY_END(ffd_view_read_positions(work->other, shown_state(work, work->other), &positions, error));
     TRY_END(ffd_view_match_parts(work->job.document, work->other, &work->scene.rigs[1].order, error));
     TRY_END(ffd_view_place_after(&work->model, positions, &work->scene, error));
 end:
@@ -278,7 +286,8 @@ static ffd_status read_files(view_work *work, ffd_error *error)
                              : ffd_view_place_after(&work->model, NULL, &work->scene, error));
     TRY(ffd_view_add_splats(work->job.document, work->other, NULL, &work->scene, error));
     TRY(load_cages(work, error));
-    return make_rigs(work, false, error);
+    TRY(make_rigs(work, false, error));
+    return make_targets(work, false, error);
 }
 
 static ffd_status write_page(const view_work *work, file_output *output, ffd_error *error)
@@ -331,6 +340,7 @@ end:
 static void free_sources(view_work *work)
 {
     ffd_details_free(&work->details);
+    ffd_view_free_morphs(&work->morphs);
     ffd_model_free(&work->model);
     ffd_free(work->faces);
     work->faces = NULL;

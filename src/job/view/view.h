@@ -1,7 +1,7 @@
 /* view.h - the steps in which `ffd view` makes its scene, each in a source of its own: the inputs that the
    output must not replace (view_inputs.c), the geometry (view_mesh.c), which vertices of two files are the
    same (view_order.c), marks and control lattices (view_marks.c), animations (view_rigs.c), Gaussian splats
-   (view_splats.c). */
+   (view_splats.c), the passes of --morph (view_morphs.c), morph targets (view_targets.c). */
 #ifndef FFD_JOB_VIEW_VIEW_H
 #define FFD_JOB_VIEW_VIEW_H
 
@@ -9,6 +9,7 @@
 #include "mesh/mesh.h"
 #include "mesh/mesh_log.h"
 #include "mesh/model.h"
+#include "mesh/morphs.h"
 #include "view/view_scene.h"
 
 /* Refuses an output that is a mesh, a lattice or the embedding of the view (FFD_E_EXISTS). */
@@ -50,6 +51,44 @@ ffd_status ffd_view_add_cages(const lattice_chain *chain, const ffd_lattice_sour
 /* Finds the largest displacement of a vertex. */
 void ffd_view_measure(view_scene *scene);
 
+/* What the lattices of --morph do, 3 numbers for each vertex of the document. All zeros: there are none. */
+typedef struct view_morphs {
+    float **moves; /* by how much each target moves a vertex, in the order of the lattices */
+    size_t count;
+    double *base;  /* the stored shape */
+    double *after; /* the shape that default weights show with all targets in full */
+    double *shift; /* by how much it differs from that without them */
+} view_morphs;
+
+/* Reads the positions of all vertices in the order of `ffd embed`; the caller frees them in every case.
+   Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+ffd_status ffd_view_read_positions(const mesh_document *document, mesh_state state, double **positions,
+                                   ffd_error *error);
+/* Runs an open job whose description has morphs, once for each lattice, and fills morphs and job->details;
+   details are of the base with all targets in full. Free them with ffd_view_free_morphs in every case.
+   Errors: as ffd_deform_job_run; FFD_E_GATE is returned when all targets have run. */
+ffd_status ffd_view_run_morphs(deform_job *job, view_morphs *morphs, ffd_job_result *result,
+                               ffd_error *error);
+/* Whether a target of the file has one of the names of new ones. */
+bool ffd_view_replaces(const char *const *names, size_t count, const mesh_target *target);
+/* Frees the arrays. */
+void ffd_view_free_morphs(view_morphs *morphs);
+
+typedef struct view_targets_desc {
+    mesh_document *before, *after; /* after: the deformed mesh as a file, or NULL */
+    const deform_job *job;
+    bool deforms;                   /* the job has deformed the shape before, and its targets */
+    bool stored;                    /* the shapes are those without any target */
+    const char *const *morph_names; /* morph_count names of further targets */
+    size_t morph_count;
+    const view_morphs *morphs; /* their moves */
+    const mesh_log *log;
+} view_targets_desc;
+
+/* Fills the sliders and targets of a scene that has its mesh. Results of the document may be replaced.
+   Errors: FFD_E_MEMORY. */
+ffd_status ffd_view_add_targets(const view_targets_desc *desc, view_scene *scene, ffd_error *error);
+
 /* Default number of poses in a picture. */
 #define VIEW_POSES 5
 
@@ -58,6 +97,7 @@ typedef struct view_rigs_desc {
     bool deformed;                 /* `before` has results, which are the mesh after */
     bool follows;                  /* its nodes have moved too */
     const double *gradients;       /* of the displacement, 9 a vertex; or NULL */
+    const double *shift;           /* what the shape after has beside that before, 3 a vertex; or NULL */
     mesh_state state;              /* of both meshes */
     const char *before_name, *after_name;
     const char *animation; /* name of the animation to show; NULL: none */

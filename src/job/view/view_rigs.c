@@ -5,6 +5,7 @@
 #include "base/vector/vec.h"
 #include "job/view/view.h"
 #include "mesh/rig.h"
+#include "view/view_pose.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -206,6 +207,26 @@ static void turn_offsets(const view_rigs_desc *desc, mesh_anchors *anchors)
         }
 }
 
+/* Adds to the anchors after what the shape has beside that before, which goes back through the pose at rest.
+   A vertex whose bones have no inverse stays. */
+static ffd_status shift_anchors(const view_rigs_desc *desc, view_rig *rig, ffd_error *error)
+{
+    mesh_skeleton *const s = rig->skeleton;
+    double *const matrices = ffd_view_rest_matrices(s, error);
+    if (!matrices)
+        return FFD_E_MEMORY;
+    for (size_t v = 0; v < s->vertex_count; v++) {
+        double inverse[9], by[3];
+        if (!mat_invert(matrices + 9 * v, inverse))
+            continue;
+        mat_apply(inverse, desc->shift + 3 * v, by);
+        for (size_t a = 0; a < 3; a++)
+            rig->anchors.points[3 * v + a] += by[a];
+    }
+    ffd_free(matrices);
+    return FFD_OK;
+}
+
 /* Warns of parts of the shown animations that are left out. */
 static void warn(const view_rigs_desc *desc, const view_scene *scene)
 {
@@ -247,8 +268,10 @@ static ffd_status make_both(const view_rigs_desc *desc, view_scene *scene, ffd_e
         TRY(match(scene, error));
     TRY(load_all(desc, scene, error));
     TRY(read_anchors(desc, desc->before, false, before, error));
-    if (desc->after || desc->deformed)
+    if (desc->after || desc->deformed || desc->shift)
         TRY(read_anchors(desc, desc->after ? desc->after : desc->before, desc->deformed, after, error));
+    if (desc->shift && after->anchors.points)
+        TRY(shift_anchors(desc, after, error));
     turn_offsets(desc, &after->anchors);
     warn(desc, scene);
     return FFD_OK;

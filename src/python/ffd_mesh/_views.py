@@ -74,14 +74,15 @@ def _view(desc: Any, source: Any, output: Any, lattices: Any, deformed: Any, loo
     return found, raised, warnings
 
 
-def view_file(source: Path, output: Path, lattices: AnyLattice | Sequence[AnyLattice] | None = None, *,
+def view_file(source: Path, output: Path, lattices: AnyLattice | Sequence[AnyLattice] | Mapping[str, AnyLattice] | None = None, *,
               deformed: Path | None = None, color: str = "auto", camera: str | Sequence[float] = "iso",
               size: tuple[int, int] | None = None, frames: int | None = None, full: bool = False, animation: str | None = None,
               up: str = "y", no_cage: bool = False, force: bool = False, **options: Any) -> Result:
     """Draws a mesh before and after its deformation, as `ffd view` does. The output is complete or absent.
 
     output: path of a page (.html, needs no network) or a picture (.png)
-    lattices: as in `deform_file`; None: show the mesh as it is
+    lattices: as in `deform_file`; None: show the mesh as it is. A dict {name: lattice} shows the morph targets that these make,
+      in full; in a page each has a slider, as have those of the file
     deformed: path of the deformed mesh, with as many vertices; lattices are then drawn, but deform nothing
     color: "auto" | "displacement" | "status" | "det" | "plain"
     camera: "front" | "back" | "left" | "right" | "top" | "bottom" | "iso", or (x, y, z), the direction from the mesh to the camera
@@ -110,9 +111,9 @@ class ViewBytes(NamedTuple):
     result: Result  # as `view_file` returns it
 
 
-def view_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | None = None, *, name: str, output: str = "view.html",
-               files: Files | None = None, deformed: Any = None, deformed_name: str | None = None,
-               deformed_files: Files | None = None, color: str = "auto", camera: str | Sequence[float] = "iso",
+def view_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | Mapping[str, AnyLattice] | None = None, *,
+               name: str, output: str = "view.html", files: Files | None = None, deformed: Any = None,
+               deformed_name: str | None = None, deformed_files: Files | None = None, color: str = "auto", camera: str | Sequence[float] = "iso",
                size: tuple[int, int] | None = None, frames: int | None = None, full: bool = False, animation: str | None = None,
                up: str = "y", no_cage: bool = False, **options: Any) -> ViewBytes:
     """Like `view_file`, for a mesh in memory; reads and writes no files.

@@ -18,6 +18,9 @@ function perspective(aspect, near, far) {
 // At most so many points decide how far away the camera has to be.
 const FIT_POINTS = 4000;
 
+// Splats with less opacity, of 255, do not widen the picture.
+const FAINT = 13;
+
 // The mesh is from -1 to 1. Cages widen the picture by its largest extent on each side at most; one can go back from there.
 const FIT_REACH = 3;
 
@@ -26,6 +29,7 @@ function listFitPoints(scene) {
   const points = [];
   const step = Math.ceil(scene.vertices / FIT_POINTS) || 1;
   for (let v = 0; v < scene.vertices; v += step) {
+    if (scene.splats && scene.colors && scene.colors[4 * v + 3] < FAINT) continue;
     for (const share of [0, 1]) points.push([0, 1, 2].map((a) => scene.before[3 * v + a] + share * scene.move[3 * v + a]));
   }
   for (const cage of scene.cages) {

@@ -31,13 +31,13 @@ function pack([r, g, b]) {
   return ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0;
 }
 
-// The base colour of a material, linear, with its opacity; undefined: there is none. A white one without a texture is a
-// little darker, so that it shows its shape; one whose texture is lost is grey.
-function baseColor(material) {
-  if (!material) return GREY;
+// The base colour of a material, linear, with its opacity; undefined: there is none. A white one without a texture, or
+// colours of the vertices, is a little darker, so that it shows its shape; one whose texture is lost is grey.
+function baseColor(material, hasColors) {
+  if (!material) return hasColors ? [1, 1, 1, 1] : GREY;
   if (material.lost) return [0.47, 0.49, 0.52, 1];
   const [r, g, b, a] = material.color.map((x) => Math.min(Math.max(x || 0, 0), 1));
-  return Math.min(r, g, b) > 0.9 && !material.base ? [0.72, 0.72, 0.73, a] : [r, g, b, a];
+  return Math.min(r, g, b) > 0.9 && !material.base && !hasColors ? [0.72, 0.72, 0.73, a] : [r, g, b, a];
 }
 
 // Whether the mesh has colours to be looked at: textures, colours of vertices, or of materials that are not all white.
@@ -87,6 +87,20 @@ function listPaints(scene) {
   const colors = scene.colors ? new Uint32Array(scene.colors.buffer, 0, scene.vertices) : null;
   paints.push({key: 'plain', label: 'Plain', mode: 0, colors, range: [0, 1]});
   return paints;
+}
+
+// The colour of a vertex that is not lit, 0 to 1.
+function paintOf(scene, paint, vertex) {
+  if (!paint.ramp) {
+    const color = paint.colors ? paint.colors[vertex] : 0xffffffff;
+    return [0, 8, 16].map((shift) => (color >>> shift & 255) / 255);
+  }
+  const value = paint.values[vertex];
+  if (Number.isNaN(value)) return UNKNOWN_COLOR;
+  if (paint.mode === 2 && value <= 0) return FOLDED_COLOR;
+  const [low, high] = paint.range, share = ((paint.mode === 2 ? Math.log2(value) : value) - low) / (high - low || 1);
+  const at = 4 * Math.round(255 * Math.min(Math.max(share, 0), 1));
+  return [0, 1, 2].map((c) => paint.ramp[at + c] / 255);
 }
 
 function swatch(color, text, extra) {

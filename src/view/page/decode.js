@@ -91,6 +91,20 @@ function areWedgesWhole(wedges, scene) {
     .every(([array, size]) => array && array.length === size);
 }
 
+// Covariances of Gaussian splats before and after: of each vertex xx, xy, xz, yy, yz, zz (src/view/page_splats.h).
+function readSplats(vertices) {
+  const sides = ['before', 'after'].map((name) => {
+    const bytes = readBytes('data-splat-' + name);
+    if (!bytes || bytes.length !== 16 * vertices) return null;
+    const view = new DataView(bytes.buffer);
+    return Float32Array.from({length: 6 * vertices}, (_, i) => {
+      const at = 16 * Math.floor(i / 6);
+      return view.getFloat32(at, true) * view.getInt16(at + 4 + 2 * (i % 6), true) / 32767;
+    });
+  });
+  return sides[0] ? [sides[0], sides[1] || sides[0]] : null;
+}
+
 // The files of the textures.
 function readImages(scene) {
   return scene.images.map((type, index) => {
@@ -127,8 +141,10 @@ function readScene() {
   scene.flipped = readArray('data-flipped', Uint8Array);
   scene.segmentIndices = readArray('data-segment', Uint32Array);
   scene.pointIndices = readArray('data-point', Uint32Array);
+  scene.splats = readSplats(scene.vertices);
   scene.rig = readRig(scene);
-  if (!isWhole(scene) || (scene.rig && !isRigWhole(scene.rig, scene.vertices))) return null;
+  scene.targets = readTargets(scene);
+  if (!scene.targets || !isWhole(scene) || (scene.rig && !isRigWhole(scene.rig, scene.vertices))) return null;
   scene.space = measureAll(scene);
   const {center, scale} = scene.space;
   const count = 3 * scene.vertices;
@@ -138,7 +154,8 @@ function readScene() {
     scene.before[i] = (scene.low[i % 3] - center[i % 3] + scene.quantized[i] * scene.step[i % 3]) / scale;
     scene.move[i] = (scene.moves[i] * scene.moveStep) / scale;
   }
-  scene.rest = scene.rig ? {before: scene.before.slice(), move: scene.move.slice()} : null;
+  for (const slider of scene.sliders) slider.value = slider.weight;
+  scene.rest = scene.rig || scene.sliders.length ? {before: scene.before.slice(), move: scene.move.slice()} : null;
   return scene;
 }
 

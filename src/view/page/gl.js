@@ -127,7 +127,7 @@ function makeSurface(gl, scene) {
     array, before, move, normals, split, values, colors, sources, indices,
     triangles: makeBuffer(gl, gl.ELEMENT_ARRAY_BUFFER, indices),
     segments: list(scene.segmentIndices),
-    points: list(scene.pointIndices),
+    points: list(scene.pointIndices.filter((v) => !isSplat(scene, v))),
     flipped: {buffer: gl.createBuffer(), count: 0},
     edges: null,
   };
@@ -189,6 +189,7 @@ class Renderer {
       disc: compile(gl, DISC_VERTEX, DISC_FRAGMENT),
     };
     this.surface = makeSurface(gl, scene);
+    this.splats = new Splats(gl, scene);
     this.ramp = gl.createTexture();
     this.textures = new Map();
     this.runs = [];
@@ -247,6 +248,7 @@ class Renderer {
       gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
       gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
     }
+    this.splats.paint(paint);
     this.setParts(this.hidden || new Set());
   }
 
@@ -276,12 +278,13 @@ class Renderer {
   // Brings the mesh to where its scene has been posed (rig.js).
   setPose(poses) {
     const {gl, scene, surface} = this;
-    const normals = poses[0] || poses[1] ? poseNormals(surface.split, poses, surface.split.normals) : surface.split.normals;
+    const normals = poses.isMorphed ? morphNormals(scene, surface.split) : poses[0] || poses[1] ? poseNormals(surface.split, poses, surface.split.normals) : surface.split.normals;
     for (const [buffer, values] of [[surface.before, gather(scene.before, surface.sources)],
       [surface.move, gather(scene.move, surface.sources)], [surface.normals, normals]]) {
       gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
       gl.bufferData(gl.ARRAY_BUFFER, values, gl.DYNAMIC_DRAW);
     }
+    this.splats.fill();
   }
 
   // Lines and discs under a name, in place of those that it had.
@@ -322,6 +325,7 @@ class Renderer {
     gl.enable(gl.DEPTH_TEST);
     gl.disable(gl.BLEND);
     this.drawSurface();
+    this.splats.draw(state, this.canvas.width, this.canvas.height);
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     gl.depthMask(false);
@@ -331,7 +335,7 @@ class Renderer {
       this.drawLines('joints', 2.6, state.colors.joint, 0.6, state.blend);
       this.drawDiscs('jointPoints', 7, state.colors.joint, state.colors.rim, 0.6, state.blend);
     }
-    if (state.showTears && !state.isPosed) this.drawLines('tears', 3.4, state.colors.tear, 0.55, state.blend);
+    if (state.showTears && !state.isPosed && !state.isMorphed) this.drawLines('tears', 3.4, state.colors.tear, 0.55, state.blend);
     this.drawLines('chosen', 6, state.colors.chosen, 0.8, state.blend);
     this.drawDiscs('chosenPoint', 13, state.colors.chosen, state.colors.rim, 1, state.blend);
     gl.depthMask(true);
@@ -370,7 +374,7 @@ class Renderer {
   setMaterial(places, of) {
     const {gl, scene, paint} = this;
     const shown = paint.mode === 0 && of ? of : null;
-    gl.uniform4f(places.baseColor, ...(paint.mode === 0 ? baseColor(of) : [1, 1, 1, 1]));
+    gl.uniform4f(places.baseColor, ...(paint.mode === 0 ? baseColor(of, Boolean(scene.colors)) : [1, 1, 1, 1]));
     gl.uniform1f(places.cutoff, shown && shown.alpha === 'mask' && !shown.lost ? shown.cutoff : 0);
     gl.uniform3f(places.emission, ...(shown ? shown.emission : [0, 0, 0]));
     gl.uniform1i(places.isTwoSided, shown && shown.twoSided ? 1 : 0);
@@ -446,17 +450,18 @@ class Renderer {
   drawLoose(places) {
     const {gl, scene, surface, state} = this;
     this.setMaterial(places, undefined);
-    // What has colours of its own is shown in them.
-    if (scene.colors) gl.uniform4f(places.baseColor, 1, 1, 1, 1);
+    // What has no colours of its own is told from the ground.
+    if (!scene.colors && this.paint.mode === 0) gl.uniform4f(places.baseColor, ...state.colors.loose);
     gl.uniform1i(places.element, 2);
     if (scene.segments) {
       gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, surface.segments);
       gl.drawElements(gl.LINES, 2 * scene.segments, gl.UNSIGNED_INT, 0);
     }
-    if (scene.points) {
+    const points = scene.points - this.splats.count;
+    if (points) {
       gl.uniform1i(places.element, 1);
       gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, surface.points);
-      gl.drawElements(gl.POINTS, scene.points, gl.UNSIGNED_INT, 0);
+      gl.drawElements(gl.POINTS, points, gl.UNSIGNED_INT, 0);
     }
     if (state.showEdges) {
       surface.edges = surface.edges || makeEdges(gl, surface, this.runs);

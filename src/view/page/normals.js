@@ -100,7 +100,7 @@ function listFaces(scene) {
 
 // What is drawn: `sources` names the vertex of each drawn one, `wedges` its wedge (decode.js; empty where no texture is shown),
 // `indices` the corners of the triangles. `normals` are
-// those before and after, `anchorNormals` those of listFaces, three floats a vertex each.
+// those before and after, `groups` which are smoothed as one, `anchorNormals` those of listFaces, three floats a vertex each.
 function splitVertices(scene) {
   const triangles = scene.triangleIndices;
   const {ids, places} = weld(scene.quantized, scene.moves, scene.vertices);
@@ -110,7 +110,8 @@ function splitVertices(scene) {
   const sources = [], wedges = [], sums = faces.map(() => []);
   const wedgeOf = scene.wedges ? scene.wedges.corners : null;
   const drawn = new Int32Array(scene.vertices).fill(-1);
-  const sideOf = [];
+  const sideOf = [], groups = [];
+  let groupCount = 0;
   for (let place = 0; place < places; place++) {
     const sides = [];
     for (let i = starts[place]; i < starts[place + 1]; i++) {
@@ -131,15 +132,18 @@ function splitVertices(scene) {
         at = sources.push(vertex) - 1;
         if (wedgeOf) wedges.push(wedge);
         side.drawn.push(at);
+        groups[at] = groupCount + sideOf[i - starts[place]];
         for (let s = 0; s < faces.length; s++) sums[s].push(side.sums[3 * s], side.sums[3 * s + 1], side.sums[3 * s + 2]);
         drawn[vertex] = at;
       }
       indices[corners[i]] = at;
     }
+    groupCount += sides.length;
   }
   for (let v = 0; v < scene.vertices; v++) {
     if (drawn[v] >= 0) continue;
     drawn[v] = sources.push(v) - 1;
+    groups.push(groupCount++);
     if (wedgeOf) wedges.push(-1);
     for (const list of sums) list.push(0, 0, 1);
   }
@@ -148,7 +152,7 @@ function splitVertices(scene) {
   for (let i = 0; i < count; i++) {
     for (const s of [0, 1]) storeNormal(normals, 8 * i + 4 * s, sums[s][3 * i], sums[s][3 * i + 1], sums[s][3 * i + 2]);
   }
-  return {sources: Uint32Array.from(sources), wedges, indices, normals, drawn, anchorNormals: sums.slice(2).map((list) => Float32Array.from(list))};
+  return {sources: Uint32Array.from(sources), wedges, indices, normals, drawn, groups: Uint32Array.from(groups), groupCount, anchorNormals: sums.slice(2).map((list) => Float32Array.from(list))};
 }
 
 // The normals of what is drawn in a pose (rig.js), as splitVertices has them at rest.
@@ -168,5 +172,19 @@ function poseNormals(split, poses, restNormals) {
         (b * f - c * e) * x + (c * d - a * f) * y + (a * e - b * d) * z);
     }
   });
+  return normals;
+}
+
+// The same where morph targets have changed the shape: by the faces as they are now. Their sides stay those at rest.
+function morphNormals(scene, split) {
+  const {groups, groupCount, indices} = split, normals = split.normals.slice();
+  for (const share of [0, 1]) {
+    const faces = faceNormals(scene.before, scene.move, scene.triangleIndices, share), sums = new Float32Array(3 * groupCount);
+    for (let i = 0; i < indices.length; i++) {
+      const to = 3 * groups[indices[i]], from = i - (i % 3);
+      for (let a = 0; a < 3; a++) sums[to + a] += faces[from + a];
+    }
+    groups.forEach((group, at) => storeNormal(normals, 8 * at + 4 * share, sums[3 * group], sums[3 * group + 1], sums[3 * group + 2]));
+  }
   return normals;
 }

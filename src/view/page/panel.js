@@ -284,7 +284,7 @@ function showPanel(viewer) {
     card.id = 'notice';
     cards.push(card);
   }
-  if (viewer.renderer) cards.push(colorSection(viewer), showSection(viewer));
+  if (viewer.renderer) cards.push(targetSection(viewer), colorSection(viewer), showSection(viewer));
   if (viewer.renderer) cards.push(findingSection(viewer));
   if (viewer.renderer) cards.push(partSection(viewer));
   cards.push(figureSection(viewer));

@@ -209,21 +209,22 @@ function poseSide(scene, number, animation, time) {
     const x = anchors[3 * v], y = anchors[3 * v + 1], z = anchors[3 * v + 2];
     for (let a = 0; a < 3; a++) points[3 * v + a] = matrix[3 * a] * x + matrix[3 * a + 1] * y + matrix[3 * a + 2] * z + matrix[9 + a];
   }
-  return {points, bones, worlds, side};
+  return {points, bones, worlds, side, weights, driven: drivenWeights(side, animation.channels[number])};
 }
 
-// Sets before and move of a scene to a time of an animation; null: to rest. Returns the poses of both sides, null
-// where one stands still.
+// Sets before and move of a scene to a time of an animation, null: to rest, and to the weights of its sliders. Returns the
+// poses of both sides, null where one stands still, with isMorphed: whether targets have other weights than in the file.
 function poseScene(scene, animation, time) {
-  const {rest} = scene;
+  const {rest, targets} = scene;
   const poses = [0, 1].map((number) => (animation ? poseSide(scene, number, animation, time) : null));
-  if (animation && !scene.rig.hasAfter) poses[1] = poses[0];
-  if (poses[0]) scene.before.set(poses[0].points);
-  else scene.before.set(rest.before);
-  for (let i = 0; i < scene.move.length; i++) {
-    const after = poses[1] ? poses[1].points[i] : rest.before[i] + rest.move[i];
-    scene.move[i] = poses[0] || poses[1] ? after - scene.before[i] : rest.move[i];
-  }
+  const isOne = animation && !scene.rig.hasAfter;
+  if (isOne && poses[0]) poses[1] = {...poses[0], points: poses[0].points.slice()};
+  const after = poses[1] ? poses[1].points : rest.before.map((x, i) => x + rest.move[i]);
+  scene.before.set(poses[0] ? poses[0].points : rest.before);
+  const added = [scene.before, after].map((points, number) => addTargets(scene, targets[number], poses[number], points));
+  poses.isMorphed = added.includes(true) || poses.some((pose) => pose && isPoseMorphed(pose));
+  const isStill = !poses[0] && !poses[1] && !poses.isMorphed;
+  for (let i = 0; i < scene.move.length; i++) scene.move[i] = isStill ? rest.move[i] : after[i] - scene.before[i];
   return poses;
 }
 

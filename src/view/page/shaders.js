@@ -1,6 +1,9 @@
 // shaders.js - the programs that run on the graphics card: surfaces (also loose points and segments of the mesh),
 // lines of a width, discs.
 
+const TO_LINEAR = `
+vec3 toLinear(vec3 c) { return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(0.04045, c)); }`;
+
 const SURFACE_VERTEX = `#version 300 es
 layout(location = 0) in vec3 before;
 layout(location = 1) in vec3 move;
@@ -15,12 +18,14 @@ uniform vec4 texcoordLow, texcoordSize;
 out vec3 position, normal;
 out vec2 shownValue;
 out vec4 shownColor, shownTexcoord;
+${TO_LINEAR}
 void main() {
   vec4 seen = camera * vec4(before + blend * move, 1.0);
   position = seen.xyz;
   normal = mat3(camera) * mix(normalBefore, normalAfter, blend);
   shownValue = value;
-  shownColor = color;
+  // Between vertices colours are mixed as light.
+  shownColor = vec4(toLinear(color.rgb), color.a);
   shownTexcoord = texcoordLow + texcoordSize * texcoord;
   gl_Position = projection * seen;
   gl_PointSize = pointSize;
@@ -46,7 +51,7 @@ uniform vec3 unknownColor, foldedColor;
 uniform sampler2D ramp, base, glow, opacity;
 out vec4 result;
 
-vec3 toLinear(vec3 c) { return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(0.04045, c)); }
+${TO_LINEAR}
 vec3 toScreen(vec3 c) { return mix(c * 12.92, 1.055 * pow(max(c, 0.0), vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c)); }
 
 // v is upwards, the rows of an image downwards.
@@ -54,7 +59,7 @@ vec4 look(sampler2D image, vec2 at) { return texture(image, vec2(at.x, 1.0 - at.
 
 // Linear, with the opacity.
 vec4 materialColor() {
-  vec4 own = baseColor * vec4(toLinear(shownColor.rgb), shownColor.a);
+  vec4 own = baseColor * shownColor;
   float plain = own.a;
   if (hasBase != 0) own *= look(base, shownTexcoord.xy);
   if (hasOpacity != 0) {
@@ -70,7 +75,7 @@ vec3 emitted() {
 }
 
 vec3 markColor() {
-  if (mode == 3) return toLinear(shownColor.rgb);
+  if (mode == 3) return shownColor.rgb;
   if (mode == 4) {
     float stripe = fract((gl_FragCoord.x + gl_FragCoord.y) / 10.0);
     return toLinear(stripe < 0.5 ? vec3(0.98, 0.45, 0.06) : vec3(0.2, 0.09, 0.02));

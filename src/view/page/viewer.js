@@ -12,6 +12,7 @@ function palette(isDark) {
     rim: isDark ? [0.08, 0.1, 0.13, 1] : [1, 1, 1, 1],
     tear: [0.9, 0.1, 0.12, 1],
     chosen: [1, 0.78, 0.1, 1],
+    loose: isDark ? [0.55, 0.58, 0.64, 1] : [0.045, 0.051, 0.065, 1],
     edge: [0.01, 0.012, 0.016, 0.32],
     joint: isDark ? [1, 0.62, 0.9, 0.95] : [0.72, 0.06, 0.5, 0.9],
   };
@@ -53,7 +54,7 @@ class Viewer {
     const own = scene.view.color === 'auto' && hasOwnColors(scene) ? named('plain') : null;
     this.paint = own || named(scene.view.color) || named('displacement') || named('plain');
     this.settings = {blend: 1, showCage: true, showRest: false, showTears: true, showFlipped: true, showEdges: false, isSmooth: true,
-      showJoints: false, isPosed: false};
+      showJoints: false, isPosed: false, isMorphed: false};
     this.camera = new Camera(listFitPoints(scene), scene.view.up);
     if (scene.view.camera.some((x) => x !== 0)) [this.camera.yaw, this.camera.pitch] = anglesOf(scene.view.camera, scene.view.up);
     this.renderer = null;
@@ -98,13 +99,22 @@ class Viewer {
 
   // Brings mesh and joints to a time of an animation; null: to rest.
   pose(animation, time) {
-    const {scene, renderer} = this;
-    if (!animation && !this.settings.isPosed) return;
-    renderer.setPose(poseScene(scene, animation, time));
-    this.settings.isPosed = animation !== null;
-    this.showJoints(animation, time);
+    const {scene, renderer, settings} = this;
+    if (!animation && !settings.isPosed && !settings.isMorphed && scene.sliders.every(({value, weight}) => value === weight)) return;
+    const poses = poseScene(scene, animation, time);
+    renderer.setPose(poses);
+    settings.isPosed = animation !== null;
+    settings.isMorphed = poses.isMorphed;
+    shownWeights(scene, poses).forEach((weight, index) => scene.sliders[index].show(weight));
+    if (scene.rig) this.showJoints(animation, time);
     if (this.chosenVertex !== undefined) this.markVertex(this.chosenVertex);
     this.redraw();
+  }
+
+  // Gives morph targets a weight.
+  setTarget(slider, value) {
+    slider.value = value;
+    this.pose(this.motionRow.animation, this.motionRow.time);
   }
 
   // Makes room for all of an animation, by some of its poses; as long as nobody has moved the camera it moves there.
@@ -292,7 +302,7 @@ class Viewer {
   chooseVertex(vertex) {
     const {scene} = this;
     const before = vertexBefore(scene, vertex), move = vertexMove(scene, vertex);
-    const rest = this.settings.isPosed ? ', at rest' : '';
+    const rest = this.settings.isPosed || this.settings.isMorphed ? ', at rest' : '';
     const rows = [['Before' + rest, pointText(before)], ['After' + rest, pointText(before.map((x, a) => x + move[a]))],
       ['Displacement', numberText(Math.hypot(...move))]];
     if (scene.statuses) rows.push(['Status', STATUS_NAMES[scene.statuses[vertex]] || 'unknown']);
@@ -343,7 +353,7 @@ class Viewer {
 
   placeWitness() {
     const pin = byId('witness');
-    const seen = this.scene.witness && !this.settings.isPosed ? this.project(this.witnessPoint()) : null;
+    const seen = this.scene.witness && !this.settings.isPosed && !this.settings.isMorphed ? this.project(this.witnessPoint()) : null;
     const {clientWidth: width, clientHeight: height} = this.canvas;
     pin.hidden = !seen || seen.x < 0 || seen.y < 0 || seen.x > width || seen.y > height;
     if (!pin.hidden) pin.style.transform = `translate(${seen.x}px, ${seen.y}px)`;

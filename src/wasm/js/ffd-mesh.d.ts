@@ -125,7 +125,7 @@ export interface Ffd {
   info(file: MeshFile, options?: {parts?: boolean; set?: string[] | {[name: string]: unknown}; [option: string]: unknown}): Promise<{[member: string]: any}>;
   /** A page (.html) or a picture (.png), as the ending of `output` says. */
   view(mesh: MeshFile, lattice?: LatticeLike | LatticeLike[] | null, options?: Options & {output?: string; size?: string; frames?: number;
-    camera?: string; color?: 'displacement' | 'status' | 'det' | 'plain'; animation?: string; full?: boolean; up?: 'y' | 'z' | 'x';
+    camera?: string; color?: 'displacement' | 'status' | 'det' | 'plain'; morph?: string | string[]; animation?: string; full?: boolean; up?: 'y' | 'z' | 'x';
     noCage?: boolean}): Promise<Result>;
 }
 

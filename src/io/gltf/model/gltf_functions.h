@@ -66,6 +66,8 @@ mesh_list_files_function ffd_gltf_list_files;
 /* Makes results offsets of a further morph target of this name. */
 mesh_keep_base_function ffd_gltf_keep_base;
 mesh_keep_clips_function ffd_gltf_keep_clips;
+mesh_list_targets_function ffd_gltf_list_targets;
+mesh_read_target_function ffd_gltf_read_target;
 /* Adds the morph targets after ffd_gltf_keep_base, else works like ffd_gltf_save_results. */
 mesh_save_function ffd_gltf_save;
 

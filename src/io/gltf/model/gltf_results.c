@@ -256,3 +256,12 @@ void ffd_gltf_write_offsets(mesh_document *document, size_t part, size_t shape, 
     const size_t target = d->base.part_count + d->parts[part].first_shape + shape;
     write_result(document, target, (gltf_semantic)stream, first, count, xyz, 3, changed);
 }
+
+void ffd_gltf_put_results(const gltf_stream *stream, size_t count, double *values)
+{
+    for (size_t i = 0; i < 3 * count && stream->result; i++) {
+        const bool filled = !stream->filled || stream->filled[i / 3 / MESH_RANGE_STEP];
+        if (filled && ((float)values[i] < stream->result[i] || (float)values[i] > stream->result[i]))
+            values[i] = stream->result[i];
+    }
+}

@@ -7,6 +7,10 @@
 /* Copies the original vectors to every tile of the results that was not written. */
 void ffd_gltf_complete_results(gltf_document *document);
 
+/* Overwrites count vectors of a stream by its results where they differ; stored integers may be more precise
+   than floats. */
+void ffd_gltf_put_results(const gltf_stream *stream, size_t count, double *values);
+
 /* Returns the bounds of count vectors; NaN is ignored. */
 gltf_tile_bounds ffd_gltf_find_bounds(const float *xyz, size_t count);
 
