@@ -42,7 +42,8 @@ typedef struct ffd_batch_job {
     const ffd_job_result *result;
 } ffd_batch_job;
 
-/* Called for each job as it ends, in the thread that runs the batch; not in the order of the jobs. */
+/* Called for each job as it ends, with its picture, in the thread that runs the batch; not in the order of
+   the jobs. */
 typedef void (*ffd_batch_ended_function)(void *user, const ffd_batch_job *job);
 
 /* A batch. Fill with ffd_batch_desc_init, then say where the jobs come from: a manifest, a callback, a
@@ -72,17 +73,23 @@ typedef struct ffd_batch_desc {
     const char *journal;    /* where resume records what outputs were made from; NULL: in the user's cache */
     const char *positions;  /* path (.npy) of the array of all deformed positions; or NULL */
     bool positions_double;  /* its numbers are float64, else float32 */
-    const char *view;       /* folder for pictures of the jobs, and the page that compares them; or NULL */
-    const char *report;     /* path; "-": standard output; or NULL */
-    bool report_stable;     /* without times */
-    const char *depfile;    /* path of the rules of all outputs; or NULL */
-    bool shared_box;        /* the box "mesh" of a lattice goes round all meshes, not round each */
-    bool dry_run;           /* write nothing */
-    bool stop;              /* begin no more jobs after one has failed */
+    /* Folder for pictures of the jobs, and the index that compares them; or NULL. Pictures of the jobs on one
+       mesh have one frame and one scale of colours, except with `in` alone: they are drawn when the last job
+       has ended, and only then are jobs told of (ended, report). A mesh that is deformed to farther than 10
+       diagonals of the mesh at rest from it has a frame of its own, and so has a job whose options of view
+       differ from those of most jobs on its mesh (ffd_job_result.own_frame). */
+    const char *view;
+    const char *report;             /* path; "-": standard output; or NULL */
+    bool report_stable;             /* without times */
+    const char *depfile;            /* path of the rules of all outputs; or NULL */
+    bool shared_box;                /* the box "mesh" of a lattice goes round all meshes, not round each */
+    bool dry_run;                   /* write nothing */
+    bool stop;                      /* begin no more jobs after one has failed */
     ffd_batch_ended_function ended; /* or NULL */
     void *ended_user;
     /* Called in the thread that runs the batch, several times a second while jobs run, with the fraction of
-       all jobs that has begun; negative: unknown. If it returns false, the running jobs are stopped and the
+       all jobs that has begun; where pictures wait for the last job, that is the first half, and the fraction
+       of pictures the second; negative: unknown. If it returns false, the running jobs are stopped and the
        batch fails with FFD_E_CANCELLED; outputs that are complete stay. NULL: no callback. */
     bool (*progress)(void *user, double done);
     void *progress_user;
@@ -99,8 +106,12 @@ typedef struct ffd_batch_desc {
        it, by an atomic store; NULL: nobody does. */
     const int *cancel;
     /* How pictures are drawn: camera, up, color, width, height, frames, animation and no_cage; its other
-       members do not count. Only with view; NULL: as by default. */
+       members do not count. A job may say otherwise ("view" among its options). Only with view; NULL: as by
+       default. */
     const ffd_view_desc *look;
+    /* Beside the picture of each job, DIR/OUT.png, a page, DIR/OUT.html, to which the index leads. Needs
+       view. */
+    bool pages;
 } ffd_batch_desc;
 
 /* Sets desc to defaults: all members 0, NULL or false. size: sizeof(ffd_batch_desc) in the caller's header.

@@ -291,6 +291,10 @@ typedef struct ffd_job_result {
     uint64_t transforms_singular; /* vertices that stay because the matrix of their node or skin is not
                                      invertible */
     const ffd_output_list *outputs; /* ffd_deform_desc.output_list */
+    const char *page;               /* of a job of a batch: its page (ffd_batch_desc.pages); else NULL */
+    /* Of a job of a batch: why its picture has a frame of its own, unlike those of other jobs on its mesh:
+       "far" or "options" (ffd_batch_desc.view); else NULL. */
+    const char *own_frame;
 } ffd_job_result;
 
 #ifdef __cplusplus

@@ -64,6 +64,7 @@ static const char *find_misfit(const ffd_batch_desc *d, const ffd_deform_desc *j
          "{in_place} cannot be used with {resume}: a finished mesh would be deformed again"},
         {d->view && in_place, "{in_place} cannot be used with {view}: a picture is named after {output}"},
         {d->look && !d->view, "{look} needs {view}"},
+        {d->pages && !d->view, "{pages} needs {view}"},
         {d->depfile && in_place, "{depfile} cannot be used with {in_place}: a file cannot depend on itself"},
         {d->is_program && d->dry_run && is_stream(d->report),
          "{dry_run} and the report cannot both write to standard output"},
@@ -128,6 +129,7 @@ static job_source_desc describe_jobs(const ffd_batch_desc *desc)
                              .defaults = jobs,
                              .ending = desc->output_ending ? desc->output_ending
                                                            : ffd_format_ending(jobs->output_format),
+                             .look = desc->look,
                              .resume = desc->resume,
                              .pictures = desc->view != NULL,
                              .positions = desc->positions != NULL,

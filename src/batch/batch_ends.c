@@ -55,13 +55,13 @@ static void append_settings(const batch_job *job, byte_buffer *text)
     ffd_buffer_text(text, ": ");
 }
 
-/* Appends the lines of a job's log and its failure, each preceded by its place in the manifest (NULL: there
-   is none) and its values of placeholders. */
-static void append_lines(const pool_task *task, const char *manifest, byte_buffer *text)
+/* Appends the lines of a job's log from an offset on, and its failure, each preceded by its place in the
+   manifest (NULL: there is none) and its values of placeholders. */
+static void append_lines(const pool_task *task, const char *manifest, size_t from, byte_buffer *text)
 {
     byte_buffer lines = {0}, lead = {0};
-    if (task->log.size)
-        ffd_buffer_append(&lines, task->log.data, task->log.size);
+    if (task->log.size > from)
+        ffd_buffer_append(&lines, task->log.data + from, task->log.size - from);
     if (task->failure.status)
         append_error(&task->failure, &lines);
     if (lines.size == 0) {
@@ -86,20 +86,31 @@ static void append_lines(const pool_task *task, const char *manifest, byte_buffe
     ffd_buffer_free(&lead);
 }
 
-/* Appends a job's report entry, if no worker has made it. rows: as in pool_desc. */
-static void append_entry(const pool_task *task, const row_array *rows, bool stable, byte_buffer *text)
+static const row_array *rows_of(const batch_run *run)
+{
+    return run->desc->given->positions ? &run->rows.array : NULL;
+}
+
+/* Appends a job's report entry, if no worker has made it. */
+static void append_entry(const batch_run *run, const pool_task *task, byte_buffer *text)
 {
     const batch_job *const job = &task->job;
-    ffd_job_result result;
+    const row_array *const rows = rows_of(run);
+    ffd_job_result result, *morphs = NULL;
     byte_buffer set = {0};
     path_list outputs = {0};
     ffd_result_clear(&result);
-    const bool listed = !ffd_run_list_texts(&task->outputs, &outputs, NULL);
-    result.status = task->failure.status;
-    result.error = task->failure;
+    if (task->result.size >= sizeof result)
+        ffd_run_take_result(task, &result, &morphs);
+    const bool listed = !ffd_run_list_outputs(run, task, &outputs, NULL);
+    if (task->failure.status) {
+        result.error = task->failure;
+        result.status = task->failure.status;
+    }
     ffd_settings_json(&job->desc, &set);
     const bool skipped = task->end.outcome == OUTCOME_SKIPPED;
-    result.picture = task->end.has_picture ? task->picture : NULL;
+    const bool is_known = task->end.outcome != OUTCOME_FAILED && !task->result.size && task->figures.size;
+    ffd_run_name_picture(task, &result);
     const report_entry entry = {.line = job->line,
                                 .input = job->input,
                                 .output = ffd_job_output_name(job),
@@ -108,13 +119,14 @@ static void append_entry(const pool_task *task, const row_array *rows, bool stab
                                 .row = job->row,
                                 .set = set.failed ? NULL : set.data,
                                 .result = &result,
-                                .figures = skipped && task->figures.size ? task->figures.data : NULL,
+                                .figures = is_known ? task->figures.data : NULL,
                                 .skipped = skipped,
-                                .stable = stable};
+                                .stable = run->desc->pool.wishes.stable};
     ffd_report_entry_text(&entry, text);
     text->failed = text->failed || set.failed || !listed;
     ffd_buffer_free(&set);
     ffd_paths_free(&outputs);
+    ffd_free(morphs);
 }
 
 /* Bits of a state that fit into the table: its numbers have 39 bits, and one says whether a warning was
@@ -145,11 +157,6 @@ static ffd_status note_state(file_table *states, pool_task *task, ffd_error *err
                             : ffd_files_put(states, &task->mesh, known | TOLD, error);
 }
 
-static const row_array *rows_of(const batch_run *run)
-{
-    return run->desc->given->positions ? &run->rows.array : NULL;
-}
-
 /* rows: of positions, or NULL. */
 static void print_plan(const pool_task *task, const row_array *rows)
 {
@@ -166,7 +173,7 @@ static void print_plan(const pool_task *task, const row_array *rows)
 static ffd_status complete_entry(const batch_run *run, pool_task *task, ffd_error *error)
 {
     if (!task->entry.size)
-        append_entry(task, rows_of(run), run->desc->pool.wishes.stable, &task->entry);
+        append_entry(run, task, &task->entry);
     return task->entry.failed ? ffd_fail_memory(error) : FFD_OK;
 }
 
@@ -182,14 +189,31 @@ static ffd_status show_task(batch_run *run, pool_task *task, ffd_error *error)
     return ffd_run_view_add(run->view, task, &task->entry, error);
 }
 
-static ffd_status log_task(batch_run *run, const pool_task *task, ffd_error *error)
+/* Prints what was logged of a job since the last time. */
+static ffd_status print_log(batch_run *run, pool_task *task, ffd_error *error)
 {
     byte_buffer lines = {0};
-    append_lines(task, ffd_run_manifest(run), &lines);
+    append_lines(task, ffd_run_manifest(run), task->told, &lines);
     ffd_buffer_append(&lines, "", 1);
+    task->told = task->log.size;
     ffd_status status;
     TRY_END(lines.failed ? ffd_fail_memory(error) : FFD_OK);
     ffd_progress_print(&run->progress, lines.data);
+end:
+    ffd_buffer_free(&lines);
+    return status;
+}
+
+/* Tells the caller of the end of a job, with all that was logged of it. */
+static ffd_status call_ended(const batch_run *run, const pool_task *task, ffd_error *error)
+{
+    byte_buffer lines = {0};
+    if (!run->desc->given->ended)
+        return FFD_OK;
+    append_lines(task, ffd_run_manifest(run), 0, &lines);
+    ffd_buffer_append(&lines, "", 1);
+    ffd_status status;
+    TRY_END(lines.failed ? ffd_fail_memory(error) : FFD_OK);
     ffd_run_call_ended(run, task, lines.data);
 end:
     ffd_buffer_free(&lines);
@@ -206,13 +230,10 @@ static void clear_row(const batch_run *run, const pool_task *task)
         ffd_row_clear(&run->rows.array, task->job.row);
 }
 
-/* Records what the job has made: its results, and its picture if it has no output. */
+/* Records what the job has made. */
 static void put_records(const batch_run *run, const pool_task *task)
 {
-    const job_record drawn = {task->end.record.inputs, task->end.drawn};
     ffd_journal_put(run->journal, &task->target, &task->end.record, task->figures.data, task->figures.size);
-    if (task->end.has_drawn)
-        ffd_journal_put(run->journal, &task->picture_target, &drawn, "", 0);
 }
 
 /* Notes the copies that a job has made. */
@@ -235,33 +256,72 @@ static ffd_status learn_end(batch_run *run, pool_task *task, ffd_error *error)
     uint32_t index;
     TRY(ffd_run_learn(run, task, error));
     TRY(note_state(&run->meshes, task, error));
-    TRY(log_task(run, task, error));
+    TRY(print_log(run, task, error));
     if (task->end.own_box && !ffd_intern(&run->boxed, &task->mesh, sizeof task->mesh, &index))
         return ffd_fail_memory(error);
     return FFD_OK;
 }
 
-/* Does what must happen as soon as a job ends, even if earlier jobs still run. */
-static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
+static void count(ffd_batch_result *counts, const pool_task *task)
 {
-    uint64_t *const counts[] = {&run->counts.done, &run->counts.skipped, &run->counts.failed};
-    ++*counts[task->end.outcome];
-    task->noted = true;
-    if (task->end.outcome == OUTCOME_FAILED)
-        clear_row(run, task);
-    const ffd_status learned = learn_end(run, task, error);
-    if (task->end.outcome == OUTCOME_FAILED && run->desc->given->stop)
+    uint64_t *const numbers[] = {&counts->done, &counts->skipped, &counts->failed};
+    ++*numbers[task->end.outcome];
+}
+
+/* A job has failed: by itself, or by its picture. */
+static void note_failure(batch_run *run, const pool_task *task)
+{
+    clear_row(run, task);
+    if (run->desc->given->stop)
         run->ending = true;
+}
+
+/* Does what must happen as soon as a job ends, with or without its picture, even if earlier jobs still run.
+ */
+static ffd_status note_made(batch_run *run, pool_task *task, ffd_error *error)
+{
+    const bool failed = task->end.outcome == OUTCOME_FAILED;
+    const ffd_status learned = learn_end(run, task, error);
+    count(&run->made, task);
+    if (failed)
+        note_failure(run, task);
     if (run->journal && task->end.outcome == OUTCOME_DONE && task->end.has_record)
         put_records(run, task);
     if (run->journal)
         put_copies(run, task);
     TRY(learned);
+    task->is_made = run->frames.wait && task->end.has_frame;
+    task->is_refused = failed;
+    if (!task->is_made)
+        return FFD_OK;
+    const hash128 mesh = ffd_run_read_place(&run->files, task->job.desc.input.path);
+    return ffd_frames_add(&run->frames, task, &mesh, error);
+}
+
+/* The same when the picture of a job that has waited is drawn, or is not to be drawn. */
+static ffd_status note_drawn(batch_run *run, pool_task *task, ffd_error *error)
+{
+    if (task->end.outcome == OUTCOME_FAILED && !task->is_refused)
+        note_failure(run, task);
+    return print_log(run, task, error);
+}
+
+/* Tells of a job that has ended, with its picture. */
+static ffd_status tell_end(batch_run *run, pool_task *task, ffd_error *error)
+{
+    count(&run->counts, task);
+    ffd_run_put_drawn(run, task);
+    TRY(call_ended(run, task, error));
     if (run->report && !ffd_report_is_ordered(run->report))
         TRY(report_task(run, run->report, task, error));
-    if (run->rows.report)
-        TRY(report_task(run, run->rows.report, task, error));
-    return FFD_OK;
+    return run->rows.report ? report_task(run, run->rows.report, task, error) : FFD_OK;
+}
+
+static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
+{
+    task->noted = true;
+    TRY(run->frames.are_drawn ? note_drawn(run, task, error) : note_made(run, task, error));
+    return task->is_made && !run->frames.are_drawn ? FFD_OK : tell_end(run, task, error);
 }
 
 ffd_status ffd_run_note_ends(batch_run *run, ffd_error *error)
@@ -321,7 +381,8 @@ ffd_status ffd_run_take_ended(batch_run *run, ffd_error *error)
             continue;
         }
         if (task->state == TASK_ENDED)
-            status = emit_task(run, task, error);
+            status = run->frames.wait && !run->frames.are_drawn ? ffd_frames_put(&run->frames, task, error)
+                                                                : emit_task(run, task, error);
         ffd_task_free(task);
     }
     run->count = kept;

@@ -93,7 +93,7 @@ static void drop_waiting(batch_run *run)
     run->dropped = run->dropped || !run->ended;
     for (size_t i = 0; i < run->count; i++)
         if (ffd_task_is_pending(run->tasks[i])) {
-            run->tasks[i]->state = TASK_DROPPED;
+            run->tasks[i]->state = run->tasks[i]->is_made ? TASK_ENDED : TASK_DROPPED;
             run->dropped = true;
         }
     run->waiting = 0;
@@ -114,8 +114,9 @@ static void check_interrupts(batch_run *run)
 static ffd_status begin_jobs(batch_run *run, ffd_error *error)
 {
     ffd_status status;
-    TRY_END(read_jobs(run, error));
-    TRY_END(ffd_run_claim_tasks(run, error));
+    TRY_END(run->frames.are_drawn ? ffd_run_take_waiting(run, error) : read_jobs(run, error));
+    if (!run->frames.are_drawn)
+        TRY_END(ffd_run_claim_tasks(run, error));
     if (!run->ending)
         TRY_END(ffd_pool_assign(run->pool, run->tasks, run->count, error));
 end:
@@ -163,23 +164,62 @@ static ffd_status take_ends(batch_run *run, ffd_error *error)
     return ffd_run_take_ended(run, error);
 }
 
+/* Returns false if the caller wants the batch to end. Where pictures wait, they are one half of it. */
+static bool show_progress(batch_run *run)
+{
+    const ffd_batch_result *const told = &run->counts, *const made = &run->made;
+    const double jobs = (double)(made->done + made->skipped + made->failed),
+                 ended = (double)(told->done + told->skipped + told->failed);
+    double fraction = ffd_run_fraction(run);
+    if (run->frames.are_drawn)
+        fraction = jobs > 0 ? 0.5 + 0.5 * ended / jobs : 1;
+    else if (run->frames.wait && fraction > 0)
+        fraction *= 0.5;
+    run->progress.draws = run->frames.are_drawn;
+    return ffd_progress_show(&run->progress, run->frames.are_drawn ? told : made, fraction);
+}
+
+/* Whether all jobs, or all pictures, have ended. Jobs that wait for pictures are all told of. */
+static bool is_over(const batch_run *run)
+{
+    return run->count == 0 && (run->ended || (run->ending && !run->frames.are_drawn));
+}
+
 static ffd_status run_jobs(batch_run *run, ffd_error *error)
 {
     ffd_status status = FFD_OK, first = FFD_OK;
     while (!status) {
         run->ending = run->ending || run->cancelled || ffd_interrupt_requested();
-        if (!first)
-            first = begin_jobs(run, error);
+        const ffd_status begun =
+            !first || run->frames.are_drawn ? begin_jobs(run, first ? NULL : error) : FFD_OK;
+        first = first ? first : begun;
         const ffd_status waited = wait_for_ends(run, first ? NULL : error);
         first = first ? first : waited;
         log_memory_shortage(run);
         status = take_ends(run, first ? NULL : error);
-        run->cancelled =
-            !ffd_progress_show(&run->progress, &run->counts, ffd_run_fraction(run)) || run->cancelled;
-        if (run->count == 0 && (run->ended || run->ending))
+        run->cancelled = !show_progress(run) || run->cancelled;
+        if (is_over(run))
             break;
     }
     return first ? first : status;
+}
+
+/* Draws the pictures that have waited for the last job. If the jobs could not all be run for another reason
+   than that one has failed, they are told of without pictures. */
+static ffd_status draw_pictures(batch_run *run, ffd_status made, ffd_error *error)
+{
+    run->frames.are_drawn = true;
+    run->frames.all_made = run->ended && !run->dropped;
+    run->ended = run->starved = false;
+    run->ending = made;
+    return run_jobs(run, error);
+}
+
+static ffd_status run_all(batch_run *run, ffd_error *error)
+{
+    const ffd_status made = run_jobs(run, error);
+    const ffd_status drawn = run->frames.wait ? draw_pictures(run, made, made ? NULL : error) : FFD_OK;
+    return made ? made : drawn;
 }
 
 /* Returns the path of the file that the jobs come from; NULL: they come from elsewhere. */
@@ -286,7 +326,11 @@ static ffd_status open_view(batch_run *run, ffd_error *error)
                                 .shard = desc->jobs.shard,
                                 .shards = desc->jobs.shards,
                                 .force = desc->force || desc->jobs.resume,
-                                .dry = desc->pool.wishes.dry};
+                                .dry = desc->pool.wishes.dry,
+                                .pages = desc->given->pages};
+    /* The files that a pattern matches are meshes of one job each. */
+    run->frames.are_common = desc->jobs.manifest || desc->jobs.table || desc->jobs.next;
+    run->frames.wait = run->frames.are_common && !desc->pool.wishes.dry;
     return ffd_run_view_create(&view, &run->view, error);
 }
 
@@ -338,10 +382,12 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
         TRY(ffd_report_create(desc->given->report, pool.wishes.stable, NULL, &run->report, error));
     if (desc->given->positions)
         TRY(ffd_run_rows_place(&run->rows, desc, error));
-    pool.wishes.report = run->report || run->view || run->rows.report;
+    /* The report of a job that waits for its picture is made when that is drawn. */
+    pool.wishes.frames = run->frames.wait;
+    pool.wishes.result = pool.wishes.result || run->frames.wait;
+    pool.wishes.report = (run->report || run->view || run->rows.report) && !run->frames.wait;
     pool.wishes.quality = pool.wishes.quality || run->report || run->view;
     pool.draws = run->view != NULL;
-    pool.look = desc->given->look;
     pool.rows = desc->given->positions ? &run->rows.array : NULL;
     pool.wishes.depfile = run->depfile != NULL;
     pool.wishes.records = run->journal != NULL;
@@ -360,6 +406,9 @@ static const char *remark_of(const batch_run *run)
 {
     if (!run->dropped)
         return "";
+    if (run->frames.all_made)
+        return ffd_interrupt_requested() ? "; interrupted, the other pictures were not drawn"
+                                         : "; the other pictures were not drawn ({stop})";
     return ffd_interrupt_requested() ? "; interrupted, the other jobs were not started"
                                      : "; the other jobs were not started ({stop})";
 }
@@ -439,9 +488,17 @@ static ffd_status refuse_cancelled(ffd_error *error)
     return ffd_fail(error, FFD_E_CANCELLED, "the caller has ended the batch");
 }
 
+/* Pictures that are not compared with the others are named. */
+static void log_own_frames(batch_run *run)
+{
+    ffd_error note;
+    if (!run->desc->given->quiet && ffd_frames_warn(&run->frames, ffd_jobs_name(run->source), &note))
+        ffd_run_log_error(run, &note);
+}
+
 static ffd_status run_and_report(batch_run *run, ffd_error *error)
 {
-    ffd_status status = run_jobs(run, error);
+    ffd_status status = run_all(run, error);
     if (!status && run->cancelled)
         status = refuse_cancelled(error);
     if (status)
@@ -457,6 +514,7 @@ static ffd_status run_and_report(batch_run *run, ffd_error *error)
         status = write_depfile(run, error);
     warn_of_flaws(run);
     log_boxes(run);
+    log_own_frames(run);
     if (!status) {
         warn_of_empty_manifest(run);
         log_kept_array(run);
@@ -488,6 +546,7 @@ end:
     ffd_report_destroy(&run.report);
     ffd_depfile_destroy(&run.depfile);
     ffd_run_view_destroy(&run.view);
+    ffd_frames_free(&run.frames);
     ffd_run_rows_close(&run.rows);
     ffd_journal_close(&run.journal);
     ffd_free(run.journal_path);

@@ -1,5 +1,5 @@
 /* batch_run.h - the state of a running batch. batch_run.c runs it (batch_desc.h); batch_ends.c, job_ended.c,
-   run_early.c and run_claims.c have the functions below. */
+   run_claims.c, run_drawing.c and run_early.c have the functions below. */
 #ifndef FFD_BATCH_BATCH_RUN_H
 #define FFD_BATCH_BATCH_RUN_H
 
@@ -10,6 +10,7 @@
 #include "batch/files/claims.h"
 #include "batch/journal.h"
 #include "batch/progress.h"
+#include "batch/run_frames.h"
 #include "batch/run_rows.h"
 #include "batch/run_view.h"
 #include "job/report/depfile.h"
@@ -34,6 +35,7 @@ typedef struct batch_run {
     ffd_report *report;   /* NULL: none */
     ffd_depfile *depfile; /* NULL: none */
     run_view *view;       /* NULL: none */
+    run_frames frames;    /* of the pictures */
     run_rows rows;        /* zeros: none */
     shown_box box;        /* the shared box of all meshes */
     path_list box_files;  /* its files, for the depfile */
@@ -44,7 +46,7 @@ typedef struct batch_run {
     intern_table boxed; /* names (as hashes) of the meshes round each of which a lattice's box was laid */
     uint64_t jobs;      /* number of jobs read so far */
     batch_progress progress;
-    ffd_batch_result counts;
+    ffd_batch_result counts, made;  /* made: with the jobs that wait for their pictures */
     pool_task *tasks[BATCH_WINDOW]; /* count tasks in the order of the jobs */
     size_t count, waiting;          /* waiting: those that have not begun */
     bool ended;                     /* the source has no more jobs */
@@ -78,8 +80,21 @@ ffd_status ffd_run_learn(batch_run *run, pool_task *task, ffd_error *error);
    have, because an earlier failure may stop the run; it is dropped if no more jobs are begun. Errors:
    FFD_E_MEMORY, FFD_E_IO. */
 ffd_status ffd_run_note_ends(batch_run *run, ffd_error *error);
+/* Finds what the journal has of the picture of a job, which has a record. */
+void ffd_run_find_drawn(batch_run *run, pool_task *task);
+/* Records the picture of a job that has ended, if there is a journal. */
+void ffd_run_put_drawn(const batch_run *run, const pool_task *task);
+/* Reads jobs that wait for their pictures; run->ended: there are no more. Errors: FFD_E_IO, FFD_E_MEMORY. */
+ffd_status ffd_run_take_waiting(batch_run *run, ffd_error *error);
+/* Fills a result with what the worker has answered. morphs: results of morph targets, freed by the caller. */
+void ffd_run_take_result(const pool_task *task, ffd_job_result *result, ffd_job_result **morphs);
 /* Adds texts that are each terminated by 0 to a list. Errors: FFD_E_MEMORY. */
 ffd_status ffd_run_list_texts(const byte_buffer *texts, path_list *list, ffd_error *error);
+/* Lists the outputs of a job that has ended, with its picture and page. Errors: FFD_E_MEMORY. */
+ffd_status ffd_run_list_outputs(const batch_run *run, const pool_task *task, path_list *list,
+                                ffd_error *error);
+/* Names the picture and the page of a job in its result, if they are there. */
+void ffd_run_name_picture(const pool_task *task, ffd_job_result *result);
 /* Tells the caller that a job has ended. log: its messages. */
 void ffd_run_call_ended(const batch_run *run, const pool_task *task, const char *log);
 /* Removes ended jobs from the window; if results are output in order, only up to the first job that has not

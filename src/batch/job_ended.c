@@ -18,9 +18,8 @@ static void read_figures(const pool_task *task, ffd_job_result *result)
     ffd_json_tree_free(&tree);
 }
 
-/* Takes what the worker has answered. Its pointers are those of its own memory. morphs: results of morph
-   targets, freed by the caller. */
-static void take_result(const pool_task *task, ffd_job_result *result, ffd_job_result **morphs)
+/* The pointers in the answer are those of the worker's memory. */
+void ffd_run_take_result(const pool_task *task, ffd_job_result *result, ffd_job_result **morphs)
 {
     const ffd_deform_desc *const desc = &task->job.desc;
     memcpy(result, task->result.data, sizeof *result);
@@ -30,6 +29,8 @@ static void take_result(const pool_task *task, ffd_job_result *result, ffd_job_r
         memcpy(*morphs, task->result.data + sizeof *result, size);
     result->morphs =
         (ffd_morph_results){*morphs ? size / sizeof *result : 0, desc->morphs, desc->lattices, *morphs};
+    result->outputs = NULL;
+    result->picture = result->page = result->own_frame = NULL;
 }
 
 ffd_status ffd_run_list_texts(const byte_buffer *texts, path_list *list, ffd_error *error)
@@ -37,6 +38,25 @@ ffd_status ffd_run_list_texts(const byte_buffer *texts, path_list *list, ffd_err
     for (size_t at = 0; at < texts->size; at += strlen(texts->data + at) + 1)
         TRY(ffd_paths_add(list, texts->data + at, error));
     return FFD_OK;
+}
+
+ffd_status ffd_run_list_outputs(const batch_run *run, const pool_task *task, path_list *list,
+                                ffd_error *error)
+{
+    const bool waited = run->frames.wait && task->is_made, failed = task->end.outcome == OUTCOME_FAILED;
+    if (!waited || !failed || task->is_refused)
+        TRY(ffd_run_list_texts(&task->outputs, list, error));
+    if (waited && task->end.has_picture)
+        TRY(ffd_paths_add(list, task->picture, error));
+    return waited && task->end.has_picture && task->page ? ffd_paths_add(list, task->page, error) : FFD_OK;
+}
+
+void ffd_run_name_picture(const pool_task *task, ffd_job_result *result)
+{
+    const bool is_there = task->end.has_picture;
+    result->picture = is_there ? task->picture : NULL;
+    result->page = is_there ? task->page : NULL;
+    result->own_frame = is_there ? task->own_frame : NULL;
 }
 
 void ffd_run_call_ended(const batch_run *run, const pool_task *task, const char *log)
@@ -48,16 +68,16 @@ void ffd_run_call_ended(const batch_run *run, const pool_task *task, const char 
         return;
     ffd_result_clear(&result);
     if (task->result.size >= sizeof result)
-        take_result(task, &result, &morphs);
-    else if (task->end.outcome == OUTCOME_SKIPPED)
+        ffd_run_take_result(task, &result, &morphs);
+    else if (task->end.outcome != OUTCOME_FAILED)
         read_figures(task, &result);
     if (task->failure.status) {
         result.error = task->failure;
         result.status = result.error.status;
     }
-    ffd_run_list_texts(&task->outputs, &outputs.names, NULL);
+    ffd_run_list_outputs(run, task, &outputs.names, NULL);
     result.outputs = &outputs;
-    result.picture = task->end.has_picture ? task->picture : NULL;
+    ffd_run_name_picture(task, &result);
     const ffd_batch_job job = {.line = task->job.line,
                                .row = task->job.row,
                                .input = task->job.input,

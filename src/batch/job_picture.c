@@ -5,9 +5,11 @@
 #include "base/file/output.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "batch/hash_cache.h"
 #include "job/chain/job_cache.h"
 #include "job/figures/figure_values.h"
 #include "job/input/source.h"
+#include "job/view/view_run.h"
 
 /* Mesh files of at least this many bytes take too much memory to be kept while drawing. */
 #define LARGE ((uint64_t)1 << 22)
@@ -45,25 +47,67 @@ static ffd_status make_folder(const char *path, char **folder, size_t *made, ffd
     return *folder ? ffd_folder_make(*folder, made, error) : ffd_fail_memory(error);
 }
 
-ffd_status ffd_job_picture_write(const char *path, const ffd_deform_desc *desc, const ffd_view_desc *look,
-                                 bool force, ffd_job_result *result)
+/* Runs a view of the job. output: the picture or the page. */
+static ffd_status run_view(const job_picture *picture, const char *output, const view_frames *frames,
+                           ffd_job_result *result)
 {
-    ffd_deform_desc job = *desc;
-    ffd_view_desc view = *look;
-    char *folder;
-    size_t made;
+    ffd_deform_desc job = *picture->job;
+    ffd_view_desc view = *picture->look;
     job.output_list = NULL; /* the outputs are those of the job itself */
     job.cache = NULL;       /* draw the mesh at rest; a mesh of the cache may have results */
     view.job = &job;
-    view.output = path;
-    view.force = force;
+    view.output = output;
+    view.force = picture->force;
+    ffd_result_clear(result);
+    return ffd_view_run_framed(&view, frames, result, NULL);
+}
+
+ffd_status ffd_job_picture_measure(const job_picture *picture, view_frame *frame, ffd_job_result *result)
+{
+    const view_frames frames = {.measured = frame};
+    return run_view(picture, picture->path, &frames, result);
+}
+
+/* A page has no size in pixels and no frames, and its own way to show an animation. */
+static ffd_status write_page(const job_picture *picture, ffd_job_result *result)
+{
+    const view_frames frames = {0};
+    ffd_view_desc look = *picture->look;
+    job_picture page = *picture;
+    look.width = look.height = look.frames = 0;
+    page.look = &look;
+    return run_view(&page, picture->page, &frames, result);
+}
+
+static bool is_drawn(ffd_status status)
+{
+    return status == FFD_OK || status == FFD_E_GATE;
+}
+
+ffd_status ffd_job_picture_write(const job_picture *picture, ffd_job_result *result)
+{
+    const view_frames frames = {.frame = picture->frame};
+    char *folder;
+    size_t made;
     ffd_result_clear(result);
     ffd_status status;
-    TRY_END(make_folder(path, &folder, &made, &result->error));
-    TRY_END(ffd_view_run(&view, result, NULL));
+    TRY_END(make_folder(picture->path, &folder, &made, &result->error));
+    status = run_view(picture, picture->path, &frames, result);
+    if (picture->page && is_drawn(status))
+        status = write_page(picture, result);
 end:
-    if (status && !result->picture && folder)
+    if (!is_drawn(status) && folder)
         ffd_folder_unmake(folder, made);
     ffd_free(folder);
     return result->status = status;
+}
+
+ffd_status ffd_job_picture_hash(const char *path, const char *page, hash128 *hash, ffd_error *error)
+{
+    hash128 parts[2];
+    TRY(ffd_hash_cache_hash(NULL, path, &parts[0], error));
+    if (page)
+        TRY(ffd_hash_cache_hash(NULL, page, &parts[1], error));
+    *hash = page ? ffd_hash(parts, sizeof parts) : parts[0];
+    return FFD_OK;
 }

@@ -76,19 +76,6 @@ static uint32_t count_words(const byte_buffer *words)
     return count;
 }
 
-static void take_look(const ffd_view_desc *from, task_look *to)
-{
-    if (!from)
-        return;
-    memcpy(to->camera, from->camera, sizeof to->camera);
-    to->width = from->width;
-    to->height = from->height;
-    to->frames = from->frames;
-    to->color = (int32_t)from->color;
-    to->up = (int32_t)from->up;
-    to->no_cage = from->no_cage;
-}
-
 static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_task *task, int threads)
 {
     const pool_desc *const desc = &pool->desc;
@@ -103,10 +90,13 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
     append_word(&text, job->input);
     append_word(&text, ffd_job_output_name(job) ? ffd_job_output_name(job) : "");
     append_word(&text, task->picture ? task->picture : "");
+    append_word(&text, task->page ? task->page : "");
     append_word(&text, desc->rows ? desc->rows->path : "");
     append_word(&text, desc->journal ? desc->journal : "");
-    append_word(&text, desc->look && desc->look->animation ? desc->look->animation : "");
+    append_word(&text, job->look.animation ? job->look.animation : "");
     append_word(&text, desc->base ? desc->base : "");
+    ffd_buffer_append(&text, task->log.data, task->log.size);
+    ffd_buffer_append(&text, "", 1);
     ffd_buffer_append(&text, task->passed.data, task->passed.size);
     head.text_size = text.size - sizeof head;
     head.line = job->line;
@@ -114,7 +104,7 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
     head.content = job->content;
     head.wishes = desc->wishes;
     head.order = task->order;
-    take_look(desc->look, &head.look);
+    head.look = ffd_task_look(&job->look);
     head.passed_count = count_words(&task->passed) / 2;
     head.threads = threads;
     head.dry_run_job = desc->wishes.dry && !pool->dry_run_done;
@@ -259,7 +249,7 @@ static void begin_task(const worker_pool *pool, pool_worker *worker, pool_task *
     worker->timed_out = worker->stopped = worker->is_ending = worker->is_unheard = false;
     worker->deadline = pool->desc.timeout > 0 ? ffd_clock_seconds() + pool->desc.timeout : 0;
     task->order.scans = task->state == TASK_NEW;
-    task->end.took_row = pool->desc.rows != NULL;
+    task->end.took_row = task->end.took_row || pool->desc.rows != NULL;
     task->state = TASK_RUNS;
 }
 
@@ -348,14 +338,27 @@ static bool take_texts(pool_task *task, const wire_answer *head, const char *at)
 {
     byte_buffer *const texts[ANSWER_TEXTS] = {FOR_EACH_ANSWER_TEXT(TEXT_OF_TASK)};
     bool is_whole = true;
-    if (head->end.outcome != OUTCOME_SKIPPED)
+    task->log.size = 0; /* that of the answer begins with it */
+    if (!task->order.draws && head->end.outcome != OUTCOME_SKIPPED)
         task->figures.size = 0;
+    if (task->order.draws && head->end.outcome == OUTCOME_FAILED)
+        task->result.size = 0;
     for (int i = 0; i < ANSWER_TEXTS; i++) {
         ffd_buffer_append(texts[i], at, head->sizes[i]);
         at += head->sizes[i];
         is_whole = is_whole && !texts[i]->failed;
     }
     return is_whole;
+}
+
+/* Adds how the drawing has ended to how the job has. */
+static void take_drawing(pool_task *task, const task_end *end)
+{
+    task->end.has_picture = end->has_picture;
+    task->end.has_drawn = end->has_drawn;
+    task->end.drawn = end->drawn;
+    if (end->outcome == OUTCOME_FAILED || task->end.outcome == OUTCOME_SKIPPED)
+        task->end.outcome = end->outcome;
 }
 
 /* Takes a worker's answer if it is complete. Returns false if it is invalid. */
@@ -388,13 +391,16 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
     const bool lost = !take_texts(task, &head, bytes->data + sizeof head);
     if (head.out_of_memory || lost)
         ffd_fail_file(&task->failure, FFD_E_MEMORY, task->job.input, "out of memory");
-    task->end = head.end;
+    if (task->order.draws)
+        take_drawing(task, &head.end);
+    else
+        task->end = head.end;
     pool->counts.jobs.reads += head.end.counts.reads;
     pool->counts.jobs.searches += head.end.counts.searches;
     worker->retires = head.retires;
     pool->dry_run_done = pool->dry_run_done || head.end.dry_run_done;
     bytes->size = 0;
-    end_task(worker, lost ? OUTCOME_FAILED : head.end.outcome);
+    end_task(worker, lost ? OUTCOME_FAILED : task->end.outcome);
     return true;
 }
 
@@ -450,6 +456,8 @@ static void end_worker(worker_pool *pool, pool_worker *worker)
     }
     if (task->picture)
         ffd_temporary_discard(task->picture);
+    if (task->page)
+        ffd_temporary_discard(task->page);
     end_task(worker, OUTCOME_FAILED);
 }
 
@@ -564,6 +572,7 @@ void ffd_task_free(pool_task *task)
         return;
     ffd_job_free(&task->job);
     ffd_free(task->picture);
+    ffd_free(task->page);
     byte_buffer *const texts[ANSWER_TEXTS] = {FOR_EACH_ANSWER_TEXT(TEXT_OF_TASK)};
     for (int i = 0; i < ANSWER_TEXTS; i++)
         ffd_buffer_free(texts[i]);

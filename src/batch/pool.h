@@ -14,10 +14,9 @@ typedef struct pool_desc {
     const char *journal; /* path of the journal; NULL: none */
     const char *base;    /* folder that its names are relative to; NULL with no journal */
     task_wishes wishes;
-    bool draws;                /* jobs make pictures too */
-    const ffd_view_desc *look; /* how; may be NULL */
-    const row_array *rows;     /* array of positions, or NULL */
-    const shown_box *box;      /* shared box, or NULL */
+    bool draws;            /* jobs make pictures too */
+    const row_array *rows; /* array of positions, or NULL */
+    const shown_box *box;  /* shared box, or NULL */
 } pool_desc;
 
 typedef enum task_state {
@@ -36,7 +35,8 @@ typedef struct pool_task {
     batch_job job;
     uint64_t index;         /* in the run, from 0 */
     hash128 target;         /* of its output in the journal */
-    hash128 picture_target; /* the journal's key for the picture of a job without an output */
+    hash128 picture_target; /* the journal's key for the picture */
+    hash128 drawn_as;       /* hash of what the picture showed when it was drawn, if order.has_drawn */
     hash128 mesh;           /* hash of the input's name: a worker prefers the mesh that it has */
     bool is_large;          /* the input is large: only one worker may read it */
     uint64_t memory;        /* bytes that it may take; 0: the pool has not asked yet */
@@ -46,6 +46,12 @@ typedef struct pool_task {
     task_state state;
     char *picture;            /* path; NULL: none is wanted */
     const char *picture_name; /* part of that path below the folder of pictures */
+    char *page;               /* path, which has the picture's folder; NULL: none is wanted */
+    bool is_made;             /* the job has ended, but for its picture (run_frames.h): */
+    bool is_refused;          /* by a gate */
+    size_t told;              /* bytes of the log that were printed */
+    uint32_t frame_mesh;      /* number of the mesh among those that have frames */
+    const char *own_frame;    /* why the picture has another frame than those of the other jobs; or NULL */
     bool scanned_in_vain;     /* the scan found nothing */
     bool is_learned;          /* ffd_run_learn knows that */
     bool has_scanned;         /* the results of a scan are here: */

@@ -53,9 +53,9 @@ static void describe(const batch_progress *progress, const ffd_batch_result *cou
         snprintf(left, sizeof left, ", %s left", time);
     }
     snprintf(text, capacity, "%" PRIu64 " %s, %" PRIu64 " failed, %.*f/s%s", jobs,
-             ffd_plural(jobs, "job", "jobs"), counts->failed,
-             seconds > 0 && (double)jobs / seconds < 10 ? 1 : 0, seconds > 0 ? (double)jobs / seconds : 0.0,
-             left);
+             progress->draws ? ffd_plural(jobs, "picture", "pictures") : ffd_plural(jobs, "job", "jobs"),
+             counts->failed, seconds > 0 && (double)jobs / seconds < 10 ? 1 : 0,
+             seconds > 0 ? (double)jobs / seconds : 0.0, left);
 }
 
 static void draw_bar(batch_progress *progress, const char *text, double fraction)

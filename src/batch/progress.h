@@ -11,6 +11,7 @@ typedef struct batch_progress {
     const ffd_batch_desc *desc;
     bool bar;   /* standard error is a terminal */
     bool drawn; /* a bar is on the screen */
+    bool draws; /* pictures are counted, not jobs */
     double begin, last;
 } batch_progress;
 

@@ -13,25 +13,23 @@ void ffd_run_fail_task(pool_task *task)
 static void find_record(batch_run *run, pool_task *task)
 {
     byte_buffer *const figures = run->report || run->view || run->rows.report ? &task->figures : NULL;
-    job_record drawn;
     task->order.has_record = ffd_journal_find(run->journal, &task->target, &task->order.record, figures);
-    /* A run without pictures may have made the row anew since it was drawn. */
-    task->order.has_drawn = task->order.has_record && task->picture && !task->job.output &&
-                            ffd_journal_find(run->journal, &task->picture_target, &drawn, NULL) &&
-                            ffd_hash_equal(&drawn.inputs, &task->order.record.inputs);
-    if (task->order.has_drawn)
-        task->order.drawn = drawn.outputs;
+    if (task->order.has_record && task->picture)
+        ffd_run_find_drawn(run, task);
 }
 
-/* Names the picture of a job and claims its file, at the same time as the output. */
+/* Names the picture of a job and its page, and claims their files, at the same time as the output. */
 static ffd_status claim_picture(batch_run *run, pool_task *task, ffd_error *error)
 {
-    hash128 file;
-    TRY(ffd_run_view_name(run->view, task, &file, error));
+    hash128 files[2];
+    TRY(ffd_run_view_name(run->view, task, files, error));
     const hash128 seen = ffd_place_relative(&run->files.places, run->base, task->picture);
     const hash_block blocks[] = {{seen.bytes, sizeof seen.bytes}, {task->target.bytes, sizeof seen.bytes}};
     task->picture_target = ffd_hash_blocks(blocks, 2);
-    return ffd_claims_picture(&run->files, &task->job, &file, task->picture, error);
+    TRY(ffd_claims_picture(&run->files, &task->job, &files[0], task->picture, error));
+    return task->page && !task->job.error.status
+               ? ffd_claims_picture(&run->files, &task->job, &files[1], task->page, error)
+               : FFD_OK;
 }
 
 /* Claims the output of a job and checks what it reads, as far as its description says it. */

@@ -85,44 +85,48 @@ static const char *below(const char *out_dir, const char *output)
     return output + length;
 }
 
-/* Returns the picture's name below the folder, freed by the caller; NULL: out of memory. */
-static char *name_picture(const char *out_dir, const char *output)
+/* Returns the name of a job below the folder, with an ending; freed by the caller. NULL: out of memory. */
+static char *name_job(const char *out_dir, const batch_job *job, const char *ending)
 {
     byte_buffer name = {0};
-    char *const plain = ffd_path_normalize(below(out_dir, output));
+    char *const plain = job->output ? ffd_path_normalize(below(out_dir, job->output)) : NULL;
     const char *start = plain;
     while (start && (*start == '/' || ffd_path_leads_out(start)))
         start += *start == '/' ? 1 : 2;
-    ffd_buffer_text(&name, start ? start : "");
-    ffd_buffer_text(&name, ".png");
-    char *const text = plain ? ffd_buffer_finish(&name) : NULL;
+    if (job->output)
+        ffd_buffer_text(&name, start ? start : "");
+    else /* of a row of positions */
+        ffd_buffer_format(&name, "row-%" PRIu64, job->row);
+    ffd_buffer_text(&name, ending);
+    char *const text = plain || !job->output ? ffd_buffer_finish(&name) : NULL;
     ffd_buffer_free(&name);
     ffd_free(plain);
     return text;
 }
 
-/* Likewise for a job with a row of positions and no output. */
-static char *name_picture_of_row(uint64_t row)
+/* *path, *file: as of ffd_run_view_name. *name: the part of the path below the folder. */
+static ffd_status name_file(const run_view *view, const batch_job *job, const char *ending, char **path,
+                            const char **name, hash128 *file, ffd_error *error)
 {
-    byte_buffer name = {0};
-    ffd_buffer_format(&name, "row-%" PRIu64 ".png", row);
-    return ffd_buffer_finish(&name);
-}
-
-ffd_status ffd_run_view_name(const run_view *view, pool_task *task, hash128 *file, ffd_error *error)
-{
-    const batch_job *const job = &task->job;
-    char *const name =
-        job->output ? name_picture(view->desc.out_dir, job->output) : name_picture_of_row(job->row);
-    char *const whole = name ? ffd_path_join(view->resolved, name) : NULL;
-    task->picture = name ? ffd_path_join(view->desc.folder, name) : NULL;
+    char *const below_folder = name_job(view->desc.out_dir, job, ending);
+    char *const whole = below_folder ? ffd_path_join(view->resolved, below_folder) : NULL;
+    *path = below_folder ? ffd_path_join(view->desc.folder, below_folder) : NULL;
     if (whole) /* same identity whether or not folders below exist yet */
         *file = ffd_place_of(NULL, whole);
-    if (task->picture)
-        task->picture_name = task->picture + strlen(task->picture) - strlen(name);
-    ffd_free(name);
+    if (*path)
+        *name = *path + strlen(*path) - strlen(below_folder);
+    const bool is_named = whole && *path;
+    ffd_free(below_folder);
     ffd_free(whole);
-    return whole && task->picture ? FFD_OK : ffd_fail_memory(error);
+    return is_named ? FFD_OK : ffd_fail_memory(error);
+}
+
+ffd_status ffd_run_view_name(const run_view *view, pool_task *task, hash128 files[2], ffd_error *error)
+{
+    const char *name;
+    TRY(name_file(view, &task->job, ".png", &task->picture, &task->picture_name, &files[0], error));
+    return view->desc.pages ? name_file(view, &task->job, ".html", &task->page, &name, &files[1], error)
+                            : FFD_OK;
 }
 
 ffd_status ffd_run_view_add(run_view *view, const pool_task *task, const byte_buffer *text, ffd_error *error)
@@ -137,6 +141,10 @@ ffd_status ffd_run_view_add(run_view *view, const pool_task *task, const byte_bu
     entry.row.line = task->job.line;
     entry.row.settings = shown;
     entry.row.picture = task->end.has_picture ? task->picture_name : NULL;
+    entry.row.page =
+        task->end.has_picture && task->page ? task->page + (task->picture_name - task->picture) : NULL;
+    if (task->end.has_picture && task->own_frame)
+        entry.row.frame = strcmp(task->own_frame, "far") == 0 ? "it lies far away" : "other options";
     ffd_status status = shown ? ffd_index_add(&view->index, &entry.row, error) : ffd_fail_memory(error);
     ffd_free(shown);
     ffd_index_entry_free(&entry);

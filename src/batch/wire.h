@@ -7,8 +7,10 @@
 #include "base/system/process.h"
 #include "batch/files/claims.h"
 #include "batch/row_array.h"
+#include "batch/task_look.h"
 #include "job/chain/job_cache.h"
 #include "job/input/shown_box.h"
+#include "view/view_frame.h"
 #include <stdint.h>
 
 /* argv[0] of a worker process. */
@@ -35,21 +37,17 @@ typedef struct task_wishes {
     bool count;              /* only count the mesh's vertices */
     bool result;             /* answer with the result of the job */
     bool reports_empty_scan; /* tell at once that a scan has found nothing */
+    bool frames;             /* only measure the frames of pictures: orders to draw them follow */
 } task_wishes;
-
-/* How pictures are drawn; their animation is among the texts. */
-typedef struct task_look {
-    double camera[3];
-    uint32_t width, height, frames;
-    int32_t color, up;
-    bool no_cage;
-} task_look;
 
 /* What one task asks for besides. */
 typedef struct task_order {
     job_record record; /* of the last time, if has_record */
-    hash128 drawn; /* bytes of the picture that was drawn then, if has_drawn: of a job without an output */
+    hash128 drawn;     /* bytes of the picture that was drawn then, if has_drawn */
     bool has_record, has_drawn;
+    bool draws; /* only draw the picture of a job that has ended, whose inputs are those of record */
+    bool has_frame;
+    view_frame frame;   /* if has_frame: to draw with, or what was measured when the picture was drawn */
     bool scans;         /* first scan the files of the job (scan.h), */
     claim_needs needs;  /* and of them these */
     bool only_scans;    /* answer after the scan, whatever it finds */
@@ -63,24 +61,26 @@ typedef enum task_outcome { OUTCOME_DONE, OUTCOME_SKIPPED, OUTCOME_FAILED } task
 typedef struct task_end {
     task_outcome outcome;
     job_record record;   /* if has_record */
-    hash128 drawn;       /* bytes of the picture of a job without an output, if has_drawn */
+    hash128 drawn;       /* bytes of the picture, with those of its page, if has_drawn */
+    view_frame frame;    /* of the picture, if has_frame */
     hash128 state;       /* of the mesh's files, if has_state (job_cache.h) */
     cache_counts counts; /* of this job */
     shown_box box;       /* of a measured mesh */
     uint64_t vertices;   /* if only vertices were counted */
     uint64_t sidecars;   /* after a scan: number of files beside the output */
-    bool has_record, has_drawn, has_state;
+    bool has_record, has_drawn, has_frame, has_state;
     bool dry_run_done; /* dry run: everything except writing was done */
-    bool has_picture;  /* it exists and shows this job */
+    bool has_picture;  /* it exists and shows this job, and so does the page, if one is wanted */
     bool took_row;     /* the row may have been written to */
     bool own_box;      /* a lattice's box was laid round the job's mesh */
 } task_end;
 
 /* A task for a worker, followed by its texts: the settings of the job (ffd_settings_write), and each
    terminated by 0 the path of the mesh, the names of the manifest, of the input and of the output (empty: no
-   mesh is written), the paths of the picture, of the array of positions and of the journal (empty: none), the
-   animation that the picture shows (empty: none), the folder that the names in the journal are relative to,
-   and passed_count pairs of texts as ffd_claims_others fills them. */
+   mesh is written), the paths of the picture, of the page, of the array of positions and of the journal
+   (empty: none), the animation that the picture shows (empty: none), the folder that the names in the journal
+   are relative to, what was logged of the job before, and passed_count pairs of texts as ffd_claims_others
+   fills them. */
 typedef struct wire_task {
     uint64_t text_size;
     uint64_t line, row; /* of the job */

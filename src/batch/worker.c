@@ -34,7 +34,7 @@
 
 /* As in wire_task. */
 typedef struct task_texts {
-    const char *origin, *input, *output, *picture, *rows, *journal, *animation, *base, *passed;
+    const char *origin, *input, *output, *picture, *page, *rows, *journal, *animation, *base, *said, *passed;
 } task_texts;
 
 typedef struct batch_worker {
@@ -130,20 +130,20 @@ static bool has_line(const char *text, size_t size, const char *line, size_t len
     return false;
 }
 
-/* Removes the lines from offset `before` on that also occur earlier: the picture repeats warnings of its
-   job. */
+/* Removes the lines from offset `before` on that also occur earlier: the picture repeats warnings of its job,
+   and the page those of both. */
 static void drop_repeated(byte_buffer *lines, size_t before)
 {
     size_t kept = before, length;
-    for (size_t at = before; at < lines->size && before > 0; at += length) {
+    for (size_t at = before; at < lines->size; at += length) {
         const char *const line = lines->data + at;
         length = (size_t)((const char *)memchr(line, '\n', lines->size - at) - line) + 1;
-        if (has_line(lines->data, before, line, length))
+        if (has_line(lines->data, kept, line, length))
             continue;
         memmove(lines->data + kept, line, length);
         kept += length;
     }
-    lines->size = before > 0 ? kept : lines->size;
+    lines->size = kept;
 }
 
 static void log_error(batch_worker *worker, const ffd_error *error)
@@ -213,7 +213,7 @@ static ffd_status deform(ffd_deform_desc *desc, ffd_job_result *result)
 static ffd_status hash_files(batch_worker *worker, const wire_task *task, const ffd_deform_desc *desc,
                              wire_answer *answer, ffd_error *error)
 {
-    if (!task->wishes.records && !task->wishes.dry && !task->wishes.depfile)
+    if (!task->wishes.records && !task->wishes.dry && !task->wishes.depfile && !task->wishes.frames)
         return FFD_OK;
     /* In a dry run this also shows that they can be read. */
     return ffd_fingerprint_inputs(desc, &task->content, &worker->hashes, &worker->inputs,
@@ -256,21 +256,27 @@ static ffd_status list_outputs(batch_worker *worker, const wire_task *task, cons
     return task->has_row ? ffd_paths_add(&worker->names, worker->texts.rows, error) : FFD_OK;
 }
 
+/* Adds the picture and the page, if they are wanted. */
+static ffd_status add_picture(const task_texts *texts, path_list *list, ffd_error *error)
+{
+    if (*texts->picture)
+        TRY(ffd_paths_add(list, texts->picture, error));
+    return *texts->page ? ffd_paths_add(list, texts->page, error) : FFD_OK;
+}
+
 /* Lists the outputs of a job that has ended like this, with its picture, and makes the depfile rule. */
 static ffd_status describe_outputs(batch_worker *worker, const wire_task *task, const wire_answer *answer,
                                    const ffd_deform_desc *desc, ffd_status done, ffd_error *error)
 {
-    const char *const picture = worker->texts.picture;
-    const bool has_picture =
-        *picture && (answer->end.has_picture || (!done && task->wishes.dry)); /* also of a gate */
+    const bool is_there = answer->end.has_picture || (!done && task->wishes.dry); /* also of a gate */
     if (!done)
         TRY(list_outputs(worker, task, desc, error));
-    if (has_picture)
-        TRY(ffd_paths_add(&worker->names, picture, error));
+    if (is_there && !task->wishes.frames) /* else the first process adds it, once it is drawn */
+        TRY(add_picture(&worker->texts, &worker->names, error));
     if (done)
         return FFD_OK;
-    if (has_picture)
-        TRY(ffd_paths_add(&worker->written->names, picture, error));
+    if (is_there || answer->end.has_frame)
+        TRY(add_picture(&worker->texts, &worker->written->names, error));
     return task->wishes.depfile && !task->wishes.dry && desc->output
                ? ffd_depfile_rule(&worker->written->names, &worker->inputs, &worker->rule, error)
                : FFD_OK;
@@ -305,40 +311,48 @@ static ffd_status plan(const ffd_deform_desc *desc, ffd_error *error)
     return ffd_chain_check(&files, error);
 }
 
-static ffd_view_desc look_of(const task_look *from, const char *animation)
+/* Describes the picture of a job. look: kept for it. */
+static job_picture describe_picture(const batch_worker *worker, const wire_task *task,
+                                    const ffd_deform_desc *desc, ffd_view_desc *look)
 {
-    ffd_view_desc look;
-    ffd_view_desc_init(&look, sizeof look);
-    memcpy(look.camera, from->camera, sizeof look.camera);
-    look.width = from->width;
-    look.height = from->height;
-    look.frames = from->frames;
-    look.color = (ffd_view_color)from->color;
-    look.up = (ffd_up)from->up;
-    look.no_cage = from->no_cage;
-    look.animation = *animation ? animation : NULL;
-    return look;
+    const task_texts *const texts = &worker->texts;
+    *look = ffd_task_look_desc(&task->look, *texts->animation ? texts->animation : NULL);
+    return (job_picture){.path = texts->picture,
+                         .page = *texts->page ? texts->page : NULL,
+                         .job = desc,
+                         .look = look,
+                         .frame = task->order.has_frame ? &task->order.frame : NULL,
+                         .force = desc->force || desc->if_changed};
 }
 
-/* Draws the picture of a job that was done or refused by a gate. result: of the job; replaced if only the
-   picture is made (is_all), or if drawing fails. */
+static void name_picture(const batch_worker *worker, ffd_job_result *result)
+{
+    result->picture = worker->texts.picture;
+    result->page = *worker->texts.page ? worker->texts.page : NULL;
+}
+
+/* Draws the picture of a job that was done or refused by a gate, or only measures its frame. result: of the
+   job; replaced if only the picture is made (is_all), or if that fails. */
 static ffd_status draw(const batch_worker *worker, const wire_task *task, bool is_all,
                        const ffd_deform_desc *desc, wire_answer *answer, ffd_job_result *result)
 {
-    const char *const picture = worker->texts.picture;
-    const ffd_view_desc look = look_of(&task->look, worker->texts.animation);
+    ffd_view_desc look;
+    const job_picture picture = describe_picture(worker, task, desc, &look);
+    const bool measures = task->wishes.frames && !task->order.draws;
     ffd_job_result drawn;
     byte_buffer *const lines = ((const job_log *)desc->log_user)->lines;
     const size_t before = lines->size;
     ffd_job_picture_drop_mesh(desc);
-    const ffd_status status =
-        ffd_job_picture_write(picture, desc, &look, desc->force || desc->if_changed, &drawn);
+    const ffd_status status = measures ? ffd_job_picture_measure(&picture, &answer->end.frame, &drawn)
+                                       : ffd_job_picture_write(&picture, &drawn);
     drop_repeated(lines, before);
-    answer->end.has_picture = status == FFD_OK || status == FFD_E_GATE;
-    if (is_all || !answer->end.has_picture)
+    const bool is_shown = status == FFD_OK || status == FFD_E_GATE;
+    answer->end.has_frame = is_shown && measures;
+    answer->end.has_picture = is_shown && !measures;
+    if (is_all || !is_shown)
         *result = drawn;
     if (answer->end.has_picture)
-        result->picture = picture;
+        name_picture(worker, result);
     return result->status;
 }
 
@@ -384,12 +398,17 @@ static ffd_status take_row(const wire_task *task, const job_row *row, const ffd_
                                row->index);
 }
 
-/* Refuses to replace a picture, before anything is written. */
-static ffd_status check(const wire_task *task, const char *picture, ffd_deform_desc *desc, ffd_error *error)
+/* Refuses to replace a picture or a page, before anything is written. */
+static ffd_status check(const batch_worker *worker, const wire_task *task, ffd_deform_desc *desc,
+                        ffd_error *error)
 {
+    const char *const paths[] = {worker->texts.picture, worker->texts.page};
     /* A resumed run may replace what an earlier one left. */
     desc->force = desc->force || task->wishes.resume;
-    return picture ? ffd_job_picture_check(picture, desc->force || desc->if_changed, error) : FFD_OK;
+    for (size_t i = 0; i < 2; i++)
+        if (*paths[i])
+            TRY(ffd_job_picture_check(paths[i], desc->force || desc->if_changed, error));
+    return FFD_OK;
 }
 
 /* Restores the error of the row, which the callback cannot return. */
@@ -401,15 +420,25 @@ static ffd_status judge_row(const job_row *row, ffd_status status, ffd_error *er
     return error->status;
 }
 
-/* Whether the picture of a job that is up to date is there. The time of an array does not say when a row was
-   made: without an output the picture is known by its bytes. */
-static bool has_picture(const wire_task *task, const char *picture, const ffd_deform_desc *desc)
+/* Whether the picture of a job that is up to date is there: it is known by its bytes, and not older than an
+   output. The time of an array does not say when a row was made. */
+static bool has_picture(const batch_worker *worker, const wire_task *task, const ffd_deform_desc *desc)
 {
+    const task_texts *const texts = &worker->texts;
     hash128 bytes;
-    if (desc->output)
-        return ffd_job_picture_is_current(picture, desc->output);
-    return task->order.has_drawn && !ffd_hash_cache_hash(NULL, picture, &bytes, NULL) &&
+    return task->order.has_drawn &&
+           (!desc->output || ffd_job_picture_is_current(texts->picture, desc->output)) &&
+           !ffd_job_picture_hash(texts->picture, *texts->page ? texts->page : NULL, &bytes, NULL) &&
            ffd_hash_equal(&bytes, &task->order.drawn);
+}
+
+/* Hashes a picture that was drawn. */
+static void know_picture(const batch_worker *worker, wire_answer *answer)
+{
+    const task_texts *const texts = &worker->texts;
+    answer->end.has_drawn =
+        answer->end.has_picture &&
+        !ffd_job_picture_hash(texts->picture, *texts->page ? texts->page : NULL, &answer->end.drawn, NULL);
 }
 
 /* Deforms, unless the results are up to date, and draws the picture (NULL: none is wanted). */
@@ -417,12 +446,14 @@ static ffd_status do_job(batch_worker *worker, const wire_task *task, const char
                          ffd_deform_desc *desc, wire_answer *answer, ffd_job_result *result)
 {
     const bool has_output = is_up_to_date(task, desc, row, answer);
-    answer->end.has_picture = has_output && picture && has_picture(task, picture, desc);
+    answer->end.has_picture = has_output && picture && has_picture(worker, task, desc);
     if (has_output && (!picture || answer->end.has_picture)) {
         answer->end.outcome = OUTCOME_SKIPPED;
+        answer->end.has_frame = answer->end.has_picture && task->wishes.frames;
+        answer->end.frame = task->order.frame;
         return FFD_OK;
     }
-    ffd_status status = check(task, picture, desc, &result->error);
+    ffd_status status = check(worker, task, desc, &result->error);
     if (status || (task->wishes.dry && (has_output || !task->dry_run_job)))
         return status ? status : plan(desc, &result->error);
     desc->dry_run = task->wishes.dry;
@@ -438,9 +469,29 @@ static ffd_status do_job(batch_worker *worker, const wire_task *task, const char
     if (!status && task->wishes.records)
         answer->end.has_record =
             has_output || know_results(worker, task, desc, row, &answer->end.record.outputs);
-    answer->end.has_drawn = answer->end.has_record && answer->end.has_picture && !desc->output &&
-                            !ffd_hash_cache_hash(NULL, picture, &answer->end.drawn, NULL);
+    if (answer->end.has_record)
+        know_picture(worker, answer);
     return status;
+}
+
+/* Draws the picture of a job that has ended. The picture must show what the job has made. */
+static ffd_status draw_ended(batch_worker *worker, const wire_task *task, ffd_deform_desc *desc,
+                             wire_answer *answer, ffd_job_result *result)
+{
+    const unsigned losses = ffd_mapping_losses();
+    hash128 inputs;
+    TRY(ffd_mapping_judge(losses,
+                          ffd_fingerprint_inputs(desc, &task->content, &worker->hashes, &worker->inputs,
+                                                 &inputs, &result->error),
+                          &result->error));
+    if (!ffd_hash_equal(&inputs, &task->order.record.inputs))
+        return ffd_fail_file(&result->error, FFD_E_INVALID, worker->texts.picture,
+                             "not drawn: the mesh or a lattice has changed since the job has ended");
+    desc->force = desc->force || task->wishes.resume;
+    const ffd_status status = draw(worker, task, true, desc, answer, result);
+    ffd_process_defer_stop(true);
+    know_picture(worker, answer);
+    return status == FFD_E_GATE ? FFD_OK : status; /* of the gate the job has told */
 }
 
 /* A column that is no placeholder may be a note. */
@@ -510,6 +561,9 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const cha
     const unsigned losses = ffd_mapping_losses();
     ffd_error *const error = &result->error;
     ffd_hash_cache_begin_job(&worker->hashes);
+    desc->shared_box = task->has_box ? &shared : NULL;
+    if (task->order.draws)
+        return draw_ended(worker, task, desc, answer, result);
     TRY(take_row(task, row, desc, answer, error));
     if (task->order.scans)
         TRY(ffd_job_scan(&worker->hashes, task, desc, &worker->rule, answer, error));
@@ -526,7 +580,6 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const cha
     }
     if (task->wishes.measure)
         return measure(worker, task, desc, answer, error);
-    desc->shared_box = task->has_box ? &shared : NULL;
     TRY(ffd_mapping_judge(losses, hash_files(worker, task, desc, answer, error), error));
     ffd_status status = do_job(worker, task, *picture ? picture : NULL, row, desc, answer, result);
     status = add_outputs(worker, task, answer, desc, status, error);
@@ -565,11 +618,14 @@ static ffd_status take_texts(batch_worker *worker, ffd_error *error)
     texts->input = next_text(texts->origin);
     texts->output = next_text(texts->input);
     texts->picture = next_text(texts->output);
-    texts->rows = next_text(texts->picture);
+    texts->page = next_text(texts->picture);
+    texts->rows = next_text(texts->page);
     texts->journal = next_text(texts->rows);
     texts->animation = next_text(texts->journal);
     texts->base = next_text(texts->animation);
-    texts->passed = next_text(texts->base);
+    texts->said = next_text(texts->base);
+    texts->passed = next_text(texts->said);
+    ffd_buffer_text(&worker->log, texts->said);
     if (!desc->morphs)
         return FFD_OK;
     desc->morph_results = ffd_alloc_zero(desc->lattice_count, sizeof *desc->morph_results);
@@ -657,7 +713,8 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
     }
     if (task->wishes.report && !taken && !answer->scanned && answer->end.outcome != OUTCOME_SKIPPED)
         make_entry(worker, task, answer, &result);
-    if (task->wishes.result && !answer->scanned && answer->end.outcome != OUTCOME_SKIPPED)
+    const bool is_told = task->order.draws && !result.status; /* when the job has ended */
+    if (task->wishes.result && !answer->scanned && answer->end.outcome != OUTCOME_SKIPPED && !is_told)
         append_result(worker, &result);
     ffd_output_set_destroy(&worker->output_set);
     ffd_free(worker->desc.morph_results);

@@ -18,7 +18,7 @@ typedef struct settings {
     cli_look look; /* of the pictures */
     ffd_view_desc drawn;
     char needs[60]; /* which option needs another one */
-    bool resume, stop, keep_going, dry;
+    bool resume, stop, keep_going, dry, pages;
 } settings;
 
 static bool set_shard(void *context, const cli_option *option, const char *value)
@@ -62,6 +62,7 @@ static const cli_option own_options[] = {
     {"view", 0, "DIR",
      "draw each job before and after into this folder, and an index.html that compares them", cli_set_text,
      AT(view), NULL},
+    {"pages", 0, NULL, "with --view: a page of each job beside its picture", cli_set_flag, AT(pages), NULL},
     CLI_PICTURE_OPTIONS(AT(look)),
     CLI_SIDE_OPTIONS(AT(look)),
     {"positions", 0, "ALL.npy",
@@ -93,6 +94,7 @@ static ffd_batch_desc describe(settings *s, const cli_words *words)
     desc.positions = s->positions;
     desc.positions_double = s->type > 0;
     desc.view = s->view;
+    desc.pages = s->pages;
     ffd_view_desc_init(&s->drawn, sizeof s->drawn);
     cli_look_describe(&s->look, &s->drawn);
     desc.look = s->view ? &s->drawn : NULL;

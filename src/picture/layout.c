@@ -29,7 +29,7 @@ static uint64_t from_bytes(const linear_tables *tables, const uint8_t color[3])
 static double legend_height(const picture *of)
 {
     const picture_scale *const scale = of->scale;
-    double height = of->mark_count ? LETTER_ROWS + MARGIN : 0;
+    double height = of->mark_count || of->has_mark_row ? LETTER_ROWS + MARGIN : 0;
     if (scale)
         height += (scale->title ? LETTER_ROWS + TITLE_GAP : 0) +
                   (scale->is_fields ? LETTER_ROWS : BAR_HEIGHT) + (scale->is_fields ? 0 : GAP + LETTER_ROWS) +

@@ -117,6 +117,7 @@ typedef struct picture {
     const picture_scale *scale; /* may be NULL */
     const picture_mark *marks;  /* mark_count, below the scale */
     size_t mark_count;
+    bool has_mark_row; /* the legend has the row of marks even where there are none */
     bool sees_through; /* a panel has materials that are see-through, or splats; without it these are drawn as
                           if they were opaque */
     camera camera;

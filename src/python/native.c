@@ -222,11 +222,11 @@ static PyObject *names_of(const ffd_output_list *outputs)
 static void job_ended(void *user, const ffd_batch_job *job)
 {
     const PyGILState_STATE state = PyGILState_Ensure();
-    append(user, Py_BuildValue("(KKNNiNNy#)", (unsigned long long)job->row, (unsigned long long)job->line,
+    append(user, Py_BuildValue("(KKNNiNNNy#)", (unsigned long long)job->row, (unsigned long long)job->line,
                                job->input ? file_name(job->input) : text(NULL),
                                job->output ? file_name(job->output) : text(NULL), (int)job->skipped,
-                               text(job->log), names_of(job->result->outputs), (const char *)job->result,
-                               (Py_ssize_t)sizeof *job->result));
+                               text(job->log), names_of(job->result->outputs), text(job->result->own_frame),
+                               (const char *)job->result, (Py_ssize_t)sizeof *job->result));
     PyGILState_Release(state);
 }
 
@@ -250,6 +250,7 @@ static const char *const others[][2] = {
     {"next", "a list of jobs"},
     {"csv", "a table"},
     {"in", "in_="},
+    {"look", "how pictures are drawn"},
 };
 
 /* An ffd_spell_function: "falloff=", "outside='extend'". */

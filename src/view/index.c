@@ -30,15 +30,23 @@ static const char *shown_path(const char *path)
     return path && ffd_path_is_absolute(path) ? ffd_path_name(path) : path;
 }
 
+/* Appends the beginning of a link. */
+static void append_link(byte_buffer *html, const char *to)
+{
+    ffd_buffer_text(html, "<a href=\"");
+    ffd_page_address(html, to);
+    ffd_buffer_text(html, "\">");
+}
+
 static void append_picture(byte_buffer *html, const index_row *row)
 {
     if (!row->picture) {
         ffd_buffer_text(html, "<td class=\"picture none\">no picture</td>");
         return;
     }
-    ffd_buffer_text(html, "<td class=\"picture\"><a href=\"");
-    ffd_page_address(html, row->picture);
-    ffd_buffer_text(html, "\"><img src=\"");
+    ffd_buffer_text(html, "<td class=\"picture\">");
+    append_link(html, row->picture);
+    ffd_buffer_text(html, "<img src=\"");
     ffd_page_address(html, row->picture);
     ffd_buffer_format(html, "\" loading=\"lazy\" width=\"%d\" height=\"%d\" alt=\"before and after: ",
                       PICTURE_WIDTH, PICTURE_HEIGHT);
@@ -56,7 +64,15 @@ static void append_job(byte_buffer *html, const index_row *row)
     append_name(html, shown_path(row->output), ffd_page_html);
     ffd_buffer_text(html, "</span> <span class=\"from\">from ");
     append_name(html, shown_path(row->input), ffd_page_html);
-    ffd_buffer_text(html, "</span></th><td data-label=\"Parameters\" class=\"settings\">");
+    ffd_buffer_text(html, "</span>");
+    if (row->page) {
+        ffd_buffer_text(html, " ");
+        append_link(html, row->page);
+        ffd_buffer_text(html, "page</a>");
+    }
+    if (row->frame)
+        ffd_buffer_format(html, " <span class=\"from warn\">in a frame of its own: %s</span>", row->frame);
+    ffd_buffer_text(html, "</th><td data-label=\"Parameters\" class=\"settings\">");
     append_name(html, row->settings, ffd_page_html);
     ffd_buffer_text(html, "</td>");
 }

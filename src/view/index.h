@@ -14,7 +14,9 @@ typedef enum index_state { INDEX_SKIPPED, INDEX_DONE, INDEX_FAILED } index_state
 typedef struct index_row {
     uint64_t line; /* of the manifest */
     const char *input, *output;
-    const char *picture;  /* relative to the page */
+    const char *picture;  /* relative to the index */
+    const char *page;     /* of the job, likewise */
+    const char *frame;    /* why the picture has a frame of its own; NULL: it can be compared with others */
     const char *settings; /* "NAME=VALUE, NAME=VALUE" */
     index_state state;
     const char *error;

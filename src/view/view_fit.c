@@ -50,7 +50,57 @@ static bool is_beyond(const view_fit *fit, const ffd_bounds *seen, const double 
     return x < seen->min[0] || x > seen->max[0] || y < seen->min[1] || y > seen->max[1];
 }
 
-static void count_beyond(const view_fit *fit, const ffd_bounds *seen, size_t *points, size_t *beyond)
+void ffd_view_fit(const view_fit *fit, view_frame *frame)
+{
+    widen_by_mesh(fit, &frame->mesh);
+    widen_by_lattices(fit, &frame->lattices);
+}
+
+/* Returns the distance of a point from a box. */
+static double distance_from(const ffd_bounds *box, const double *point)
+{
+    double beside[3];
+    for (int a = 0; a < 3; a++)
+        beside[a] = larger_of(0, larger_of(box->min[a] - point[a], point[a] - box->max[a]));
+    return vec_length(beside);
+}
+
+double ffd_view_away(const view_fit *fit)
+{
+    const view_scene *const scene = fit->scene;
+    ffd_bounds rest = ffd_bounds_empty();
+    double farthest = 0, sides[3];
+    for (size_t v = 0; v < scene->vertex_count; v++)
+        if ((!fit->framed || fit->framed[v]) && vec_is_finite(scene->before + 3 * v))
+            ffd_bounds_widen(&rest, scene->before + 3 * v);
+    if (is_empty(&rest))
+        return 0;
+    for (size_t v = 0; v < scene->vertex_count; v++)
+        if ((!fit->framed || fit->framed[v]) && vec_is_finite(scene->after + 3 * v))
+            farthest = larger_of(farthest, distance_from(&rest, scene->after + 3 * v));
+    for (int a = 0; a < 3; a++)
+        sides[a] = rest.max[a] - rest.min[a];
+    const double diagonal = vec_length(sides);
+    return diagonal > 0 ? farthest / diagonal : 0;
+}
+
+ffd_bounds ffd_view_seen(const view_frame *frame)
+{
+    const ffd_bounds *const mesh = &frame->mesh;
+    ffd_bounds seen = *mesh;
+    double reach = 0;
+    ffd_bounds_join(&seen, &frame->lattices);
+    for (int a = 0; a < 3 && !is_empty(mesh); a++)
+        reach = larger_of(reach, REACH * (mesh->max[a] - mesh->min[a]));
+    /* A single point has no extent, so no limit applies. */
+    for (int a = 0; a < 3 && reach > 0; a++) {
+        seen.min[a] = larger_of(seen.min[a], mesh->min[a] - reach);
+        seen.max[a] = lesser_of(seen.max[a], mesh->max[a] + reach);
+    }
+    return seen;
+}
+
+void ffd_view_count_beyond(const view_fit *fit, const ffd_bounds *seen, size_t *points, size_t *beyond)
 {
     size_t left = fit->most;
     *points = *beyond = 0;
@@ -64,21 +114,4 @@ static void count_beyond(const view_fit *fit, const ffd_bounds *seen, size_t *po
         *points += count;
         left -= count;
     }
-}
-
-void ffd_view_fit(const view_fit *fit, ffd_bounds *seen, size_t *points, size_t *beyond)
-{
-    ffd_bounds mesh = ffd_bounds_empty();
-    double reach = 0;
-    widen_by_mesh(fit, &mesh);
-    *seen = mesh;
-    widen_by_lattices(fit, seen);
-    for (int a = 0; a < 3 && !is_empty(&mesh); a++)
-        reach = larger_of(reach, REACH * (mesh.max[a] - mesh.min[a]));
-    /* A single point has no extent, so no limit applies. */
-    for (int a = 0; a < 3 && reach > 0; a++) {
-        seen->min[a] = larger_of(seen->min[a], mesh.min[a] - reach);
-        seen->max[a] = lesser_of(seen->max[a], mesh.max[a] + reach);
-    }
-    count_beyond(fit, seen, points, beyond);
 }

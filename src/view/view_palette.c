@@ -50,17 +50,17 @@ static double det_at(double place, double most)
     return (1 + x) / (1 - x);
 }
 
-static double most_det(const view_scene *scene)
+double ffd_view_most_det(const view_scene *scene)
 {
-    double most = LEAST_DET;
-    for (size_t v = 0; v < scene->vertex_count; v++) {
+    double most = 0;
+    for (size_t v = 0; v < scene->vertex_count && scene->dets; v++) {
         const double det = scene->dets[v];
         if (det > most)
             most = det;
         if (det > 0 && 1 / det > most)
             most = 1 / det;
     }
-    return most < MOST_DET ? most : MOST_DET;
+    return most;
 }
 
 static void make_bar(view_palette *p, const char *title)
@@ -102,22 +102,23 @@ static void make_fields(const view_scene *scene, view_palette *p)
     p->has_scale = true;
 }
 
-void ffd_view_palette_make(const view_scene *scene, ffd_view_color color, view_palette *p)
+void ffd_view_palette_make(const view_scene *scene, const view_frame *frame, ffd_view_color color,
+                           view_palette *p)
 {
     *p = (view_palette){.color = color};
     if ((color == FFD_VIEW_STATUS && !scene->statuses) || (color == FFD_VIEW_DET && !scene->dets))
         p->color = FFD_VIEW_DISPLACEMENT;
-    if (p->color == FFD_VIEW_DISPLACEMENT && !(scene->displacement_max > 0))
+    if (p->color == FFD_VIEW_DISPLACEMENT && !(frame->displacement > 0))
         p->color = FFD_VIEW_PLAIN;
     if (p->color == FFD_VIEW_STATUS)
         make_fields(scene, p);
     if (p->color == FFD_VIEW_DISPLACEMENT) {
-        p->most = scene->displacement_max;
+        p->most = frame->displacement;
         make_ramp(sequential, sizeof sequential / sizeof *sequential, p->ramp);
         make_bar(p, "displacement, in units of the file");
     }
     if (p->color == FFD_VIEW_DET) {
-        p->most = most_det(scene);
+        p->most = larger_of(LEAST_DET, lesser_of(frame->det, MOST_DET));
         make_ramp(diverging, sizeof diverging / sizeof *diverging, p->ramp);
         make_bar(p, "det F: volume after, relative to before");
     }
@@ -169,10 +170,10 @@ void ffd_view_palette_fill(const view_palette *palette, const view_scene *scene,
     }
 }
 
-static bool shows_folds(const view_scene *scene, const view_palette *palette)
+static bool shows_folds(const view_scene *scene, ffd_view_color color)
 {
     bool found = scene->witness.is_there;
-    for (size_t v = 0; v < scene->vertex_count && !found && palette->color == FFD_VIEW_DET; v++)
+    for (size_t v = 0; v < scene->vertex_count && !found && color == FFD_VIEW_DET && scene->dets; v++)
         found = scene->dets[v] <= 0;
     return found;
 }
@@ -184,14 +185,14 @@ static void add_mark(picture_mark *mark, const char *label, const uint8_t colors
     memcpy(mark->colors, colors, sizeof mark->colors);
 }
 
-size_t ffd_view_marks(const view_scene *scene, const view_palette *palette, picture_mark marks[PALETTE_MARKS])
+size_t ffd_view_marks(const view_scene *scene, ffd_view_color color, picture_mark marks[PALETTE_MARKS])
 {
     size_t count = 0;
     if (scene->flipped)
         add_mark(&marks[count++], "flipped", ffd_view_flipped, STRIPES_RISING, false);
     if (scene->tear_count)
         add_mark(&marks[count++], "torn", ffd_view_torn, STRIPES_RISING, true);
-    if (shows_folds(scene, palette))
+    if (shows_folds(scene, color))
         add_mark(&marks[count++], "fold", ffd_view_folded, STRIPES_FALLING, false);
     return count;
 }

@@ -5,6 +5,7 @@
 
 #include "picture/picture.h"
 #include "view/page_options.h"
+#include "view/view_frame.h"
 #include "view/view_scene.h"
 
 #define PALETTE_COLORS 256
@@ -27,13 +28,16 @@ typedef struct view_palette {
    that the colour-blind too tell it from all colours of the scales. */
 extern const uint8_t ffd_view_flipped[2][3], ffd_view_folded[2][3], ffd_view_torn[2][3];
 
-/* Fills the marks of a scene for the legend: those that are in it. Returns their number. */
-size_t ffd_view_marks(const view_scene *scene, const view_palette *palette,
-                      picture_mark marks[PALETTE_MARKS]);
+/* Fills the marks of a scene for the legend: those that are in it, coloured like this. Returns their
+   number. */
+size_t ffd_view_marks(const view_scene *scene, ffd_view_color color, picture_mark marks[PALETTE_MARKS]);
 
-/* Makes the palette of a scene. Without the statuses or det F that were asked for, it shows displacements;
-   where nothing moves, the mesh's own colours. */
-void ffd_view_palette_make(const view_scene *scene, ffd_view_color color, view_palette *palette);
+/* Returns the largest of det F and 1 / det F in a scene, where det F > 0; 0: det F is not known. */
+double ffd_view_most_det(const view_scene *scene);
+/* Makes the palette of a scene, with the scale of a frame. Without the statuses or det F that were asked for,
+   it shows displacements; where nothing moves in the frame, the mesh's own colours. */
+void ffd_view_palette_make(const view_scene *scene, const view_frame *frame, ffd_view_color color,
+                           view_palette *palette);
 
 /* Fills the colour of each vertex (red, green, blue, alpha) at a share of the way from before (0) to after
    (1). The alpha of a colour of the palette is 255, or 0 where the colour is a mark: folded volume. */

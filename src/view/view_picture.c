@@ -53,7 +53,8 @@ typedef struct picture_work {
     char (*captions)[CAPTION]; /* one for each panel */
     size_t step_count;
     camera camera;
-    ffd_bounds seen; /* bounds along the camera's axes */
+    view_frame frame; /* of the scene, or that of the options */
+    ffd_bounds seen;  /* bounds along the camera's axes */
     double ground[3 * GROUND_CORNERS];
     bool has_ground;
     picture_mark marks[PALETTE_MARKS];
@@ -345,29 +346,53 @@ static ffd_status name_panels(picture_work *w)
     return FFD_OK;
 }
 
-/* Finds the bounds of all poses. */
-static ffd_status find_posed(picture_work *w)
+/* Extends a frame by all poses. */
+static ffd_status frame_poses(picture_work *w, view_frame *frame)
 {
-    w->seen = ffd_bounds_empty();
     for (size_t i = 0; i < w->step_count; i++) {
         free_step(w);
         TRY(pose(w, i, &w->step));
-        ffd_camera_widen(&w->camera, w->step.positions, w->scene->vertex_count, &w->seen);
+        ffd_camera_widen(&w->camera, w->step.positions, w->scene->vertex_count, &frame->mesh);
     }
     if (w->has_ground)
-        ffd_camera_widen(&w->camera, w->ground, GROUND_CORNERS, &w->seen);
+        ffd_camera_widen(&w->camera, w->ground, GROUND_CORNERS, &frame->mesh);
+    return FFD_OK;
+}
+
+static view_fit describe_fit(const picture_work *w)
+{
+    return (view_fit){.scene = w->scene,
+                      .framed = w->framed ? w->framed : w->used,
+                      .ground = w->has_ground ? w->ground : NULL,
+                      .camera = &w->camera,
+                      .most = VIEW_PICTURE_CONTROLS};
+}
+
+/* Finds what of the scene a picture has to show. */
+static ffd_status find_frame(picture_work *w, view_frame *frame)
+{
+    const view_scene *const scene = w->scene;
+    const view_fit fit = describe_fit(w);
+    picture_mark marks[PALETTE_MARKS];
+    *frame = ffd_view_frame_none();
+    frame->displacement = scene->displacement_max;
+    frame->det = ffd_view_most_det(scene);
+    frame->away = ffd_view_away(&fit);
+    frame->has_marks = w->step_count > 1 && ffd_view_marks(scene, w->options->color, marks) > 0;
+    if (w->options->rows)
+        return frame_poses(w, frame);
+    ffd_view_fit(&fit, frame);
     return FFD_OK;
 }
 
 static void find_seen(picture_work *w)
 {
-    const view_fit fit = {.scene = w->scene,
-                          .framed = w->framed ? w->framed : w->used,
-                          .ground = w->has_ground ? w->ground : NULL,
-                          .camera = &w->camera,
-                          .most = VIEW_PICTURE_CONTROLS};
+    const view_fit fit = describe_fit(w);
     size_t points, beyond;
-    ffd_view_fit(&fit, &w->seen, &points, &beyond);
+    w->seen = ffd_view_seen(&w->frame);
+    if (w->options->rows)
+        return;
+    ffd_view_count_beyond(&fit, &w->seen, &points, &beyond);
     if (beyond)
         ffd_log_line(w->options->log, FFD_LOG_WARNING,
                      "the picture: %zu of %zu control points %s beyond its sides, so that the mesh is not "
@@ -413,15 +438,26 @@ static ffd_status take_memory(picture_work *w)
     return ffd_budget_take(&w->budget, scene->triangle_count, TRIANGLE_BYTES, w->error);
 }
 
+/* Finds from where the scene is seen, and what of it. */
+static ffd_status look_at(picture_work *w)
+{
+    const view_scene *const scene = w->scene;
+    const view_picture_options *const options = w->options;
+    w->step_count = count_steps(scene, options);
+    if (!ffd_camera_from(options->camera, options->up, &w->camera))
+        w->camera = ffd_camera_iso(options->up);
+    TRY(find_used(scene, &w->used, w->error));
+    TRY(find_framed(w));
+    w->has_ground = ffd_view_ground(scene, w->framed ? w->framed : w->used, options->up, w->ground);
+    return FFD_OK;
+}
+
 /* Makes everything that the steps share. */
 static ffd_status prepare(picture_work *w)
 {
     const view_scene *const scene = w->scene;
     const view_picture_options *const options = w->options;
     const bool has_texture = scene->texcoords && scene->materials.image_count;
-    w->step_count = count_steps(scene, options);
-    if (!ffd_camera_from(options->camera, options->up, &w->camera))
-        w->camera = ffd_camera_iso(options->up);
     const uint64_t drawing =
         ffd_picture_bytes(pixel_count(options), scene->vertex_count, scene->triangle_count);
     TRY(take_memory(w));
@@ -431,15 +467,15 @@ static ffd_status prepare(picture_work *w)
     if (!w->twins || !w->white)
         return ffd_fail_memory(w->error);
     log_omissions(w);
-    ffd_view_palette_make(scene, options->color, &w->palette);
-    w->mark_count = w->step_count > 1 ? ffd_view_marks(scene, &w->palette, w->marks) : 0;
     TRY(ffd_positions_twins(scene->before, scene->vertex_count, w->twins, w->error));
-    TRY(find_used(scene, &w->used, w->error));
-    TRY(find_framed(w));
-    w->has_ground = ffd_view_ground(scene, w->framed ? w->framed : w->used, options->up, w->ground);
+    TRY(look_at(w));
+    if (options->frame)
+        w->frame = *options->frame;
+    else
+        TRY(find_frame(w, &w->frame));
+    ffd_view_palette_make(scene, &w->frame, options->color, &w->palette);
+    w->mark_count = w->step_count > 1 ? ffd_view_marks(scene, w->palette.color, w->marks) : 0;
     TRY(name_panels(w));
-    if (options->rows)
-        return find_posed(w);
     find_seen(w);
     return FFD_OK;
 }
@@ -472,6 +508,7 @@ static ffd_status draw(picture_work *w, file_output *output)
                         .scale = w->palette.has_scale ? &w->palette.scale : NULL,
                         .marks = w->marks,
                         .mark_count = w->mark_count,
+                        .has_mark_row = w->frame.has_marks > 0,
                         .sees_through = w->surface.sees_through || w->scene->splats[0],
                         .camera = w->camera,
                         .seen = &w->seen,
@@ -484,6 +521,19 @@ static ffd_status draw(picture_work *w, file_output *output)
     TRY(status);
     status = ffd_png_write(pixels, of.width, of.height, 3, append, output, w->error);
     ffd_free(pixels);
+    return status;
+}
+
+ffd_status ffd_view_picture_measure(const view_scene *scene, const view_picture_options *options,
+                                    view_frame *frame, ffd_error *error)
+{
+    picture_work w = {.scene = scene, .options = options, .error = error};
+    TRY(ffd_view_picture_check(options, error));
+    ffd_status status;
+    TRY_END(look_at(&w));
+    TRY_END(find_frame(&w, frame));
+end:
+    free_picture(&w);
     return status;
 }
 

@@ -358,6 +358,8 @@ typedef struct ffd_job_result {
     uint64_t normals_carried;
     uint64_t transforms_singular;
     const ffd_output_list *outputs;
+    const char *page;
+    const char *own_frame;
 } ffd_job_result;
 typedef enum ffd_format {
     FFD_FORMAT_AUTO = 0,
@@ -693,6 +695,7 @@ typedef struct ffd_batch_desc {
     bool is_program;
     const int *cancel;
     const ffd_view_desc *look;
+    bool pages;
 } ffd_batch_desc;
 void ffd_batch_desc_init(ffd_batch_desc *desc, size_t size);
 ffd_status ffd_batch_desc_check(const ffd_batch_desc *desc, ffd_error *error);

@@ -10,7 +10,7 @@ from harness import CUBE, FFD, NO, OK, SANITIZED, case, check, equal, lattice, m
 SUMMARY = re.compile(r"(\d+) jobs? in [\d.]+ s: (\d+) (done|to do), (\d+) up to date, (\d+) failed(.*)$")
 # What stands before a message of a job: its line, and the values that it sets.
 PLACE = re.compile(r"[\w./ -]+\.(?:jsonl|csv):\d+: (?:\w+=[^:]*: )?")
-PROGRESS = re.compile(r"\d+ jobs?, \d+ failed, [\d.]+/s(, .* left)?$")  # a line every ten seconds
+PROGRESS = re.compile(r"\d+ (?:jobs?|pictures?), \d+ failed, [\d.]+/s(, .* left)?$")  # a line every ten seconds
 MOVE = [{"by": [0.5, 0.25, 0.125]}]
 
 

@@ -427,7 +427,7 @@ def pictures_of_rows_that_are_there_stay(run):
     rows = {i: f"v/row-{i}.png" for i in range(3)}
     view = ("m.jsonl", "--positions", "all.npy", "--view", "v", "--resume")
     start(run, [{"in": "a.obj", "lattice": "l.json"}, {"in": "a.obj", "lattice": "m.json"}, {"in": "a.obj", "lattice": "l.json"}])
-    run.write("m.json", lattice(moves=[{"by": [0, 0, 0.25]}]))
+    run.write("m.json", lattice(moves=[{"by": [0.125, 0.0625, 0.03125]}]))
 
     def drawn(**expected):
         before = {i: os.stat(run.path(name)).st_ino for i, name in rows.items() if run.exists(name)}
@@ -445,9 +445,9 @@ def pictures_of_rows_that_are_there_stay(run):
     array_before = run.read("all.npy")
     equal(drawn(done=2, kept=1), [1, 2], "one that is gone, one that was changed")
     equal((run.read("all.npy"), run.read(rows[2])), (array_before, run.read(rows[0])), "rows that were there, and what is drawn")
-    # Without pictures a row is made of another lattice: its picture is an old one then.
+    # Without pictures a row is made of another lattice: its picture is an old one then. The others' frame stays.
     old = run.read(rows[1])
-    run.write("m.json", lattice(moves=[{"by": [0, 0, 1.5]}]))
+    run.write("m.json", lattice(moves=[{"by": [0.25, 0.125, 0.0625]}]))
     batch(run, "m.jsonl", "--positions", "all.npy", "--resume", done=1, kept=2)
     equal(drawn(done=1, kept=2), [1], "a picture of what the row was before")
     check(run.read(rows[1]) != old, "the picture is the old one")

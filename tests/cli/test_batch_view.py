@@ -330,7 +330,7 @@ def what_cannot_be_asked_for(run):
     start(run, [job(0), {"in": "a.obj", "lattice": "l.json", "options": {"in-place": True}}])
     batch(run, "m.jsonl", "--view", "v", done=1, failed=["cannot be used with --view"])
     run.write("m.jsonl", lines_of([job(2, options={"view": "x"})]))
-    batch(run, "m.jsonl", "--view", "w", failed=["\"view\" is not an option of a job"])
+    batch(run, "m.jsonl", "--view", "w", failed=['option "view" is not an object'])
     run.ffd("batch", "--in", "a.obj", "-l", "l.json", "--in-place", "--view", "x", code=USAGE,
             err=re.compile("--in-place cannot be used with --view"))
     check(not run.exists("x"), "a folder")

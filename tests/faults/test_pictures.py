@@ -242,4 +242,29 @@ def artist_20_splats_have_colour_size_and_form(run):
     equal(max(abs(a - b) for one, other in zip(found, again) for p, q in zip(one, other) for a, b in zip(p, q)) <= 2, True, "glTF")
 
 
+def extent(rows, panel):
+    """Width and height of what is drawn in the panel before (0) or after (1), which has no cage."""
+    half, low, high = len(rows[0]) // 2, len(rows) // 8, len(rows) * 4 // 5
+    seen = [(x, y) for y in range(low, high) for x in range(panel * half + 2, (panel + 1) * half - 2)
+            if max(abs(a - b) for a, b in zip(rows[y][x], rows[y][panel * half + 2])) > 24]
+    return [max(p[a] for p in seen) - min(p[a] for p in seen) + 1 for a in range(2)]
+
+
+@case
+def artist_25_variants_can_be_compared(run):
+    """The same mesh before is as large in each row of a sweep, a variant twice as tall is twice as tall, and colours have one scale."""
+    run.write("cube.obj", "".join(f"v {x} {y} {z}\n" for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)) +
+              "f 1 2 4 3\nf 5 7 8 6\nf 1 5 6 2\nf 3 4 8 7\nf 1 3 7 5\nf 2 6 8 4\n")
+    run.write("t.json", lattice(moves=[{"scale": {"factor": [1, {"$": "T"}, 1], "about": [0, -1, 0]}}]))
+    run.write("t.csv", "out,T\nsmall.obj,0.5\nlarge.obj,2\ngiant.obj,3.5\n")
+    run.ffd("batch", "--csv", "t.csv", "--in", "cube.obj", "-l", "t.json", "--out-dir", "out", "--view", "pics", "--camera", "front",
+            "--no-cage", "--size", "640x360", err=anything)
+    small, large = [read_png(run.read(f"pics/{name}.obj.png")) for name in ("small", "large")]
+    check(extent(small, 0) == extent(large, 0), extent(small, 0), extent(large, 0))
+    check(abs(extent(large, 1)[1] - 4 * extent(small, 1)[1]) <= 6, extent(large, 1), extent(small, 1))
+    check(abs(extent(large, 1)[1] - 2 * extent(large, 0)[1]) <= 3 and extent(large, 1)[0] == extent(small, 1)[0], extent(large, 1))
+    legend = len(small) * 5 // 6
+    check(small[legend:] == large[legend:], "the scales of colours differ")
+
+
 main()

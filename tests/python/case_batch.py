@@ -65,6 +65,31 @@ class Batches(unittest.TestCase):
         self.assertEqual([result.skipped for result in again], [True] * 12 + [False])
         self.assertEqual((again[0].error, again[12].moved, ended[-1]), (None, 11533, 1.0))
 
+    def test_pictures_have_the_options_of_view_one_frame_and_pages(self):
+        small = {"camera": "front", "up": "z", "size": (160, 90), "color": "det", "no_cage": True}
+        listed = jobs_of("a.obj", "b.obj")
+        listed[1]["options"] = {"view": {"camera": [0, 0, 1], "no-cage": True}}
+        results = ffd.batch(listed, view="v", pages=True, **small)
+        self.assertEqual([result.outputs for result in results], [[name, f"v/{name}.png", f"v/{name}.html"] for name in ("a.obj", "b.obj")])
+        self.assertEqual([result.own_frame for result in results], [None, "options"])
+        self.assertIn("1 of 2 pictures is not in the common frame", "".join(self.log(lambda: ffd.batch(listed, view="w", force=True, **small))))
+        ffd.view_file(SPOT, "p.png", TWIST, **{**small, "camera": (0, 0, 1)})
+        self.assertTrue(filecmp.cmp("p.png", "v/b.obj.png", shallow=False))
+        ffd.view_file(SPOT, "a.png", TWIST, **small)
+        self.assertTrue(filecmp.cmp("a.png", "v/a.obj.png", shallow=False))
+        with self.assertRaisesRegex(ffd.ArgumentError, "pages= needs view="):
+            ffd.batch(listed, pages=True)
+        with self.assertRaisesRegex(ffd.ArgumentError, "how pictures are drawn needs view="):
+            ffd.batch(listed, camera="front")
+        with self.assertRaisesRegex(ValueError, "camera must be one of"):
+            ffd.batch(listed, view="v", camera="frnt")
+
+    def log(self, call):
+        """What is logged during a call."""
+        with self.assertLogs("ffd_mesh") as logged:
+            call()
+        return logged.output
+
     def test_manifests_tables_and_patterns(self):
         with open("m.jsonl", "w", encoding="utf-8") as file:
             file.writelines(json.dumps(job) + "\n" for job in jobs_of("a.obj", "b.obj", "c.obj"))

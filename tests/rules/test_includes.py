@@ -118,7 +118,7 @@ LAYERS = {
     "batch/files": {"base/file", "base/memory", "base/text", "batch/manifest", "io"},
     "batch": {
         "base", "base/file", "base/memory", "base/system", "base/text", "batch/files", "batch/manifest", "io", "io/npy", "job", "job/chain", "job/figures", "job/input",
-        "job/report", "json", "lattice/file", "mesh/resource", "view",
+        "job/report", "job/view", "json", "lattice/file", "mesh/resource", "view",
     },
     # A client of the library as others are: what it lacks is made public, or belongs further down.
     "cli": set(),

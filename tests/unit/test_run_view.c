@@ -19,13 +19,13 @@ static void expect_name(const char *out_dir, const char *output, const char *nam
     const run_view_desc desc = {.folder = "v", .out_dir = out_dir, .name = "m", .shards = 1, .dry = true};
     run_view *view;
     ffd_error error;
-    hash128 file;
+    hash128 files[2];
     char out[100];
     pool_task task = {.job = {.output = out}};
     snprintf(out, sizeof out, "%s", output);
     assert_int_equal(ffd_run_view_create(&desc, &view, &error), FFD_OK);
     assert_string_equal(ffd_run_view_page(view), "v/index.html");
-    assert_int_equal(ffd_run_view_name(view, &task, &file, &error), FFD_OK);
+    assert_int_equal(ffd_run_view_name(view, &task, files, &error), FFD_OK);
     assert_string_equal(task.picture_name, name);
     assert_memory_equal(task.picture, "v/", 2);
     assert_ptr_equal(task.picture + 2, task.picture_name);

@@ -30,6 +30,14 @@ static view_scene make_scene(void)
                         .displacement_max = 3};
 }
 
+static view_frame frame_of(const view_scene *scene)
+{
+    view_frame frame = ffd_view_frame_none();
+    frame.displacement = scene->displacement_max;
+    frame.det = ffd_view_most_det(scene);
+    return frame;
+}
+
 /* Ten times what is just noticed. */
 #define FAR_APART 25
 
@@ -46,7 +54,8 @@ static void marks_differ_from_the_scales_for_every_eye(void **state)
         scene.vertex_count = scales[s] == FFD_VIEW_STATUS ? 5 : 2;
         scene.statuses = all;
         static view_palette palette;
-        ffd_view_palette_make(&scene, scales[s], &palette);
+        const view_frame frame = frame_of(&scene);
+        ffd_view_palette_make(&scene, &frame, scales[s], &palette);
         assert_int_equal(palette.color, scales[s]);
         assert_int_equal(palette.scale.color_count, scales[s] == FFD_VIEW_STATUS ? 5 : PALETTE_COLORS);
         for (int by = VISION_NORMAL; by < VISIONS; by++)
@@ -96,13 +105,12 @@ static void the_legend_has_the_marks_that_are_there(void **state)
     static view_palette palette;
     (void)state;
     view_scene scene = make_scene();
-    ffd_view_palette_make(&scene, FFD_VIEW_DISPLACEMENT, &palette);
-    assert_int_equal(ffd_view_marks(&scene, &palette, marks), 0);
+    assert_int_equal(ffd_view_marks(&scene, FFD_VIEW_DISPLACEMENT, marks), 0);
     scene.flipped = flipped;
     scene.tears = &tear;
     scene.tear_count = 1;
     scene.witness.is_there = true;
-    assert_int_equal(ffd_view_marks(&scene, &palette, marks), 3);
+    assert_int_equal(ffd_view_marks(&scene, FFD_VIEW_DISPLACEMENT, marks), 3);
     assert_string_equal(marks[0].label, "flipped");
     assert_string_equal(marks[1].label, "torn");
     assert_string_equal(marks[2].label, "fold");
@@ -110,9 +118,10 @@ static void the_legend_has_the_marks_that_are_there(void **state)
     /* det F below 0 is drawn as a fold only where det F is. */
     scene = make_scene();
     dets[0] = -0.5;
-    assert_int_equal(ffd_view_marks(&scene, &palette, marks), 0);
-    ffd_view_palette_make(&scene, FFD_VIEW_DET, &palette);
-    assert_int_equal(ffd_view_marks(&scene, &palette, marks), 1);
+    assert_int_equal(ffd_view_marks(&scene, FFD_VIEW_DISPLACEMENT, marks), 0);
+    const view_frame frame = frame_of(&scene);
+    ffd_view_palette_make(&scene, &frame, FFD_VIEW_DET, &palette);
+    assert_int_equal(ffd_view_marks(&scene, FFD_VIEW_DET, marks), 1);
     assert_string_equal(marks[0].label, "fold");
     uint8_t colors[8];
     ffd_view_palette_fill(&palette, &scene, 1, colors);
@@ -131,7 +140,8 @@ static void a_splat_in_folded_volume_is_seen(void **state)
     view_scene scene = make_scene();
     scene.splats[0] = scene.splats[1] = spread;
     dets[0] = -0.5;
-    ffd_view_palette_make(&scene, FFD_VIEW_DET, &palette);
+    const view_frame frame = frame_of(&scene);
+    ffd_view_palette_make(&scene, &frame, FFD_VIEW_DET, &palette);
     ffd_view_palette_fill(&palette, &scene, 1, colors);
     assert_int_equal(colors[3], 0);
     assert_int_equal(ffd_view_dots_make(&scene, 1, moved, colors, false, 900, &dots, NULL), FFD_OK);

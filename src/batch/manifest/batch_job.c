@@ -4,6 +4,7 @@
 #include "base/memory/memory.h"
 #include "base/spelling.h"
 #include "base/text/words.h"
+#include "batch/manifest/job_look.h"
 #include "io/format_names.h"
 #include "job/input/setting_lists.h"
 #include "job/input/settings.h"
@@ -28,9 +29,9 @@ enum { RESERVED = sizeof reserved / sizeof *reserved };
 
 /* Options of the batch itself. */
 static const char *const others[] = {
-    "jobs", "shard",      "resume",  "journal",    "stop",     "keep-going", "dry-run",       "in",
-    "csv",  "depfile",    "out-dir", "report",     "quiet",    "view",       "report-stable", "verbose",
-    "help", "shared-box", "dtype",   "csv-ignore", "positions"};
+    "jobs", "shard",      "resume",  "journal",    "stop",      "keep-going", "dry-run",       "in",
+    "csv",  "depfile",    "out-dir", "report",     "quiet",     "view",       "report-stable", "verbose",
+    "help", "shared-box", "dtype",   "csv-ignore", "positions", "pages"};
 enum { OTHERS = sizeof others / sizeof *others };
 
 /* Fails the job; returns false. */
@@ -191,6 +192,7 @@ static const char *nearest_option(const char *name)
     for (size_t i = 0; (member = ffd_deform_member(i)) != NULL; i++)
         if (member->option && !ffd_word_is_known(member->option, reserved, RESERVED))
             ffd_nearest_offer(&nearest, member->option);
+    ffd_nearest_offer(&nearest, "view");
     return ffd_nearest_meant(&nearest);
 }
 
@@ -200,6 +202,8 @@ static bool check_option_name(const job_maker *maker, const char *name)
         return refuse(maker, "\"%.60s\" is not the name of an option", name);
     if (ffd_word_is_known(name, reserved, RESERVED) || ffd_word_is_known(name, others, OTHERS))
         return refuse(maker, "\"%s\" is not an option of a job", name);
+    if (ffd_job_look_has(name))
+        return refuse(maker, "\"%s\" is an option of \"view\": {\"view\": {\"%s\": ..}}", name, name);
     const char *const meant = nearest_option(name);
     return ffd_deform_member_of(name) ||
            refuse(maker, "unknown option %.60s%s%s%s", name, meant ? " (nearest: " : "", meant ? meant : "",
@@ -435,13 +439,32 @@ end:
     return refuse(maker, "%s", what);
 }
 
+/* Sets how the picture is drawn, also where none is: the line is wrong with and without pictures. */
+static bool add_look(job_maker *maker)
+{
+    const job_description *const description = maker->description;
+    job_look look;
+    ffd_error error;
+    ffd_job_look_begin(&look, maker->frame->look);
+    for (size_t i = 0; i < description->count; i++) {
+        const job_statement *const statement = &description->statements[i];
+        if (statement->part == JOB_LOOK &&
+            ffd_job_look_read(&look, ffd_description_name(description, statement),
+                              ffd_description_value(description, statement), &error))
+            return refuse(maker, "%s", error.message);
+    }
+    ffd_job_look_end(&look);
+    maker->job->look = look.view;
+    return true;
+}
+
 static bool make_job(job_maker *maker)
 {
     const char *const wrong = ffd_description_wrong(maker->description, "");
     if (wrong)
         return refuse(maker, "%s", wrong);
     return add_files(maker) && add_settings(maker) && add_defaults(maker) && add_options(maker) &&
-           check_settings(maker);
+           add_look(maker) && check_settings(maker);
 }
 
 /* Hashes what determines the output, except the bytes of files. */

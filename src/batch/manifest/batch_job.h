@@ -16,8 +16,9 @@ typedef struct batch_frame {
     const char *folder;              /* base of relative paths; "": the current one */
     const ffd_deform_desc *defaults; /* for jobs that do not say otherwise, without their lattices; or NULL */
     const char *ending;              /* of outputs, by the default output_format; NULL: none */
-    bool resume;                     /* refuse jobs that cannot be resumed */
-    bool pictures;                   /* refuse jobs without OUT, after which pictures are named */
+    const ffd_view_desc *look; /* of pictures of jobs that do not say otherwise; NULL: the default one */
+    bool resume;               /* refuse jobs that cannot be resumed */
+    bool pictures;             /* refuse jobs without OUT, after which pictures are named */
     bool positions; /* jobs need no OUT, as each has a row of positions; refuse jobs without positions */
 } batch_frame;
 
@@ -34,10 +35,11 @@ typedef struct batch_job {
     char *output;         /* as in the manifest; NULL: in place, or no mesh is written */
     const char *target;   /* path of the output, also in place; NULL: no mesh is written */
     ffd_deform_desc desc; /* without what workers add: objects, log, share of the processors */
+    ffd_view_desc look;   /* of its picture (manifest/job_look.h) */
     output_place place;   /* of target, once it was asked for */
     hash128 content;      /* of what determines the output, without the bytes of files */
     ffd_error error;      /* what is wrong with the line; FFD_OK: nothing */
-    byte_buffer texts;    /* of desc, */
+    byte_buffer texts;    /* of desc and look, */
     path_list paths;      /* and its paths */
 } batch_job;
 

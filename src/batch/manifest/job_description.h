@@ -14,6 +14,7 @@ typedef enum job_part {
     JOB_OPTION,  /* an option with its value */
     JOB_FLAG,    /* an option without a value */
     JOB_UNSET,   /* an option of the batch that this job turns off */
+    JOB_LOOK,    /* an option of its picture, with its value; a flag has "true" or "false" */
     JOB_SETTING, /* a placeholder, and its value as JSON */
     JOB_WRONG    /* name: of a member; value: what is wrong with it */
 } job_part;

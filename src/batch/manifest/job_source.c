@@ -257,6 +257,7 @@ ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_e
                                      "",
                                      desc->defaults,
                                      desc->ending,
+                                     desc->look,
                                      desc->resume,
                                      desc->pictures,
                                      desc->positions};

@@ -19,6 +19,7 @@ typedef struct job_source_desc {
     const char *out_dir; /* pattern: folder of outputs, which keep their names; table: folder of "out" */
     const ffd_deform_desc *defaults;  /* for jobs that do not say otherwise: lattices where the jobs come from
                                          no manifest, and all other settings; or NULL */
+    const ffd_view_desc *look;        /* of pictures; NULL: the default one */
     const char *ending;               /* of outputs, by the default output_format; or NULL */
     bool resume, pictures, positions; /* as in batch_frame */
     bool strict;                      /* refuse a table with flaws whose meaning is clear */

@@ -130,8 +130,80 @@ static void read_option_value(line_parser *parser, const char *name, uint32_t va
     }
 }
 
+/* Appends a string or a number; an array of them is joined as the program has it: "1600x900", "1,0.5,2".
+   Returns false for other values. */
+static bool append_look(const line_parser *parser, const char *name, uint32_t value, byte_buffer *text)
+{
+    const json_value *const v = &parser->tree->values[value];
+    if (v->kind == JSON_ARRAY) {
+        bool is_right = v->count > 0;
+        for (uint32_t at = ffd_json_tree_first(parser->tree, value); at != JSON_NONE && is_right;
+             at = ffd_json_tree_after(parser->tree, at)) {
+            if (text->size > 0)
+                ffd_buffer_text(text, strcmp(name, "size") == 0 ? "x" : ",");
+            is_right = is_kind(parser, at, JSON_NUMBER) && append_look(parser, name, at, text);
+        }
+        return is_right;
+    }
+    if (v->kind != JSON_STRING) {
+        ffd_buffer_append(text, parser->tree->text + v->begin, v->end - v->begin);
+        return v->kind == JSON_NUMBER || v->kind == JSON_TRUE || v->kind == JSON_FALSE;
+    }
+    char *const string = ffd_json_tree_string(parser->tree, value, NULL);
+    if (string)
+        ffd_buffer_text(text, string);
+    text->failed = text->failed || !string;
+    ffd_free(string);
+    return true;
+}
+
+static void read_look(line_parser *parser, const char *name, uint32_t value)
+{
+    byte_buffer text = {0};
+    const bool is_right = append_look(parser, name, value, &text);
+    char *const written = ffd_buffer_finish(&text);
+    if (!is_right)
+        refuse(parser, "options",
+               "\"view\": %.60s must be a string, a number, true, false or a list of numbers", name);
+    else if (written)
+        ffd_description_add(&parser->description, JOB_LOOK, name, written);
+    else
+        parser->description.texts.failed = true;
+    ffd_free(written);
+    ffd_buffer_free(&text);
+}
+
+/* Calls read for each member of an object. */
+static void read_members(line_parser *parser, uint32_t object,
+                         void (*read)(line_parser *parser, const char *name, uint32_t value))
+{
+    for (uint32_t v = ffd_json_tree_first(parser->tree, object); v != JSON_NONE;
+         v = ffd_json_tree_after(parser->tree, v)) {
+        char *const name = ffd_json_tree_key(parser->tree, v);
+        if (name)
+            read(parser, name, v);
+        else
+            parser->description.texts.failed = true;
+        ffd_free(name);
+    }
+}
+
+/* The options of a job's picture are an object among those of the job. */
+static void read_looks(line_parser *parser, uint32_t value)
+{
+    if (is_kind(parser, value, JSON_OBJECT))
+        read_members(parser, value, read_look);
+    else
+        refuse(parser, "options",
+               "option \"view\" is not an object, as {\"camera\": \"front\"}, of how the job is drawn");
+}
+
 static void read_option(line_parser *parser, const char *name, uint32_t value)
 {
+    if (strcmp(name, "view") == 0) {
+        read_looks(parser, value);
+        return;
+    }
     const uint32_t first =
         is_kind(parser, value, JSON_ARRAY) ? ffd_json_tree_first(parser->tree, value) : value;
     if (is_kind(parser, value, JSON_TRUE))
@@ -148,21 +220,6 @@ static void read_option(line_parser *parser, const char *name, uint32_t value)
 static void read_setting(line_parser *parser, const char *name, uint32_t value)
 {
     ffd_description_set(&parser->description, name, parser->tree, value);
-}
-
-/* Calls read for each member of an object. */
-static void read_members(line_parser *parser, uint32_t object,
-                         void (*read)(line_parser *parser, const char *name, uint32_t value))
-{
-    for (uint32_t v = ffd_json_tree_first(parser->tree, object); v != JSON_NONE;
-         v = ffd_json_tree_after(parser->tree, v)) {
-        char *const name = ffd_json_tree_key(parser->tree, v);
-        if (name)
-            read(parser, name, v);
-        else
-            parser->description.texts.failed = true;
-        ffd_free(name);
-    }
 }
 
 static void refuse_key(line_parser *parser, const char *name)

@@ -71,6 +71,10 @@ static void write_entry(json_text *json, const report_entry *entry)
     }
     if (entry->result->picture)
         ffd_json_string(json, "picture", entry->result->picture);
+    if (entry->result->page)
+        ffd_json_string(json, "page", entry->result->page);
+    if (entry->result->own_frame)
+        ffd_json_string(json, "own_frame", entry->result->own_frame);
     if (entry->set)
         ffd_json_raw(json, "set", entry->set, strlen(entry->set));
     write_outcome(json, entry);

@@ -20,6 +20,7 @@
 #include "job/pass/chain_fit.h"
 #include "job/report/output_set.h"
 #include "job/report/report.h"
+#include "job/view/view_run.h"
 #include "view/page.h"
 #include "view/view_picture.h"
 #include <math.h>
@@ -29,6 +30,7 @@
 /* The state of a view. */
 typedef struct view_work {
     const ffd_view_desc *desc;
+    const view_frames *frames;
     deform_job job;
     job_details details;
     mesh_model model;
@@ -68,6 +70,7 @@ static view_picture_options describe_picture(const view_work *work)
                                   .camera = {desc->camera[0], desc->camera[1], desc->camera[2]},
                                   .up = desc->up,
                                   .threads = work->job.threads,
+                                  .frame = work->frames->frame,
                                   .budget = work->job.document ? &work->job.document->budget : NULL,
                                   .log = &work->job.log};
 }
@@ -92,7 +95,7 @@ static ffd_status check_desc(const view_work *work, ffd_error *error)
     TRY(ffd_view_picture_check(&picture, error));
     if (!desc->sink)
         TRY(ffd_view_check_inputs(desc, error));
-    return desc->sink ? FFD_OK : ffd_output_check(desc->output, desc->force, error);
+    return desc->sink || work->frames->measured ? FFD_OK : ffd_output_check(desc->output, desc->force, error);
 }
 
 /* Whether the shapes without any morph target are shown. The job of --morph deforms these, but the mesh is
@@ -305,6 +308,15 @@ static ffd_status write_picture(const view_work *work, file_output *output, ffd_
     return ffd_view_picture_write(&work->scene, &options, output, error);
 }
 
+/* The frame is all that is wanted. */
+static ffd_status measure_view(const view_work *work, ffd_error *error)
+{
+    const view_picture_options options = describe_picture(work);
+    return ffd_mapping_judge(work->job.losses,
+                             ffd_view_picture_measure(&work->scene, &options, work->frames->measured, error),
+                             error);
+}
+
 static ffd_status write_view(view_work *work, ffd_error *error)
 {
     const ffd_view_desc *const desc = work->desc;
@@ -382,7 +394,7 @@ static ffd_status make_view(view_work *work, ffd_job_result *result, ffd_error *
     free_sources(work); /* drawing needs memory of its own */
     if (work->job.document)
         work->job.document->budget.taken -= work->model_bytes;
-    return write_view(work, error);
+    return work->frames->measured ? measure_view(work, error) : write_view(work, error);
 }
 
 static void free_work(view_work *work)
@@ -392,9 +404,10 @@ static void free_work(view_work *work)
     ffd_source_close(&work->other);
 }
 
-static ffd_status view(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error)
+static ffd_status view(const ffd_view_desc *desc, const view_frames *frames, ffd_job_result *result,
+                       ffd_error *error)
 {
-    view_work work = {.desc = desc, .scene = {.animation = RIG_NONE}};
+    view_work work = {.desc = desc, .frames = frames, .scene = {.animation = RIG_NONE}};
     ffd_error own;
     ffd_output_list *const outputs = desc->job->output_list;
     if (outputs)
@@ -404,12 +417,12 @@ static ffd_status view(const ffd_view_desc *desc, ffd_job_result *result, ffd_er
     result->outputs = outputs;
     work.job.stored = desc->as_stored;
     status = make_view(&work, result, &own);
-    if (!status && outputs && !ffd_output_is_stream(desc->output))
+    if (!status && outputs && !frames->measured && !ffd_output_is_stream(desc->output))
         status = ffd_paths_add(&outputs->names, desc->output, &own);
     if (status) {
         result->error = own;
     } else {
-        result->picture = desc->output;
+        result->picture = frames->measured ? NULL : desc->output;
         status = result->status; /* of the gates */
     }
 end:
@@ -441,7 +454,8 @@ static ffd_status take_memory(job_memory *memory, ffd_view_desc *desc, ffd_sourc
     return ffd_in_memory_desc(memory, job, error);
 }
 
-static ffd_status view_in_time(ffd_view_desc *desc, ffd_deform_desc *job, ffd_job_result *result)
+static ffd_status view_in_time(ffd_view_desc *desc, const view_frames *frames, ffd_deform_desc *job,
+                               ffd_job_result *result)
 {
     ffd_source deformed;
     job_memory memory = {0};
@@ -450,7 +464,7 @@ static ffd_status view_in_time(ffd_view_desc *desc, ffd_deform_desc *job, ffd_jo
     const deadline *const before = ffd_deadline_begin(&own, job->timeout, &watch);
     ffd_status status;
     TRY_END(take_memory(&memory, desc, &deformed, job, &result->error));
-    TRY_END(view(desc, result, &result->error));
+    TRY_END(view(desc, frames, result, &result->error));
 end:
     status = ffd_in_memory_end(&memory, status, &result->error);
     ffd_job_watch_end(&watch, status);
@@ -458,7 +472,8 @@ end:
     return status;
 }
 
-ffd_status ffd_view_run(const ffd_view_desc *callers, ffd_job_result *callers_result, ffd_error *error)
+ffd_status ffd_view_run_framed(const ffd_view_desc *callers, const view_frames *frames,
+                               ffd_job_result *callers_result, ffd_error *error)
 {
     ffd_view_desc desc;
     ffd_deform_desc job;
@@ -473,11 +488,16 @@ ffd_status ffd_view_run(const ffd_view_desc *callers, ffd_job_result *callers_re
         TRY_END(ffd_deform_desc_take(desc.job, &job, &result.error));
     job.morph_results = NULL; /* only jobs that write fill these */
     desc.job = &job;
-    TRY_END(view_in_time(&desc, &job, &result));
+    TRY_END(view_in_time(&desc, frames, &job, &result));
 end:
     if (status && error)
         *error = result.error;
     result.status = status;
     ffd_struct_give(&result, sizeof result, callers_result, callers_result->struct_size);
     return status;
+}
+
+ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error)
+{
+    return ffd_view_run_framed(desc, &(view_frames){0}, result, error);
 }

@@ -13,6 +13,7 @@ from ._description import OPTIONS, Path, defaults_described
 from ._errors import Error, failure
 from ._library import lib
 from ._result import Result
+from ._views import LOOK, set_look
 
 Jobs = Union[Path, Iterable[Mapping[str, Any]], None]
 # Options that a batch has arguments for.
@@ -23,8 +24,8 @@ _TABLES = (".csv", ".tsv")
 def batch(jobs: Jobs, *, in_: Path | None = None,
           lattice: Path | Sequence[Path] | Mapping[str, Path] | None = None, out_dir: Path | None = None, workers: int = 0,
           shard: tuple[int, int] | None = None, resume: bool = False, journal: Path | None = None,
-          positions: Path | None = None, dtype: str = "f4", view: Path | None = None, timeout: float | None = None,
-          dry_run: bool = False, stop: bool = False, report: Path | None = None,
+          positions: Path | None = None, dtype: str = "f4", view: Path | None = None, pages: bool = False,
+          timeout: float | None = None, dry_run: bool = False, stop: bool = False, report: Path | None = None,
           progress: Callable[[float], Any] | None = None, **options: Any) -> list[Result]:
     """Runs many jobs in several processes, as `ffd batch` does. A job that crashes, hangs or fails harms no other.
 
@@ -38,23 +39,30 @@ def batch(jobs: Jobs, *, in_: Path | None = None,
     shard: (i, n): only every n-th job, beginning with job i, from 0
     resume, journal: leave outputs that are up to date by content; journal records what they were made from
     positions, dtype: the path of an array .npy of all deformed positions; "f4" or "f8"
-    view: a folder for pictures of the jobs and a page that compares them
+    view: a folder for pictures of the jobs and an index that compares them. Jobs on one mesh have one frame and one scale of
+      colours; their pictures are drawn when the last job has ended, and progress, warnings and results come with them
+    pages=True: beside each picture a page, to which the index leads
     timeout: the longest time of a job in seconds
     dry_run, stop: write nothing; begin no more jobs after one has failed
     report: the path of a report
     progress: called from time to time with the fraction of jobs that has begun, negative if it is unknown; returning False
       ends the batch, which raises `Cancelled`
-    options: those of `deform_file`, for all jobs that do not say otherwise; and in_place=, shared_box=, csv_ignore="COLUMN,.."
+    options: those of `deform_file`, for all jobs that do not say otherwise; in_place=, shared_box=, csv_ignore="COLUMN,.."; and
+      with view those of `view_file` for pictures: color=, camera=, up=, size=, frames=, animation=, no_cage=. A job may have its
+      own: {"options": {"view": {"camera": "front"}}}
 
     Returns a `Result` for each job that has ended, in the order of the jobs, with these attributes besides:
       error: an `Error`, or None; no job raises it
       input, output: as the job names them; skipped: the output was up to date; line, row: its place among the jobs
+      own_frame: None, or why its picture has another frame than those of the other jobs on its mesh: "far" (the deformed mesh
+        lies farther than 10 diagonals of the mesh from it) or "options"
     Raises `UnsupportedError` where there is no program `ffd`: it is looked for near the package, and then by PATH; and `Error`
     for what fails all jobs. Threads may call it at the same time.
     """
     desc = library.filled("ffd_batch_desc")
     source = _Source(desc, jobs)
     own = {name: options.pop(name) for name in ("in_place", "shared_box", "csv_ignore") if name in options}
+    look = {name: options.pop(name) for name in LOOK if name in options}
     texts = {"in": in_, "out_dir": out_dir, "journal": journal, "positions": positions, "view": view, "report": report}
     for name, value in texts.items():
         setattr(desc, name, None if value is None else library.path(value))
@@ -65,6 +73,11 @@ def batch(jobs: Jobs, *, in_: Path | None = None,
             raise ValueError(f"shard must be (i, n) with i from 0 to n-1, not {shard!r}")
     desc.timeout = 0 if timeout is None else library.real(timeout, "timeout")
     desc.positions_double = library.one_of({"f4": 0, "f8": 1}, dtype, "dtype")
+    if look:
+        drawn = library.filled("ffd_view_desc")
+        set_look(drawn, **look)
+        desc.look = ctypes.pointer(drawn)
+    desc.pages = bool(pages)
     desc.resume, desc.dry_run, desc.stop, desc.shared_box = resume, dry_run, stop, own.get("shared_box", False)
     if own.get("csv_ignore") is not None:
         desc.csv_ignore = library.encoded(own["csv_ignore"], "csv_ignore")
@@ -128,13 +141,13 @@ def _iterated(jobs: Any) -> Callable[[int], bytes | None]:
 
 
 def _result(row: int, line: int, source: str | None, output: str | None, skipped: int, log: str, outputs: list[str],
-            data: bytes) -> Result:
+            own_frame: str | None, data: bytes) -> Result:
     found = declared.ffd_job_result.from_buffer_copy(data)
     error: Error | None = failure(found.status, found.error) if found.status else None
     lines = log.splitlines()
     result = Result(found, lines[:-1] if error else lines, outputs)
     result.error, result.input, result.output = error, source, output
-    result.skipped, result.line, result.row = bool(skipped), line, row
+    result.skipped, result.line, result.row, result.own_frame = bool(skipped), line, row, own_frame
     if error:
         error.warnings = result.warnings
     return result

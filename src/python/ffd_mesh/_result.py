@@ -18,6 +18,10 @@ class Group(SimpleNamespace):
     """A group of figures: the members of its struct (ffd/result.h) as attributes."""
 
 
+# Members of ffd_job_result that are no figures of the job.
+_NO_FIGURES = {"struct_size", "status", "error", "picture", "page", "own_frame", "morphs", "outputs"}
+
+
 class Result:
     """The result of a job: the members of ffd_job_result (ffd/result.h) as attributes, and
 
@@ -46,10 +50,11 @@ class Result:
     skipped: bool
     line: int
     row: int
+    own_frame: str | None
 
     def __init__(self, found: Any, warnings: list[str], outputs: list[str] | None = None) -> None:
         for name, _ in found._fields_:
-            if name not in ("struct_size", "status", "error", "picture", "morphs", "outputs") and not name.endswith("_room"):
+            if name not in _NO_FIGURES and not name.endswith("_room"):
                 self.__dict__[name] = figures(getattr(found, name))
         words = [word.removeprefix("point_") for word in library.WORDS["ffd_vertex_status"]]
         self.counts = dict(zip(words, found.counts))

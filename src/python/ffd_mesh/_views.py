@@ -31,15 +31,14 @@ def _set_camera(desc: Any, value: Any) -> None:
     desc.camera[:] = [library.real(number, "camera") for number in direction]
 
 
-def _set_look(desc: Any, output: Any, color: str, camera: Any, size: tuple[int, int] | None, frames: int | None, full: bool,
-              animation: str | None, up: str, no_cage: bool) -> None:
-    """Sets the options of the page or picture. Like the program, refuses options without effect."""
-    is_picture = os.fsdecode(output).lower().endswith(".png")
-    if full and is_picture:
-        raise ValueError("full is for pages, but the output is a picture")
-    if not is_picture and (size is not None or frames is not None):
-        raise ValueError("size and frames are for pictures, but the output is a page")
-    desc.color, desc.full = library.value_of("ffd_view_color", color, "color"), bool(full)
+# What `batch` takes of the options of a view.
+LOOK = ("color", "camera", "size", "frames", "animation", "up", "no_cage")
+
+
+def set_look(desc: Any, color: str = "auto", camera: Any = "iso", size: tuple[int, int] | None = None, frames: int | None = None,
+             animation: str | None = None, up: str = "y", no_cage: bool = False) -> None:
+    """Sets how a mesh is drawn."""
+    desc.color = library.value_of("ffd_view_color", color, "color")
     desc.up, desc.no_cage = library.value_of("ffd_up", up, "up"), bool(no_cage)
     _set_camera(desc, camera)
     if size is not None:
@@ -50,10 +49,21 @@ def _set_look(desc: Any, output: Any, color: str, camera: Any, size: tuple[int, 
         desc.animation = library.encoded(animation, "animation")
 
 
+def _set_output(desc: Any, output: Any, full: bool, **look: Any) -> None:
+    """Sets the options of the page or picture. Like the program, refuses options without effect."""
+    is_picture = os.fsdecode(output).lower().endswith(".png")
+    if full and is_picture:
+        raise ValueError("full is for pages, but the output is a picture")
+    if not is_picture and (look["size"] is not None or look["frames"] is not None):
+        raise ValueError("size and frames are for pictures, but the output is a page")
+    desc.full = bool(full)
+    set_look(desc, **look)
+
+
 def _view(desc: Any, source: Any, output: Any, lattices: Any, deformed: Any, look: Mapping[str, Any],
           options: dict[str, Any]) -> tuple[Any, Error | None, list[str]]:
     desc.output = library.path(output)
-    _set_look(desc, output, **look)
+    _set_output(desc, output, **look)
     with described(source, lattices, options, _OPTIONS) as (job, warnings):
         desc.job = ctypes.pointer(job)
         if deformed is not None:
