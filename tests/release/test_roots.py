@@ -91,7 +91,7 @@ def old(folder, out):
         return None
     with open(os.path.join(folder, "old.py"), "w", encoding="utf-8") as file:
         file.write(OLD)
-    code, text = enter(folder, "mkdir /wheel; cd /wheel; unzip -q /dist/*manylinux*.whl; cd /src/ffd/data && python3 /old.py && "
+    code, text = enter(folder, "mkdir /wheel; cd /wheel; unzip -q /dist/*manylinux*x86_64.whl; cd /src/ffd/data && python3 /old.py && "
                                "/wheel/ffd_mesh/ffd deform models/knight.glb /tmp/k.glb -l lattices/twist.json && cmp /tmp/k.glb /tmp/by_ctypes.glb")
     print(f"old: exit {code}, {text.strip()[-2000:]}")
     return code == 0
