@@ -141,6 +141,36 @@ static void append_flipped(byte_buffer *html, const ffd_job_result *figures)
                           figures->flipped_faces > 0 ? " class=\"bad\"" : "", figures->flipped_faces);
 }
 
+/* Whether an absolute path begins here: at the beginning of a message, or after a blank or a quote. */
+static bool begins_path(const char *message, size_t i)
+{
+    return (i == 0 || message[i - 1] == ' ' || message[i - 1] == '"') && ffd_path_is_absolute(message + i);
+}
+
+/* Appends a message without the folders of the absolute paths in it. A path ends at a quote or colon; within
+   a message, where it is not quoted, at a blank too. */
+static void append_message(byte_buffer *html, const char *message)
+{
+    byte_buffer text = {0};
+    for (size_t i = 0, end; message[i]; i = end) {
+        end = i + 1;
+        if (begins_path(message, i)) {
+            /* the colon of a drive is part of it */
+            const size_t drive = message[i] != '/' && message[i] != '\\' ? 2 : 0;
+            end = i + drive + strcspn(message + i + drive, i == 0 ? "\":" : "\": ");
+        }
+        size_t from = i;
+        for (size_t k = i; k + 1 < end; k++)
+            if (end > i + 1 && (message[k] == '/' || message[k] == '\\'))
+                from = k + 1;
+        ffd_buffer_append(&text, message + from, end - from);
+    }
+    char *const shown = ffd_buffer_finish(&text);
+    append_name(html, shown ? shown : "", ffd_page_html);
+    html->failed = html->failed || !shown;
+    ffd_free(shown);
+}
+
 static void append_state(byte_buffer *html, const index_row *row)
 {
     static const char *const words[] = {
@@ -149,7 +179,7 @@ static void append_state(byte_buffer *html, const index_row *row)
                       row->state == INDEX_FAILED ? " class=\"bad\"" : "", words[row->state]);
     if (row->error) {
         ffd_buffer_text(html, ": <span class=\"error\">");
-        append_name(html, row->error, ffd_page_html);
+        append_message(html, row->error);
         ffd_buffer_text(html, "</span>");
     }
     ffd_buffer_text(html, "</td>");
@@ -161,7 +191,7 @@ ffd_status ffd_index_begin(view_index *index, const char *name, file_output *out
     *index = (view_index){0};
     if (ffd_page_writer_begin(&index->writer, output, error))
         return index->writer.status;
-    append_name(&title, name, ffd_page_html);
+    append_name(&title, shown_path(name), ffd_page_html);
     ffd_page_write(&index->writer, ffd_compare_start, ffd_compare_start_size);
     ffd_page_write_buffer(&index->writer, &title);
     ffd_page_write(&index->writer, ffd_compare_middle, ffd_compare_middle_size);

@@ -2,6 +2,7 @@
 """ffd batch --view: a picture a job, named after its output, and a page that lists all jobs with their figures."""
 
 import html.parser
+import json
 import os
 import re
 import shutil
@@ -11,6 +12,7 @@ import subprocess
 
 from batches import batch, case, check, equal, job, lattice, lines_of, main, names, report, start
 from harness import CUBE, FFD, IO, NO, SANITIZED, SECONDS, USAGE, wait_until
+from messages import anything
 from png import chunks
 from urllib.parse import unquote
 
@@ -385,6 +387,23 @@ def signals_leave_whole_pictures_and_an_index(run):
         shutil.rmtree(run.path("cache"))
         for i in range(JOBS):
             run.remove(f"o{i}.obj")
+
+
+@case
+def the_index_keeps_folders_to_itself(run):
+    """Of absolute paths the names alone: in the title, of what is read and written, and in the messages of what failed."""
+    start(run)
+    os.mkdir(run.path("secret client"))
+    place = run.path("secret client")
+    for name in ("a.obj", "l.json"):
+        shutil.copy(run.path(name), os.path.join(place, name))
+    jobs = [{"in": f"{place}/{mesh}", "out": f"{place}/{n}.obj", "lattice": f"{place}/{lattice_file}"}
+            for n, (mesh, lattice_file) in enumerate((("a.obj", "l.json"), ("none.obj", "l.json"), ("a.obj", "none.json")))]
+    run.write("secret client/m.jsonl", "".join(json.dumps(one) + "\n" for one in jobs))
+    run.ffd("batch", f"{place}/m.jsonl", "--view", "pics", code=NO, err=anything)
+    text = re.sub(r'(src|href)="[^"]*"', "", run.text("pics/index.html"))
+    check("secret" not in text and "client" not in text, [line for line in text.splitlines() if "secret" in line or "client" in line])
+    check("<title>m.jsonl" in text and "none.obj: cannot be opened" in text and "none.json: cannot be opened" in text, text[-2000:])
 
 
 main()
