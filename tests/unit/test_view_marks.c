@@ -16,7 +16,7 @@
 #include "view/view_palette.h"
 #include <string.h>
 
-static double positions[6] = {0, 0, 0, 1, 0, 0}, moved[6] = {0, 0, 0, 1, 0, 3}, dets[2] = {0.1, 9};
+static double positions[6] = {0, 0, 0, 1, 0, 0}, moved[6] = {0, 0, 0, 1, 0, 3}, dets[5] = {0.1, 9, 1, 1, 1};
 static uint8_t statuses[2] = {0, 1}, flipped[1] = {1};
 static view_tear tear = {{0, 1}, 1};
 
