@@ -36,11 +36,25 @@ static inline double maximum_number(double a, double b)
     return a > b || b != b ? a : b;
 }
 
-/* Returns the nearest integer, the even one of two; |x| < 2^51. */
+/* Returns the nearest integer, the even one of two (rint), where that is 0 without a sign. */
 static inline double nearest_integer(double x)
 {
-    const double shift = 0x1.8p52; /* from 2^52 on the doubles are the integers */
-    return (x + shift) - shift;
+    const double shift = x < 0 ? -0x1p52 : 0x1p52; /* from 2^52 on the doubles are the integers */
+    return fabs(x) < 0x1p52 ? (x + shift) - shift : x;
+}
+
+/* floor and ceil of C: x itself where it has no fraction, NaN or an infinity too. */
+static inline double floor_of(double x)
+{
+    if (!(fabs(x) < 0x1p52)) /* from there on the doubles are integers */
+        return x;
+    const double whole = (double)(int64_t)x;
+    return whole > x ? whole - 1 : whole < x ? whole : x;
+}
+
+static inline double ceil_of(double x)
+{
+    return -floor_of(-x);
 }
 
 /* Returns the largest integer that is not above x; |x| < 2^63. */

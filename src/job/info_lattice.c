@@ -240,7 +240,7 @@ static void write_unbuilt(const ffd_lattice *lattice, bool fits, json_text *json
         return;
     char reason[100];
     snprintf(reason, sizeof reason, "the control points need %.0f MB of memory (%s allows more)",
-             ceil(1e-6 * (double)ffd_spec_point_bytes(lattice->spec)), SPELLED("{file.memory}"));
+             ceil_of(1e-6 * (double)ffd_spec_point_bytes(lattice->spec)), SPELLED("{file.memory}"));
     ffd_json_string(json, "points_unknown", reason);
 }
 

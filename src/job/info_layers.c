@@ -77,7 +77,7 @@ static void write_direction(const ffd_lattice *lattice, const ffd_bounds *box, i
     ffd_json_array(json, direction[a], true);
     for (size_t i = 0; i < lattice->size[a]; i++) {
         const double at = place(lattice, box, a, i);
-        before = turns && at < before ? at + 360 * ceil((before - at) / 360) : at;
+        before = turns && at < before ? at + 360 * ceil_of((before - at) / 360) : at;
         ffd_json_number(json, NULL, before);
     }
     ffd_json_end(json, ']');

@@ -24,7 +24,7 @@ typedef struct renderer {
 /* Writes a number in six digits; whole ones, which may be counts, in full. */
 static void write_number(const renderer *r, double number)
 {
-    if (r->is_exact || number == floor(number))
+    if (r->is_exact || number == floor_of(number))
         ffd_buffer_number(r->out, number);
     else
         ffd_buffer_format(r->out, "%.6g", number);

@@ -1,4 +1,5 @@
 #include "json/json_reader.h"
+#include "base/arithmetic.h"
 #include "base/lower_bound.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
@@ -212,7 +213,7 @@ ffd_status ffd_json_read_double(json_cursor cursor, double *number)
 
 ffd_status ffd_json_read_integer(json_cursor cursor, double *number)
 {
-    if (ffd_json_tree_number(cursor.tree, cursor.value, number) && *number == floor(*number) &&
+    if (ffd_json_tree_number(cursor.tree, cursor.value, number) && *number == floor_of(*number) &&
         fabs(*number) <= 0x1p53)
         return FFD_OK;
     return ffd_cursor_fail(cursor, "must be a whole number, not %s", ffd_json_describe(cursor).text);

@@ -65,7 +65,7 @@ static bool fit_bytes(const double *numbers, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
         const double scaled = 255 * numbers[i];
-        if (!(scaled >= 0 && scaled <= 255 && fabs(scaled - floor(scaled + 0.5)) <= BYTE_TOLERANCE))
+        if (!(scaled >= 0 && scaled <= 255 && fabs(scaled - floor_of(scaled + 0.5)) <= BYTE_TOLERANCE))
             return false;
     }
     return true;
@@ -98,7 +98,7 @@ static bool are_bytes(const double *colours, size_t count)
         const double value = colours[i];
         if (i % 4 == 3 || !isfinite(value))
             continue;
-        if (value < 0 || value > 255 || floor(value) < value)
+        if (value < 0 || value > 255 || floor_of(value) < value)
             return false;
         large = large || value > 1;
     }

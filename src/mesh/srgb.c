@@ -1,4 +1,5 @@
 #include "mesh/srgb.h"
+#include "base/arithmetic.h"
 #include "base/vector/root.h"
 #include <float.h>
 #include <math.h>
@@ -24,7 +25,7 @@ static double encode(double linear)
 /* Returns a linear value from 0 to 1 times 65535, rounded. */
 static double in_16_bits(double linear)
 {
-    return floor(65535 * linear + 0.5);
+    return floor_of(65535 * linear + 0.5);
 }
 
 static bool equal(double a, double b)
@@ -34,7 +35,7 @@ static bool equal(double a, double b)
 
 double ffd_srgb_from_linear(double linear)
 {
-    const double srgb = encode(linear), byte = floor(255 * srgb + 0.5);
+    const double srgb = encode(linear), byte = floor_of(255 * srgb + 0.5);
     if (!(byte >= 0 && byte <= 255))
         return srgb;
     const double exact = ffd_srgb_to_linear(byte / 255);

@@ -43,9 +43,9 @@ layout ffd_layout_make(const picture *of)
     by.columns = of->panel_count > by.rows ? of->panel_count / by.rows : 1;
     const double panel = (double)of->width / (double)by.columns, row = of->height / (double)by.rows;
     /* In steps of half a pixel, so that letters are sharp. */
-    by.dot = larger_of(1, floor(lesser_of(row / ROW_DOTS, panel / PANEL_DOTS) * 2) / 2);
+    by.dot = larger_of(1, floor_of(lesser_of(row / ROW_DOTS, panel / PANEL_DOTS) * 2) / 2);
     by.line = larger_of(0.6, lesser_of(3, lesser_of(row, panel) / 500));
-    by.stripe = (int32_t)larger_of(6, floor(lesser_of(row, panel) / 80));
+    by.stripe = (int32_t)larger_of(6, floor_of(lesser_of(row, panel) / 80));
     by.margin = MARGIN * by.dot;
     by.top = by.margin;
     for (size_t i = 0; i < of->panel_count; i++)
@@ -53,7 +53,7 @@ layout ffd_layout_make(const picture *of)
             by.top = (2 * MARGIN + LETTER_ROWS) * by.dot;
     by.row_height = of->height - (legend_height(of) > 0 ? (legend_height(of) + GAP) * by.dot : 0);
     if (by.rows > 1)
-        by.row_height = floor(by.row_height / (double)by.rows);
+        by.row_height = floor_of(by.row_height / (double)by.rows);
     by.bottom = by.row_height - by.margin;
     return by;
 }
@@ -94,13 +94,13 @@ static void write_middle(const layout *by, const stroke_target *into, const char
 {
     const double width = ffd_letters_width(text), room = by->of->width - 2 * by->margin,
                  dot = width > 0 ? lesser_of(by->dot, room / width) : by->dot;
-    ffd_letters_draw(into, text, floor(middle - dot * width / 2), floor(top), dot, color);
+    ffd_letters_draw(into, text, floor_of(middle - dot * width / 2), floor_of(top), dot, color);
 }
 
 static void draw_bar(const layout *by, const linear_tables *tables, const stroke_target *into, double top)
 {
     const picture_scale *const scale = by->of->scale;
-    const double width = floor(by->of->width * 0.6), left = floor((by->of->width - width) / 2),
+    const double width = floor_of(by->of->width * 0.6), left = floor_of((by->of->width - width) / 2),
                  bottom = top + BAR_HEIGHT * by->dot;
     for (size_t i = 0; i < scale->color_count; i++) {
         const double count = (double)scale->color_count, index = (double)i;
@@ -133,7 +133,7 @@ static field_row begin_fields(const layout *by, double field, double letters, si
     const double dots = letters + (double)count * (field + GAP) + (double)(count - 1) * 3 * GAP,
                  most = by->of->width - 2 * by->margin;
     field_row row = {0, lesser_of(by->dot, most / dots), field};
-    row.left = larger_of(0, floor((by->of->width - row.dot * dots) / 2));
+    row.left = larger_of(0, floor_of((by->of->width - row.dot * dots) / 2));
     return row;
 }
 
@@ -142,7 +142,7 @@ static void label_field(field_row *row, const linear_tables *tables, const strok
                         const char *label, double top)
 {
     const double at = row->left + (row->field + GAP) * row->dot;
-    ffd_letters_draw(into, label, floor(at), floor(top), row->dot, from_bytes(tables, ink));
+    ffd_letters_draw(into, label, floor_of(at), floor_of(top), row->dot, from_bytes(tables, ink));
     row->left = at + row->dot * (3 * GAP + ffd_letters_width(label));
 }
 
@@ -178,7 +178,7 @@ static void fill_mark(const layout *by, const linear_tables *tables, const strok
 
 static void draw_marks(const layout *by, const linear_tables *tables, const stroke_target *into)
 {
-    const double top = floor(by->of->height - (LETTER_ROWS + MARGIN) * by->dot);
+    const double top = floor_of(by->of->height - (LETTER_ROWS + MARGIN) * by->dot);
     double letters = 0;
     if (by->of->mark_count == 0 || into->top + into->rows <= top)
         return;
@@ -194,12 +194,12 @@ static void draw_marks(const layout *by, const linear_tables *tables, const stro
 static void draw_scale(const layout *by, const linear_tables *tables, const stroke_target *into)
 {
     const picture_scale *const scale = by->of->scale;
-    double top = floor(by->of->height - legend_height(by->of) * by->dot);
+    double top = floor_of(by->of->height - legend_height(by->of) * by->dot);
     if (into->top + into->rows <= top)
         return;
     if (scale->title) {
         write_middle(by, into, scale->title, by->of->width / 2.0, top, from_bytes(tables, ink));
-        top += floor((LETTER_ROWS + TITLE_GAP) * by->dot);
+        top += floor_of((LETTER_ROWS + TITLE_GAP) * by->dot);
     }
     if (scale->is_fields)
         draw_fields(by, tables, into, top);

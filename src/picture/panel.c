@@ -86,9 +86,9 @@ ffd_status ffd_panel_make(const layout *by, size_t index, const ffd_bounds *seen
                       .points = ffd_alloc_zero(of->point_count, sizeof *result->points),
                       .cages = ffd_alloc_zero(of->cage_count, sizeof *result->cages)};
     /* The same width for all panels, so that panels whose widths differ by a pixel have the same scale. */
-    const double width = floor((double)by->of->width / (double)by->columns) - 2 * by->margin;
+    const double width = floor_of((double)by->of->width / (double)by->columns) - 2 * by->margin;
     const projection to =
-        ffd_camera_fit(&by->of->camera, seen, floor((result->left + result->right) / 2.0),
+        ffd_camera_fit(&by->of->camera, seen, floor_of((result->left + result->right) / 2.0),
                        result->top + (by->top + by->bottom) / 2, width, by->bottom - by->top);
     ffd_status status;
     TRY_END(result->meshes && result->points && result->cages ? FFD_OK : ffd_fail_memory(error));

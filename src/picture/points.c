@@ -111,8 +111,8 @@ typedef struct box {
 static box box_of(const placed_point *p, const samples *into)
 {
     const double x = p->at[0], y = p->at[1];
-    const double left = floor(x - p->reach_x), right = floor(x + p->reach_x), top = floor(y - p->reach_y),
-                 bottom = floor(y + p->reach_y);
+    const double left = floor_of(x - p->reach_x), right = floor_of(x + p->reach_x),
+                 top = floor_of(y - p->reach_y), bottom = floor_of(y + p->reach_y);
     const double ends[2] = {into->left + into->width - 1.0, into->top + into->rows - 1.0};
     return (box){(int64_t)larger_of(left, into->left), (int64_t)lesser_of(right, ends[0]),
                  (int64_t)larger_of(top, into->top), (int64_t)lesser_of(bottom, ends[1])};

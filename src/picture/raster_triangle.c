@@ -39,8 +39,8 @@ static void cut_by(const cut *from, int axis, double sign, cut *to)
 
 static raster_corner corner_at(const double point[3])
 {
-    return (raster_corner){(int32_t)floor(point[0] * SUBPIXELS + 0.5),
-                           (int32_t)floor(point[1] * SUBPIXELS + 0.5), (float)point[2]};
+    return (raster_corner){(int32_t)floor_of(point[0] * SUBPIXELS + 0.5),
+                           (int32_t)floor_of(point[1] * SUBPIXELS + 0.5), (float)point[2]};
 }
 
 /* Draws the part of a triangle within the guard band, if a corner is outside. */

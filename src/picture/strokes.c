@@ -57,8 +57,8 @@ static void draw_at(const stroke_target *into, const stroke *with, const double 
 /* Finds the integers from low to high that are in [begin, end). */
 static void clamp(double low, double high, int32_t begin, int32_t end, int32_t *first, int32_t *last)
 {
-    *first = low > begin ? (low < end ? (int32_t)floor(low) : end) : begin;
-    *last = high < end ? (high >= begin ? (int32_t)floor(high) : begin - 1) : end - 1;
+    *first = low > begin ? (low < end ? (int32_t)floor_of(low) : end) : begin;
+    *last = high < end ? (high >= begin ? (int32_t)floor_of(high) : begin - 1) : end - 1;
 }
 
 /* Draws a row of pixels: the columns near the intersection of the line with the row. */

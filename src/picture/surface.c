@@ -71,8 +71,8 @@ static void place_vertex(const projection *by, const double point[3], surface_ve
     else if (!(fabs(seen[0]) < GUARD && fabs(seen[1]) < GUARD && fabs(seen[2]) < GUARD))
         vertex->x = VERTEX_FAR;
     else {
-        vertex->x = (int32_t)floor(seen[0] * SUBPIXELS + 0.5);
-        vertex->y = (int32_t)floor(seen[1] * SUBPIXELS + 0.5);
+        vertex->x = (int32_t)floor_of(seen[0] * SUBPIXELS + 0.5);
+        vertex->y = (int32_t)floor_of(seen[1] * SUBPIXELS + 0.5);
         vertex->z = (float)seen[2];
     }
 }

@@ -1,4 +1,5 @@
 #include "picture/texture.h"
+#include "base/arithmetic.h"
 #include "base/memory/memory.h"
 #include "picture/linear.h"
 #include <math.h>
@@ -97,16 +98,16 @@ static double fold(texture_wrap wrap, double x)
     if (wrap == TEXTURE_CLAMP)
         return x < 0 ? 0 : x > 1 ? 1 : x;
     if (wrap == TEXTURE_MIRROR) {
-        x -= 2 * floor(x / 2);
+        x -= 2 * floor_of(x / 2);
         return x > 1 ? 2 - x : x;
     }
-    return x - floor(x);
+    return x - floor_of(x);
 }
 
 /* Finds the two texels next to a coordinate. Returns the weight of the second. */
 static double neighbours(texture_wrap wrap, double x, uint32_t side, uint32_t texels[2])
 {
-    const double at = fold(wrap, x) * side - 0.5, low = floor(at);
+    const double at = fold(wrap, x) * side - 0.5, low = floor_of(at);
     const int64_t first = (int64_t)low, last = (int64_t)side - 1;
     const bool repeats = wrap == TEXTURE_REPEAT;
     texels[0] = (uint32_t)(first < 0 ? (repeats ? last : 0) : first > last ? last : first);

@@ -1,4 +1,5 @@
 #include "spline/refine.h"
+#include "base/arithmetic.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
 #include "spline/knots.h"
@@ -113,7 +114,7 @@ static double wrap(const knot_row *row, double value)
     const double first = domain_first(row), period = domain_last(row) - first;
     if (value >= first && value < first + period)
         return value;
-    const double wrapped = value - period * floor((value - first) / period);
+    const double wrapped = value - period * floor_of((value - first) / period);
     return wrapped >= first && wrapped < domain_last(row) ? wrapped : first;
 }
 

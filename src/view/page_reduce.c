@@ -269,7 +269,7 @@ static size_t thin_out(uint32_t *indices, size_t count, size_t corners, double r
 {
     size_t left = 0;
     for (size_t i = 0; i < count; i++)
-        if (floor((double)(i + 1) * ratio) > floor((double)i * ratio))
+        if (floor_of((double)(i + 1) * ratio) > floor_of((double)i * ratio))
             memmove(indices + corners * left++, indices + corners * i, corners * sizeof *indices);
     return left;
 }
@@ -306,7 +306,7 @@ static void drop_triangles(page_mesh *mesh, double ratio)
         page_part *const part = &mesh->parts[i];
         const size_t first = left, end = part->first_triangle + part->triangle_count;
         for (size_t t = part->first_triangle; t < end; t++)
-            if (floor((double)(t + 1) * ratio) > floor((double)t * ratio)) {
+            if (floor_of((double)(t + 1) * ratio) > floor_of((double)t * ratio)) {
                 memmove(mesh->triangles + 3 * left, mesh->triangles + 3 * t, 3 * sizeof *mesh->triangles);
                 if (mesh->flipped)
                     mesh->flipped[left] = mesh->flipped[t];

@@ -68,9 +68,16 @@ static void integers_are_the_nearest_and_the_one_below(void **state)
     for (size_t i = 0; i < sizeof halves / sizeof *halves; i++) {
         assert_same("nearest", halves[i], 0, nearest_integer(halves[i]), nearbyint(halves[i]));
         assert_same("below", halves[i], 0, (double)integer_below(halves[i]), floor(halves[i]));
+        assert_same("floor", halves[i], 0, floor_of(halves[i]), floor(halves[i]));
+        assert_same("ceil", halves[i], 0, ceil_of(halves[i]), ceil(halves[i]));
     }
     draw d = {3};
+    assert_true(signbit(floor_of(-0.0)) && isnan(floor_of(NAN)) && floor_of(-HUGE_VAL) == -HUGE_VAL);
     for (int i = 0; i < DRAWS; i++) {
+        const double far = any(&d);
+        assert_same("nearest", far, 0, nearest_integer(far), rint(far));
+        assert_same("floor", far, 0, floor_of(far), floor(far));
+        assert_same("ceil", far, 0, ceil_of(far), ceil(far));
         const double x = (2 * draw_unit(&d) - 1) * ldexp(1, (int)(draw_bits(&d) % 60) - 10);
         assert_same("nearest", x, 0, nearest_integer(x), nearbyint(x));
         assert_same("below", x, 0, (double)integer_below(x), floor(x));

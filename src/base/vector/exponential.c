@@ -1,4 +1,5 @@
 #include "base/vector/exponential.h"
+#include "base/arithmetic.h"
 #include "base/vector/exponential_terms.h"
 #include <math.h>
 #include <stdint.h>
@@ -6,7 +7,7 @@
 
 double ffd_exp(double x)
 {
-    const double k = rint(x * LOG2_E);
+    const double k = nearest_integer(x * LOG2_E);
     const double r = (x - k * LN2_HIGH) - k * LN2_LOW;
     const uint64_t bits = (uint64_t)((int64_t)k + EXPONENT_BIAS) << EXPONENT_AT;
     double sum = inverse_factorials[EXP_TERMS], power;

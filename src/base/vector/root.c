@@ -1,4 +1,5 @@
 #include "base/vector/root.h"
+#include "base/arithmetic.h"
 #include <math.h>
 
 double ffd_root(double x, int n)
@@ -6,7 +7,7 @@ double ffd_root(double x, int n)
     /* Newton's method from above: it stops when rounding ends the descent. */
     int exponent;
     const double fraction = frexp(x, &exponent);
-    const int share = (int)floor((double)exponent / n + 0.5);
+    const int share = (int)floor_of((double)exponent / n + 0.5);
     const double scaled = ldexp(fraction, exponent - n * share);
     double nearest = 1 + (scaled - 1) / n; /* an upper bound of the root (Bernoulli's inequality) */
     for (;;) {

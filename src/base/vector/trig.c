@@ -77,7 +77,7 @@ void ffd_sincos_degrees(double degrees, double *sine, double *cosine)
     /* Both operations are exact: remainder_of always is; the subtraction because its operands are within a
        factor of two (Sterbenz lemma) or the quadrant is 0. */
     const double turn = remainder_of(degrees, 360);
-    const double quadrant = floor(turn / 90 + 0.5);
+    const double quadrant = floor_of(turn / 90 + 0.5);
     double s, c;
     sincos_octant(turn - 90 * quadrant, &s, &c);
     /* Adding 0 turns -0 into 0. */

@@ -147,7 +147,7 @@ static void mark_joints(const gltf_document *d, uint32_t skin, bool *is_joint)
          v = ffd_json_tree_after(&d->tree, v)) {
         double node;
         if (ffd_json_tree_number(&d->tree, v, &node) && node >= 0 && node < (double)d->node_values.count &&
-            node == floor(node))
+            node == floor_of(node))
             is_joint[(size_t)node] = true;
     }
 }

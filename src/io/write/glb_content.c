@@ -1,4 +1,5 @@
 /* glb_content.c - the binary content of a new glTF file. */
+#include "base/arithmetic.h"
 #include "base/little_endian.h"
 #include "base/text/base64.h"
 #include "io/write/glb_values.h"
@@ -48,7 +49,7 @@ static void put_u16(gltf_writer *w, uint16_t value)
 static void put_byte_colour(gltf_writer *w, const double colour[4])
 {
     for (size_t c = 0; c < 4; c++) {
-        const unsigned char byte = (unsigned char)floor(255 * colour[c] + 0.5);
+        const unsigned char byte = (unsigned char)floor_of(255 * colour[c] + 0.5);
         put_u16(w, c < 3 ? w->linear_of_bytes[byte] : (uint16_t)(257 * byte));
     }
 }

@@ -52,7 +52,8 @@ static void choose_origin(const ffd_bounds *box, const double common[3], double 
               above = exponent_above(diagonal);
     const double unit = ldexp(1, above > step ? above : step);
     for (int a = 0; a < 3; a++)
-        origin[a] = unit * floor((box->min[a] / 2 + box->max[a] / 2) / unit + 0.5) + 0.0; /* + 0.0: no -0 */
+        origin[a] =
+            unit * floor_of((box->min[a] / 2 + box->max[a] / 2) / unit + 0.5) + 0.0; /* + 0.0: no -0 */
 }
 
 /* Extends the bounds by the written vertices of a primitive. */

@@ -53,10 +53,10 @@ static void write_colour(model_sink *sink, const double *colour, size_t width, b
         const double value = colour[c];
         if (bytes) {
             ffd_sink_text(sink, " ");
-            ffd_sink_count(sink, (uint64_t)floor(255 * value + 0.5));
+            ffd_sink_count(sink, (uint64_t)floor_of(255 * value + 0.5));
         } else {
             ffd_sink_numbers(sink, &value, 1);
-            ffd_sink_text(sink, value < floor(value) || value > floor(value) ? "" : ".0");
+            ffd_sink_text(sink, value < floor_of(value) || value > floor_of(value) ? "" : ".0");
         }
     }
 }

@@ -107,7 +107,7 @@ static void write_colour(model_sink *sink, const double *colour, bool bytes, boo
     for (size_t c = 0; c < (alpha ? 4 : 3); c++) {
         const double value = colour[c];
         if (bytes) {
-            const unsigned char byte = (unsigned char)floor(255 * value + 0.5);
+            const unsigned char byte = (unsigned char)floor_of(255 * value + 0.5);
             ffd_sink_bytes(sink, &byte, 1);
         } else
             ffd_sink_float(sink, value);

@@ -21,7 +21,7 @@
 
 static void warn(chain_pace *pace, const chain_link *link)
 {
-    const double each = pace->seconds / (double)pace->done, parts = ceil(pace->points / MESH_RANGE_STEP);
+    const double each = pace->seconds / (double)pace->done, parts = ceil_of(pace->points / MESH_RANGE_STEP);
     const double all = larger_of(each * pace->points / lesser_of(pace->threads, parts), pace->seconds);
     const ffd_lattice_source *const lattice = pace->lattices ? &pace->lattices[link - pace->links] : NULL;
     char text[40], name[201] = "";

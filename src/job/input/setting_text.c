@@ -1,4 +1,5 @@
 /* setting_text.c - reads settings from texts as users write them (public: ffd/settings.h). */
+#include "base/arithmetic.h"
 #include "base/fail.h"
 #include "base/memory/memory.h"
 #include "base/spelling.h"
@@ -157,7 +158,7 @@ static ffd_status set_limit(const reading *r, ffd_deform_desc *desc, ffd_gate ga
     if (text && length < sizeof copy) {
         memcpy(copy, text, length);
         valid = parse_number(copy, &value) && value >= 0 &&
-                (!counts || (value < 0x1p53 && value == floor(value)));
+                (!counts || (value < 0x1p53 && value == floor_of(value)));
     }
     if (!valid)
         return refuse(r, ": ", "\"%.*s\" is not a %s of the gate %s", (int)(length < 60 ? length : 60), text,

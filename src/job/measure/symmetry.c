@@ -99,7 +99,7 @@ static uint64_t cell_of(const image_grid *grid, const double place[3])
 {
     uint64_t cell = 0;
     for (int a = 0; a < 3; a++)
-        cell = cell << 20 | (uint64_t)(floor((place[a] - grid->origin[a]) / grid->edge) + 16);
+        cell = cell << 20 | (uint64_t)(floor_of((place[a] - grid->origin[a]) / grid->edge) + 16);
     return cell;
 }
 

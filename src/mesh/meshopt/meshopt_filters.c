@@ -22,7 +22,7 @@ static void store_16(unsigned char *bytes, int value)
 /* Rounds to the nearest integer, halves away from zero. Values out of range, in broken data, are clamped. */
 static int to_integer(double value, double largest)
 {
-    const double whole = value < 0 ? ceil(value - 0.5) : floor(value + 0.5);
+    const double whole = value < 0 ? ceil_of(value - 0.5) : floor_of(value + 0.5);
     return (int)maximum_number(minimum_number(whole, largest), -largest);
 }
 

@@ -33,7 +33,7 @@ size_t ffd_gltf_index(const gltf_document *d, uint32_t value, size_t count)
 {
     double number;
     const bool found = ffd_json_tree_number(&d->tree, value, &number) && number >= 0 &&
-                       number < (double)count && floor(number) >= number;
+                       number < (double)count && floor_of(number) >= number;
     return found ? (size_t)number : GLTF_NONE;
 }
 

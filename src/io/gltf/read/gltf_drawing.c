@@ -37,7 +37,7 @@ static ffd_status read_drawing(gltf_document *d, gltf_primitive *primitive, ffd_
     primitive->mode = MODE_TRIANGLES;
     if (!ffd_json_tree_number(&d->tree, mode, &number))
         return FFD_OK;
-    if (number >= MODE_POINTS && number <= MODE_FAN && floor(number) == number) {
+    if (number >= MODE_POINTS && number <= MODE_FAN && floor_of(number) == number) {
         primitive->mode = (int)number;
         return FFD_OK;
     }

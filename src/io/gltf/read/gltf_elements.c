@@ -1,4 +1,5 @@
 #include "io/gltf/read/gltf_elements.h"
+#include "base/arithmetic.h"
 #include "base/little_endian.h"
 #include "base/lower_bound.h"
 #include "base/vector/array_kernel.h"
@@ -282,14 +283,14 @@ float ffd_gltf_round(const gltf_accessor *accessor, double value)
     if (accessor->component == GLTF_FLOAT)
         return (float)value;
     const double scale = scale_of(accessor);
-    return (float)(rint(value * scale) / scale + 0.0); /* + 0.0: integers have no -0 */
+    return (float)(nearest_integer(value * scale) / scale + 0.0); /* + 0.0: integers have no -0 */
 }
 
 /* Returns the integer q that a float encodes. The float nearest to q/s gives q again: its error is 2^-24
    relative, and q is at most 65535. */
 static double integer_of(const gltf_accessor *accessor, float value)
 {
-    return rint((double)value * scale_of(accessor));
+    return nearest_integer((double)value * scale_of(accessor));
 }
 
 bool ffd_gltf_fits(const gltf_accessor *accessor, const float *values, size_t count)

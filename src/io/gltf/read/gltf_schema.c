@@ -146,7 +146,7 @@ static ffd_status check_stride(const checker *c, uint32_t value)
 {
     double number;
     if (!ffd_json_tree_number(c->tree, value, &number) || !(number >= 0 && number <= 252) ||
-        floor(number) != number)
+        floor_of(number) != number)
         return refuse(c, value, "a multiple of 4 from 4 to 252");
     return FFD_OK;
 }
@@ -163,7 +163,7 @@ static ffd_status check_mode(const checker *c, uint32_t value)
 static bool read_integer(const checker *c, uint32_t value, double largest, double *number)
 {
     if (!ffd_json_tree_number(c->tree, value, number) || !(*number >= 0 && *number <= largest) ||
-        floor(*number) != *number)
+        floor_of(*number) != *number)
         return false;
     ffd_gltf_show_integer(c->tree, value, *number, c->integers);
     return true;

@@ -14,7 +14,7 @@ static bool read_count(const gltf_document *d, uint32_t value, double limit, siz
 {
     double number;
     if (!ffd_json_tree_number(&d->tree, value, &number) || !(number >= 0) || !(number < limit) ||
-        floor(number) != number)
+        floor_of(number) != number)
         return false;
     *count = (size_t)number;
     return true;
