@@ -396,7 +396,7 @@ def test_console(folder):
     code, output = in_console("console", f"{FFD} batch none.jsonl", exe=HOLD, folder=folder)
     assert "exit 3, page 437, old mode" in output, f"exit {code}: {output!r}"
     with open(os.path.join(folder, "large.obj"), "w", encoding="utf-8") as file:
-        file.writelines(f"v {i % 997 * 0.001} {i % 991 * 0.001} {i % 983 * 0.001}\n" for i in range(400000))
+        file.writelines(f"v {i % 997 * 0.001} {i % 991 * 0.001} {i % 983 * 0.001}\n" for i in range(1000000))
     before = sorted(os.listdir(folder))
     in_console("deform", "large.obj", "out.obj", "-l", "twist.json", folder=folder,
                until=lambda: os.path.exists(os.path.join(folder, ".out.obj.ffd-tmp")))
