@@ -204,7 +204,7 @@ def zeros(count, nodes=1, primitives=1):
     asset = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(nodes))}],
              "nodes": [{"mesh": 0, "translation": [n / 16, 0, 0]} for n in range(nodes)],
              "meshes": [{"primitives": [{"attributes": {"POSITION": 0}} for _ in range(primitives)]}],
-             "accessors": [{"componentType": 5126, "count": count, "type": "VEC3"}]}
+             "accessors": [{"componentType": 5126, "count": count, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0]}]}
     return json.dumps(asset)
 
 
