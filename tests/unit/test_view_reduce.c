@@ -68,18 +68,24 @@ static void a_reduced_mesh_keeps_parts_marks_and_tears(void **state)
     ffd_view_scene_free(&scene);
 }
 
+/* Gives the only part a material with one image. */
+static void hand_material(view_scene *scene)
+{
+    static const mesh_texture none = {.image = MATERIAL_NONE};
+    scene->parts[0].material = 0;
+    scene->materials.list = hand_array(1, sizeof *scene->materials.list);
+    scene->materials.count = 1;
+    scene->materials.list[0] = (mesh_material){.name = hand_text(""), .glow = none, .opacity = none};
+    scene->materials.images = hand_array(1, sizeof *scene->materials.images);
+    scene->materials.image_count = 1;
+}
+
 /* A grid with one texture, whose coordinates are x and y; right of the middle u is 2 larger. */
 static view_scene textured_grid(void)
 {
     view_scene scene = hand_grid(100);
-    static const mesh_texture none = {.image = MATERIAL_NONE};
     hand_part(&scene, "", 0, scene.triangle_count);
-    scene.parts[0].material = 0;
-    scene.materials.list = hand_array(1, sizeof *scene.materials.list);
-    scene.materials.count = 1;
-    scene.materials.list[0] = (mesh_material){.name = hand_text(""), .glow = none, .opacity = none};
-    scene.materials.images = hand_array(1, sizeof *scene.materials.images);
-    scene.materials.image_count = 1;
+    hand_material(&scene);
     scene.texcoords = hand_array(scene.triangle_count, 6 * sizeof *scene.texcoords);
     for (size_t t = 0; t < scene.triangle_count; t++) {
         double middle = 0;
@@ -139,16 +145,10 @@ static void a_texture_is_not_torn_at_its_seam(void **state)
 static void a_vertex_may_have_any_number_of_texture_coordinates(void **state)
 {
     enum { RIM = 300000 };
-    static const mesh_texture none = {.image = MATERIAL_NONE};
     (void)state;
     view_scene scene = hand_scene(RIM + 1, RIM);
     hand_part(&scene, "", 0, RIM);
-    scene.parts[0].material = 0;
-    scene.materials.list = hand_array(1, sizeof *scene.materials.list);
-    scene.materials.count = 1;
-    scene.materials.list[0] = (mesh_material){.name = hand_text(""), .glow = none, .opacity = none};
-    scene.materials.images = hand_array(1, sizeof *scene.materials.images);
-    scene.materials.image_count = 1;
+    hand_material(&scene);
     scene.texcoords = hand_array(RIM, 6 * sizeof *scene.texcoords);
     for (uint32_t i = 0; i < RIM; i++) {
         const uint32_t corners[3] = {RIM, i, (i + 1) % RIM};

@@ -96,7 +96,7 @@ static ffd_status refine_numbers(const refinement *of, size_t width, double **nu
     return FFD_OK;
 }
 
-/* Calls of a control point: its old index, or REFINE_NEW. */
+/* Returns the old control point that a new one is, in all three directions, or REFINE_NEW. */
 static size_t copy_of(const refinement *of, size_t i, size_t j, size_t k)
 {
     const size_t *const size = of->lattice->size;
