@@ -2,6 +2,7 @@
 #include "base/arithmetic.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
+#include "spline/halving.h"
 #include "spline/knots.h"
 #include <math.h>
 #include <stdint.h>
@@ -158,52 +159,21 @@ static ffd_status insert_knots(const knot_row *from, const refine_wish *wish, ch
     return check_runs(to, direction, error);
 }
 
-/* Spans that differ by rounding count as equally long. */
-#define ALIKE (1 - 1e-9)
-
-/* Returns the longest span of the domain. */
-static double longest_span(const double *t, size_t first, size_t last)
-{
-    double longest = 0;
-    for (size_t i = first; i < last; i++)
-        longest = t[i + 1] - t[i] > longest ? t[i + 1] - t[i] : longest;
-    return longest;
-}
-
-/* Halves the longest spans, the first one first, until there are as many control points. */
+/* Halves the longest spans until there are as many control points. */
 static ffd_status halve_spans(const knot_row *from, size_t points, char direction, knot_row *to,
                               ffd_error *error)
 {
-    const size_t begin = from->closed ? 0 : (size_t)from->degree;
-    size_t count = knot_count(from), missing = points - from->points, end = from->points;
+    const size_t first = from->closed ? 0 : (size_t)from->degree, count = knot_count(from);
+    const size_t missing = points - from->points;
+    size_t found;
     TRY(make_row(from->degree, points, from->closed, to, error));
-    double *const t = to->t, *const next = ffd_alloc(knot_count(to), sizeof *next);
-    if (!next)
-        return ffd_fail_memory(error);
-    memcpy(t, from->t, count * sizeof *t);
-    ffd_status status = FFD_OK;
-    while (missing > 0) {
-        const double least = ALIKE * longest_span(t, begin, end);
-        size_t k = 0, halved = 0;
-        for (size_t i = 0; i < count; i++) {
-            next[k++] = t[i];
-            if (i < begin || i >= end || !(t[i + 1] - t[i] >= least) || halved == missing)
-                continue;
-            const double middle = 0.5 * t[i] + 0.5 * t[i + 1];
-            if (!(t[i] < middle && middle < t[i + 1]))
-                TRY_END(ffd_fail(error, FFD_E_ARGUMENT,
-                                 "{size}: the spans along %c cannot be halved so often", direction));
-            next[k++] = middle;
-            halved++;
-        }
-        memcpy(t, next, k * sizeof *t);
-        count = k;
-        end += halved;
-        missing -= halved;
-    }
-end:
-    ffd_free(next);
-    return status;
+    memcpy(to->t, from->t, count * sizeof *to->t);
+    TRY(ffd_halve_spans(from->t, first, from->points, missing, to->t + count, &found, error));
+    if (found < missing)
+        return ffd_fail(error, FFD_E_ARGUMENT, "{size}: the spans along %c cannot be halved so often",
+                        direction);
+    qsort(to->t, count + missing, sizeof *to->t, compare_numbers);
+    return FFD_OK;
 }
 
 static ffd_status first_row(const knot_vector *knots, knot_row *row, ffd_error *error)
