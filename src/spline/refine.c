@@ -82,22 +82,34 @@ static ffd_status clamp_row(const knot_row *from, knot_row *to, ffd_error *error
     return FFD_OK;
 }
 
+/* Returns the number of spans that are not empty. */
+static size_t count_spans(const knot_row *row)
+{
+    const size_t count = knot_count(row);
+    size_t distinct = 0;
+    for (size_t i = 0; i < count; i += run_of(row->t, i, count))
+        distinct++;
+    return distinct - 1;
+}
+
+/* Returns how often the last knot stands at the end. */
+static size_t run_at_end(const knot_row *row)
+{
+    const size_t last = knot_count(row) - 1;
+    size_t run = 1;
+    while (run <= last && !(row->t[last - run] < row->t[last]))
+        run++;
+    return run;
+}
+
 /* Repeats every distinct knot once more. Of a closed row those of the seam stand at the start, and its end
  * once. */
 static ffd_status elevate_row(const knot_row *from, knot_row *to, ffd_error *error)
 {
     const size_t count = knot_count(from);
-    size_t distinct = 0, seam = 0, k = 0;
-    for (size_t i = 0; i < count; i += run_of(from->t, i, count))
-        distinct++;
-    const size_t added = from->closed ? distinct - 1 : distinct;
-    TRY(make_row(from->degree + 1, from->closed ? from->points + added : from->points + added - 1,
-                 from->closed, to, error));
-    for (size_t i = 0, run; from->closed && i < count; i += run) {
-        run = run_of(from->t, i, count);
-        if (i + run == count)
-            seam = run - 1; /* copies at the end that go to the start */
-    }
+    const size_t seam = from->closed ? run_at_end(from) - 1 : 0; /* copies at the end that go to the start */
+    size_t k = 0;
+    TRY(make_row(from->degree + 1, from->points + count_spans(from), from->closed, to, error));
     for (size_t i = 0, run; i < count; i += run) {
         run = run_of(from->t, i, count);
         size_t copies = run + 1;
@@ -113,13 +125,13 @@ static ffd_status elevate_row(const knot_row *from, knot_row *to, ffd_error *err
 static double wrap(const knot_row *row, double value)
 {
     const double first = domain_first(row), period = domain_last(row) - first;
-    if (value >= first && value < first + period)
+    if (value >= first && value < domain_last(row))
         return value;
     const double wrapped = value - period * floor_of((value - first) / period);
     return wrapped >= first && wrapped < domain_last(row) ? wrapped : first;
 }
 
-/* Checks how often each knot of the row stands in it. */
+/* Checks how often each knot of the row stands in it. Those at the end of a period are those at its start. */
 static ffd_status check_runs(const knot_row *row, char direction, ffd_error *error)
 {
     const double first = domain_first(row), last = domain_last(row);
@@ -129,10 +141,11 @@ static ffd_status check_runs(const knot_row *row, char direction, ffd_error *err
         const double value = row->t[i];
         const bool is_end = !row->closed && (value <= first || value >= last);
         const size_t allowed = (size_t)row->degree + is_end;
-        if (run > allowed)
+        const size_t times = row->closed && i == 0 ? run + run_at_end(row) - 1 : run;
+        if (times > allowed)
             return ffd_fail(error, FFD_E_ARGUMENT,
                             "{insert} %c: the knot %s would be there %zu times; degree %d allows %zu %s",
-                            direction, ffd_number_text(value).text, run, row->degree, allowed,
+                            direction, ffd_number_text(value).text, times, row->degree, allowed,
                             is_end ? "at an end of the domain" : "inside it");
     }
     return FFD_OK;

@@ -265,6 +265,8 @@ static void assert_refused(const ffd_lattice *lattice, const ffd_refine_desc *de
     assert_null(refined);
 }
 
+#define RING "[2,0,0],[1,2,0],[-1,2,0],[-2,0,0],[-1,-2,0],[1,-2,0]"
+
 static void wishes_that_cannot_be_met_are_refused(void **state)
 {
     (void)state;
@@ -300,6 +302,15 @@ static void wishes_that_cannot_be_met_are_refused(void **state)
     desc.insert_count[0] = 1;
     assert_refused(lattice, &desc, FFD_E_ARGUMENT,
                    "insert u: the knot 0 would be there 5 times; degree 3 allows 4 at an end of the domain");
+    ffd_lattice_destroy(&lattice);
+    /* The ends of a period are one knot: it is there 3 times already, at 0 and at 4. */
+    lattice =
+        make("\"size\":[6,2,2],\"degree\":[3,1,1],"
+             "\"knots\":[{\"closed\":[0,0,1,2,3,4,4]},\"clamped\",\"clamped\"],\"rest\":{\"points\":[" RING
+             "," RING "," RING "," RING "]}",
+             "");
+    assert_refused(lattice, &desc, FFD_E_ARGUMENT,
+                   "insert u: the knot 0 would be there 4 times; degree 3 allows 3 inside it");
     ffd_lattice_destroy(&lattice);
     lattice = make("\"size\":[4,4,4],\"rest\":{\"box\":\"mesh\"}", "{\"at\":[1,1,1],\"by\":[1,0,0]}");
     desc.insert[0] = often;
