@@ -166,7 +166,7 @@ static ffd_status insert_knots(const knot_row *from, const refine_wish *wish, ch
                             "{insert} %c: the knot %s is outside of the domain, %s to %s", direction,
                             ffd_number_text(value).text, ffd_number_text(first).text,
                             ffd_number_text(last).text);
-        to->t[count + i] = value;
+        to->t[count + i] = value + 0.0; /* 0 has one sign: which of two came first would depend on qsort */
     }
     qsort(to->t, count + wish->insert_count, sizeof *to->t, compare_numbers);
     return check_runs(to, direction, error);
@@ -193,7 +193,8 @@ static ffd_status first_row(const knot_vector *knots, knot_row *row, ffd_error *
 {
     const bool closed = ffd_knots_closed(knots);
     TRY(make_row(knots->degree, knots->points, closed, row, error));
-    memcpy(row->t, knots->t + (closed ? knots->degree : 0), knot_count(row) * sizeof *row->t);
+    for (size_t i = 0; i < knot_count(row); i++)
+        row->t[i] = knots->t[i + (closed ? (size_t)knots->degree : 0)] + 0.0;
     return FFD_OK;
 }
 

@@ -255,6 +255,27 @@ static void boxes_and_presets_stay(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
+/* Else it would depend on the system's qsort which of 0 and -0 comes first. */
+static void zeros_among_knots_have_one_sign(void **state)
+{
+    (void)state;
+    static const double zeros[] = {-0.0, 0.0};
+    ffd_lattice *lattice =
+        make("\"size\":[5,2,2],\"degree\":[2,1,1],\"knots\":[[-1,-1,-1,-0.0,0.5,1,1,1],"
+             "\"clamped\",\"clamped\"],\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[3,1,1]}}",
+             "");
+    for (int i = 0; i < 2; i++) {
+        ffd_refine_desc desc;
+        ffd_refine_desc_init(&desc, sizeof desc);
+        desc.insert[0] = &zeros[i];
+        desc.insert_count[0] = 1;
+        ffd_lattice *refined = refine(lattice, &desc);
+        assert_text_has(refined, "[-1, -1, -1, 0, 0, 0.5, 1, 1, 1]");
+        ffd_lattice_destroy(&refined);
+    }
+    ffd_lattice_destroy(&lattice);
+}
+
 static void assert_refused(const ffd_lattice *lattice, const ffd_refine_desc *desc, ffd_status expected,
                            const char *why)
 {
@@ -325,6 +346,7 @@ int main(void)
         cmocka_unit_test(a_refined_lattice_is_the_same_map),
         cmocka_unit_test(control_points_without_a_new_knot_keep_their_bits),
         cmocka_unit_test(boxes_and_presets_stay),
+        cmocka_unit_test(zeros_among_knots_have_one_sign),
         cmocka_unit_test(wishes_that_cannot_be_met_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
