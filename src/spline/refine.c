@@ -204,12 +204,24 @@ static bool is_clamped(const knot_row *row)
     return row->closed || (row->t[0] >= row->t[d] && row->t[n + d] <= row->t[n]);
 }
 
-static ffd_status elevate(const refine_wish *wish, refine_plan *plan, ffd_error *error)
+static ffd_status check_limit(size_t points, char direction, size_t most, ffd_error *error)
+{
+    return points <= most
+               ? FFD_OK
+               : ffd_fail(error, FFD_E_LIMIT, "{size}: %zu control points along %c are more than %zu", points,
+                          direction, most);
+}
+
+static ffd_status elevate(const refine_wish *wish, char direction, size_t most, refine_plan *plan,
+                          ffd_error *error)
 {
     if (!is_clamped(&plan->rows[plan->count - 1])) {
         plan->count++;
         TRY(clamp_row(&plan->rows[plan->count - 2], &plan->rows[plan->count - 1], error));
     }
+    const knot_row *const row = &plan->rows[plan->count - 1];
+    TRY(check_limit(row->points + count_spans(row) * (size_t)(wish->degree - row->degree), direction, most,
+                    error));
     while (plan->rows[plan->count - 1].degree < wish->degree) {
         plan->count++;
         TRY(elevate_row(&plan->rows[plan->count - 2], &plan->rows[plan->count - 1], error));
@@ -220,10 +232,9 @@ static ffd_status elevate(const refine_wish *wish, refine_plan *plan, ffd_error 
 static ffd_status check_wish(const knot_row *last, const refine_wish *wish, char direction, size_t most,
                              ffd_error *error)
 {
-    const size_t points = last->points + wish->insert_count;
-    if (points > most || wish->points > most)
-        return ffd_fail(error, FFD_E_LIMIT, "{size}: %zu control points along %c are more than %zu",
-                        points > wish->points ? points : wish->points, direction, most);
+    const size_t points =
+        wish->insert_count > SIZE_MAX - last->points ? SIZE_MAX : last->points + wish->insert_count;
+    TRY(check_limit(points > wish->points ? points : wish->points, direction, most, error));
     if (wish->points > 0 && wish->points < points)
         return ffd_fail(
             error, FFD_E_ARGUMENT, "{size} %zu along %c is less than the %zu control points that are there%s",
@@ -242,7 +253,7 @@ ffd_status ffd_refine_plan(const knot_vector *knots, const refine_wish *wish, ch
                          direction, knots->degree, MAX_DEGREE, ffd_degree_hint(wish->degree)));
     TRY_END(first_row(knots, &plan->rows[0], error));
     if (wish->degree > knots->degree)
-        TRY_END(elevate(wish, plan, error));
+        TRY_END(elevate(wish, direction, most, plan, error));
     TRY_END(check_wish(&plan->rows[plan->count - 1], wish, direction, most, error));
     if (wish->insert_count > 0) {
         plan->count++;

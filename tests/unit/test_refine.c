@@ -323,6 +323,10 @@ static void wishes_that_cannot_be_met_are_refused(void **state)
     desc.insert_count[0] = 1;
     assert_refused(lattice, &desc, FFD_E_ARGUMENT,
                    "insert u: the knot 0 would be there 5 times; degree 3 allows 4 at an end of the domain");
+    desc.insert_count[0] = SIZE_MAX; /* nobody has so many */
+    assert_refused(lattice, &desc, FFD_E_LIMIT,
+                   "size: 18446744073709551615 control points along u are more than 67108864");
+    desc.insert_count[0] = 1;
     ffd_lattice_destroy(&lattice);
     /* The ends of a period are one knot: it is there 3 times already, at 0 and at 4. */
     lattice =
