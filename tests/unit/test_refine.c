@@ -255,6 +255,39 @@ static void boxes_and_presets_stay(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
+/* The mesh of a box that is not laid yet is found beside the file that names it. */
+static void boxes_round_meshes_keep_these(void **state)
+{
+    (void)state;
+    static const char text[] = "{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[4,4,4],"
+                               "\"rest\":{\"box\":{\"meshes\":[\"a.obj\",\"b.obj\"]},\"margin\":0.25}}";
+    const char *const path = "refine-meshes.json";
+    FILE *const file = fopen(path, "w");
+    ffd_lattice *lattice;
+    ffd_refine_desc desc;
+    char *before, *after;
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0 && fclose(file) == 0);
+    assert_int_equal(ffd_lattice_load(path, &lattice, NULL), FFD_OK);
+    ffd_refine_desc_init(&desc, sizeof desc);
+    desc.size[2] = 9;
+    ffd_lattice *refined = refine(lattice, &desc);
+    assert_text_has(refined, "\"a.obj\"");
+    assert_text_has(refined, "\"b.obj\"");
+    assert_text_has(refined, "\"margin\": 0.25");
+    assert_int_equal(ffd_lattice_get_mesh_count(refined), 2);
+    for (size_t i = 0; i < 2; i++) {
+        assert_int_equal(ffd_lattice_get_mesh(lattice, i, &before, NULL), FFD_OK);
+        assert_int_equal(ffd_lattice_get_mesh(refined, i, &after, NULL), FFD_OK);
+        assert_string_equal(before, after);
+        ffd_free(before);
+        ffd_free(after);
+    }
+    ffd_lattice_destroy(&refined);
+    ffd_lattice_destroy(&lattice);
+    remove(path);
+}
+
 /* Else it would depend on the system's qsort which of 0 and -0 comes first. */
 static void zeros_among_knots_have_one_sign(void **state)
 {
@@ -350,6 +383,7 @@ int main(void)
         cmocka_unit_test(a_refined_lattice_is_the_same_map),
         cmocka_unit_test(control_points_without_a_new_knot_keep_their_bits),
         cmocka_unit_test(boxes_and_presets_stay),
+        cmocka_unit_test(boxes_round_meshes_keep_these),
         cmocka_unit_test(zeros_among_knots_have_one_sign),
         cmocka_unit_test(wishes_that_cannot_be_met_are_refused),
     };
