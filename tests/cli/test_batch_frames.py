@@ -272,6 +272,24 @@ def resume_draws_what_has_another_frame(run):
     view(run, "--resume", done=2)
 
 
+@case
+def a_picture_without_a_known_frame_is_measured_again(run):
+    """A pattern's jobs have no common frame: the journal does not tell how far their pictures reach."""
+    start(run, [])
+    run.write("far.json", lattice(moves=[{"by": [4, 0, 0]}]))
+    run.write("near.json", lattice(moves=[{"by": [0.5, 0, 0]}]))
+    run.write("two.csv", "out,lattice\na.obj,far.json\nb.obj,near.json\n")
+
+    def draw(*jobs, out="o"):
+        run.ffd("batch", "--in", "a.obj", *jobs, "--out-dir", out, "--view", "v" + out, "--journal", out + ".journal", *SIZE,
+                err=lambda said: None)
+    draw("-l", "far.json")
+    draw("--csv", "two.csv", "--resume")
+    draw("--csv", "two.csv", out="p")
+    for name in ("a", "b"):
+        equal(run.read(f"vo/{name}.obj.png") == run.read(f"vp/{name}.obj.png"), True, f"the picture of {name}")
+
+
 def streamed(run, *arguments):
     """A batch whose manifest comes bit by bit: the last job has not ended before it is closed."""
     process = subprocess.Popen([FFD, "batch", "-", "--view", "v", *SIZE, *arguments], cwd=run.folder, stdin=subprocess.PIPE,
