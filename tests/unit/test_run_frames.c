@@ -15,6 +15,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../support/repetitions.h"
+
 static pool_task task_of(uint64_t index, double reach, double away, ffd_up up)
 {
     pool_task task = {.index = index, .job = {.line = index + 1, .look = {.up = up}}};
@@ -78,6 +80,48 @@ static void other_options_are_those_of_fewer_jobs(void **state)
         }
         assert_int_equal(frames.left, 2);
         ffd_frames_free(&frames);
+    }
+}
+
+/* Jobs that each have a camera of their own: a look at all groups for each would take minutes. */
+static void very_many_looks_of_one_mesh_are_told_apart_soon(void **state)
+{
+    (void)state;
+    const uint64_t count = (uint64_t)repetitions(100000);
+    run_frames frames = {0};
+    ffd_error error;
+    for (int pass = 0; pass < 2; pass++)
+        for (uint64_t i = 0; i < count; i++) {
+            pool_task task = task_of(i, (double)i + 1, 0, FFD_UP_Y);
+            task.job.look.camera[0] = (double)(i < 3 ? 1 : i);
+            if (pass == 0)
+                assert_int_equal(ffd_frames_add(&frames, &task, &mesh, &error), FFD_OK);
+            else
+                ffd_frames_choose(&frames, &task);
+            assert_true(pass == 0 || task.order.frame.displacement == (double)(i < 3 ? 3 : i + 1));
+        }
+    assert_int_equal(frames.left, count - 3);
+    ffd_frames_free(&frames);
+}
+
+/* The batch goes on to the ends of running jobs. */
+static void without_memory_jobs_have_no_frame(void **state)
+{
+    (void)state;
+    ffd_error error;
+    for (long successes = 0;; successes++) {
+        run_frames frames = {0};
+        pool_task task = task_of(0, 1, 0, FFD_UP_Y);
+        ffd_alloc_fail_after(successes);
+        const ffd_status first = ffd_frames_add(&frames, &task, &mesh, &error);
+        ffd_alloc_fail_after(-1);
+        assert_true(first == FFD_OK || first == FFD_E_MEMORY);
+        assert_int_equal(ffd_frames_add(&frames, &task, &mesh, &error), FFD_OK);
+        ffd_frames_choose(&frames, &task);
+        assert_true(task.order.frame.displacement == 1 && !task.own_frame);
+        ffd_frames_free(&frames);
+        if (!first)
+            return;
     }
 }
 
@@ -257,6 +301,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(frames_enclose_what_is_near),
                                        cmocka_unit_test(other_options_are_those_of_fewer_jobs),
+                                       cmocka_unit_test(very_many_looks_of_one_mesh_are_told_apart_soon),
+                                       cmocka_unit_test(without_memory_jobs_have_no_frame),
                                        cmocka_unit_test(looks_differ_in_each_option),
                                        cmocka_unit_test(jobs_come_back_as_they_were),
                                        cmocka_unit_test(records_come_back_in_their_order)};
