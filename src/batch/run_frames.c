@@ -29,7 +29,7 @@ typedef struct group_key {
 
 static group_key key_of(const pool_task *task)
 {
-    return (group_key){ffd_task_look_hash(&task->job.look), task->frame_mesh};
+    return (group_key){ffd_task_picture_hash(&task->job.look), task->frame_mesh};
 }
 
 /* Finds the number of a key, and makes room for its entry in a list, which has one for each key. *is_new: the
