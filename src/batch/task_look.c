@@ -1,5 +1,5 @@
 #include "batch/task_look.h"
-#include "base/vector/vec.h"
+#include "base/arithmetic.h"
 #include "job/view/view.h"
 #include "view/view_picture.h"
 #include <string.h>
@@ -42,7 +42,9 @@ hash128 ffd_task_look_hash(const ffd_view_desc *desc)
 hash128 ffd_task_picture_hash(const ffd_view_desc *desc)
 {
     ffd_view_desc look = *desc;
-    const double greatest = vec_greatest(look.camera);
+    double greatest = 0;
+    for (int a = 0; a < 3; a++)
+        greatest = larger_of(greatest, fabs(look.camera[a]));
     for (int a = 0; a < 3 && greatest > 0; a++)
         look.camera[a] /= greatest;
     look.width = look.width ? look.width : VIEW_PICTURE_WIDTH;
