@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "io/gltf/read/gltf_schema.h"
 #include <math.h>
+#include <string.h>
 
 static uint32_t member_or(const gltf_document *d, uint32_t object, const char *key)
 {
@@ -69,7 +70,8 @@ static ffd_status note_accessor(gltf_document *d, size_t i, ffd_error *error)
     return FFD_OK;
 }
 
-static ffd_status note_positions(gltf_document *d, const gltf_primitive *primitive, ffd_error *error)
+static ffd_status note_positions(gltf_document *d, const gltf_primitive *primitive, bool may_be_whole,
+                                 ffd_error *error)
 {
     const int accessor = primitive->accessor[GLTF_POSITION];
     if (accessor < 0)
@@ -78,8 +80,7 @@ static ffd_status note_positions(gltf_document *d, const gltf_primitive *primiti
     if (!has(d, value, "min") || !has(d, value, "max"))
         TRY(ffd_gltf_flaw(d, value, error, "an accessor of positions has a min and a max: %s is missing",
                           has(d, value, "min") ? "max" : "min"));
-    if (d->model.accessors[accessor].component != GLTF_FLOAT &&
-        !ffd_gltf_uses(&d->tree, "KHR_mesh_quantization"))
+    if (d->model.accessors[accessor].component != GLTF_FLOAT && !may_be_whole)
         TRY(ffd_gltf_flaw(d, value, error,
                           "positions of component type %d need KHR_mesh_quantization in extensionsUsed",
                           d->model.accessors[accessor].component));
@@ -97,12 +98,13 @@ static ffd_status note_indices(gltf_document *d, const gltf_primitive *primitive
                          "in this");
 }
 
-static ffd_status note_primitive(gltf_document *d, const gltf_primitive *primitive, ffd_error *error)
+static ffd_status note_primitive(gltf_document *d, const gltf_primitive *primitive, bool is_quantized,
+                                 ffd_error *error)
 {
     double material = 0;
     const uint32_t index = ffd_json_tree_member(&d->tree, primitive->value, "material");
     const uint32_t materials = ffd_json_tree_member(&d->tree, 0, "materials");
-    TRY(note_positions(d, primitive, error));
+    TRY(note_positions(d, primitive, is_quantized, error));
     TRY(note_indices(d, primitive, error));
     if (ffd_json_tree_number(&d->tree, index, &material) &&
         !(material >= 0 && material < (double)ffd_json_tree_count(&d->tree, materials)))
@@ -113,21 +115,26 @@ static ffd_status note_primitive(gltf_document *d, const gltf_primitive *primiti
 static ffd_status note_extensions(gltf_document *d, ffd_error *error)
 {
     const uint32_t required = ffd_json_tree_member(&d->tree, 0, "extensionsRequired");
-    for (uint32_t v = ffd_json_tree_first(&d->tree, required); v != JSON_NONE;
+    intern_table used = {0};
+    ffd_status status = FFD_OK;
+    if (required == JSON_NONE)
+        return FFD_OK;
+    if (!ffd_gltf_list_used(&d->tree, &used))
+        TRY_END(ffd_fail_memory(error));
+    for (uint32_t v = ffd_json_tree_first(&d->tree, required); v != JSON_NONE && !status;
          v = ffd_json_tree_after(&d->tree, v)) {
         char *const name = ffd_json_tree_string(&d->tree, v, NULL);
+        uint32_t index;
         if (!name)
-            return ffd_fail_memory(error);
-        const ffd_status status = ffd_gltf_uses(&d->tree, name)
-                                      ? FFD_OK
-                                      : ffd_gltf_flaw(d, v, error,
-                                                      "%s is in extensionsRequired, but not in "
-                                                      "extensionsUsed",
-                                                      name);
+            status = ffd_fail_memory(error);
+        else if (!ffd_intern_find(&used, name, strlen(name), &index))
+            status =
+                ffd_gltf_flaw(d, v, error, "%s is in extensionsRequired, but not in extensionsUsed", name);
         ffd_free(name);
-        TRY(status);
     }
-    return FFD_OK;
+end:
+    ffd_intern_free(&used);
+    return status;
 }
 
 ffd_status ffd_gltf_note_errors(gltf_document *d, ffd_error *error)
@@ -136,8 +143,9 @@ ffd_status ffd_gltf_note_errors(gltf_document *d, ffd_error *error)
         TRY(note_node(d, n, error));
     for (size_t i = 0; i < d->model.accessor_count; i++)
         TRY(note_accessor(d, i, error));
+    const bool is_quantized = ffd_gltf_uses(&d->tree, "KHR_mesh_quantization");
     for (size_t i = 0; i < d->model.primitive_count; i++)
-        TRY(note_primitive(d, &d->model.primitives[i], error));
+        TRY(note_primitive(d, &d->model.primitives[i], is_quantized, error));
     for (size_t m = 0; m < d->model.mesh_count; m++)
         if (d->model.meshes[m].primitive_count == 0)
             TRY(ffd_gltf_flaw(d, d->mesh_values.values[m], error,

@@ -314,26 +314,27 @@ static ffd_status check_accessor(const gltf_document *d, size_t i, ffd_error *er
     return check_bound(d, value, numbers, "max", error);
 }
 
-/* Notes the extensions of an object that extensionsUsed does not list. */
-static ffd_status check_undeclared(const gltf_document *d, uint32_t extensions, ffd_error *error)
+/* Refuses the extensions of an object that extensionsUsed does not list. */
+static ffd_status check_undeclared(const gltf_document *d, const intern_table *used, uint32_t extensions,
+                                   ffd_error *error)
 {
-    for (uint32_t v = ffd_json_tree_first(&d->tree, extensions); v != JSON_NONE;
+    ffd_status status = FFD_OK;
+    for (uint32_t v = ffd_json_tree_first(&d->tree, extensions); v != JSON_NONE && !status;
          v = ffd_json_tree_after(&d->tree, v)) {
         char *const name = ffd_json_tree_key(&d->tree, v);
+        uint32_t index;
         if (!name)
             return ffd_fail_memory(error);
-        const ffd_status status = ffd_gltf_uses(&d->tree, name)
-                                      ? FFD_OK
-                                      : refuse(d, v, error, "%s is used, but not in extensionsUsed", name);
+        if (!ffd_intern_find(used, name, strlen(name), &index))
+            status = refuse(d, v, error, "%s is used, but not in extensionsUsed", name);
         ffd_free(name);
-        TRY(status);
     }
-    return FFD_OK;
+    return status;
 }
 
 /* Looks at every value, except those in extras, which may be anything, for extensions and, outside of them,
    for arrays of nothing. */
-static ffd_status check_values(const gltf_document *d, ffd_error *error)
+static ffd_status check_values(const gltf_document *d, const intern_table *used, ffd_error *error)
 {
     const json_tree *const tree = &d->tree;
     uint32_t end = 0; /* of the extensions that the value is in */
@@ -344,7 +345,7 @@ static ffd_status check_values(const gltf_document *d, ffd_error *error)
         if (ffd_json_tree_key_is(tree, v, "extras")) {
             v = value->next - 1;
         } else if (value->kind == JSON_OBJECT && ffd_json_tree_key_is(tree, v, "extensions")) {
-            TRY(check_undeclared(d, v, error));
+            TRY(check_undeclared(d, used, v, error));
             end = value->next > end ? value->next : end;
         } else if (value->kind == JSON_ARRAY && value->count == 0 && v >= end) {
             TRY(refuse(d, v, error, "an array has at least one element, this one has none"));
@@ -355,10 +356,16 @@ static ffd_status check_values(const gltf_document *d, ffd_error *error)
 
 ffd_status ffd_gltf_refuse_formal(const gltf_document *d, ffd_error *error)
 {
+    intern_table used = {0};
+    ffd_status status;
     if (!d->base.flaws.strict)
         return FFD_OK;
     for (size_t i = 0; i < d->model.accessor_count; i++)
         TRY(check_accessor(d, i, error));
     TRY(check_attributes(d, error));
-    return check_values(d, error);
+    TRY_END(ffd_gltf_list_used(&d->tree, &used) ? FFD_OK : ffd_fail_memory(error));
+    TRY_END(check_values(d, &used, error));
+end:
+    ffd_intern_free(&used);
+    return status;
 }

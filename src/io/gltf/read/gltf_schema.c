@@ -178,6 +178,20 @@ bool ffd_gltf_uses(const json_tree *tree, const char *extension)
     return false;
 }
 
+bool ffd_gltf_list_used(const json_tree *tree, intern_table *names)
+{
+    const uint32_t used = ffd_json_tree_member(tree, 0, "extensionsUsed");
+    bool whole = true;
+    for (uint32_t v = ffd_json_tree_first(tree, used); v != JSON_NONE && whole;
+         v = ffd_json_tree_after(tree, v)) {
+        char *const name = ffd_json_tree_string(tree, v, NULL);
+        uint32_t index;
+        whole = name && ffd_intern(names, name, strlen(name), &index);
+        ffd_free(name);
+    }
+    return whole;
+}
+
 /* The component type added by KHR_accessor_float64. */
 #define COMPONENT_DOUBLE 5130
 

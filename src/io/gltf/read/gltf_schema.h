@@ -4,6 +4,7 @@
 #ifndef FFD_IO_GLTF_READ_GLTF_SCHEMA_H
 #define FFD_IO_GLTF_READ_GLTF_SCHEMA_H
 
+#include "base/memory/intern.h"
 #include "json/json_edit.h"
 #include "json/json_tree.h"
 
@@ -12,7 +13,9 @@
 ffd_status ffd_gltf_check_schema(const json_tree *tree, const char *name, json_edits *integers,
                                  ffd_error *error);
 
-/* Whether the file lists an extension as used. */
+/* Whether the file lists an extension as used. Takes time in proportion to the list. */
 bool ffd_gltf_uses(const json_tree *tree, const char *extension);
+/* Adds the names in that list to a table, for many questions. Returns false if memory runs out. */
+bool ffd_gltf_list_used(const json_tree *tree, intern_table *names);
 
 #endif
