@@ -549,6 +549,17 @@ def wild3_19_colours_of_faces_are_kept(run):
             for out in ("m.obj", "m.glb", "m.stl"):
                 one_line(run.ffd("deform", name, out, "-l", "l.json", "--force", err=anything), "cannot hold", "face colours")
             one_line(run.ffd("view", name, "-o", "v.png", "--force", err=anything), "the colours of faces are not shown")
+    # A 1 that a program has written without its point is white, before and after the fractions; among bytes it is not.
+    for faces, back in (("3 0 1 2 1 1 1\n3 0 2 3 0.5 0.25 1\n3 1 2 3 0 1 0\n", ["1.0 1.0 1.0", "0.5 0.25 1.0", "0.0 1.0 0.0"]),
+                        ("3 0 1 2 1 0 0 1\n2 0 1 1 1 1\n3 0 2 3 0.5 0 0 0.5\n", ["1.0 0.0 0.0 1.0", "0.5 0.0 0.0 0.5"]),
+                        ("3 0 1 2 1 1 1\n3 0 2 3\n3 1 2 3 1e-1 0 0\n", ["1.0 1.0 1.0", "0.6666666865348816 0.6666666865348816 0.6666666865348816",
+                                                                    "0.10000000149011612 0.0 0.0"]),
+                        ("3 0 1 2 51 51 51\n3 0 2 3 1 0 0\n3 1 2 3 0.5 0 0\n", ["0.20000000298023224 0.20000000298023224 0.20000000298023224",
+                                                                             "0.003921568859368563 0.0 0.0", "0.5 0.0 0.0"])):
+        run.write("m.off", OFF + faces)
+        run.ffd("deform", "m.off", "m.ply", "-l", "l.json", "--force", err=anything)
+        run.ffd("deform", "m.ply", "n.off", "-l", "l.json", "--force", err=anything)
+        equal([line.split(" ", 4)[4] for line in run.text("n.off").splitlines()[6:] if line.startswith("3")], back)
     # Other spellings, and what is no colour.
     run.write("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
                        "property uchar diffuse_blue\nproperty list uchar int vertex_indices\nproperty uchar diffuse_red\n"
