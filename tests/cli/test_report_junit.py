@@ -101,6 +101,12 @@ def what_is_refused(run):
     equal(suites(run, "x.xml"), [("r.json", [0, 0, 0, 0], [])])
     run.ffd("report", "junit", "r.json", "-o", "x.xml", code=IO)
     run.ffd("report", "junit", "r.json", "-o", "x.xml", "--force")
+    # What it reads is not lost, by whatever name.
+    before = run.read("r.json")
+    os.symlink("r.json", run.path("link.xml"))
+    for output in ("r.json", "./r.json", "link.xml"):
+        run.ffd("report", "junit", "r.json", "-o", output, "--force", code=IO, err=f"{output}: is an input of this command")
+        equal(run.read("r.json"), before)
 
 
 main()
