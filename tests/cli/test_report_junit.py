@@ -83,6 +83,7 @@ def comparisons_of_folders(run):
         ("same.obj", "B", None, None), ("only.obj", "B", "failure", "only in a")])])
     run.ffd("report", "junit", "-", "-o", "y.xml", stdin=comparison.out)
     equal(suites(run, "y.xml")[0][0], "standard input")
+    run.ffd("report", "junit", "/dev/null", "-o", "z.xml", code=INVALID, err="/dev/null:1: not a report: '{' is expected, found the end")
 
 
 @case

@@ -303,7 +303,7 @@ static bool is_comparison(const file_input *file)
 
 static ffd_status add_file(junit_suite *all, const char *path, ffd_error *error)
 {
-    const char *const name = ffd_file_is_stream(path) ? "standard input" : path;
+    const char *const name = ffd_file_display_name(path);
     file_input file;
     junit_suite suite = {0};
     TRY(ffd_file_map(path, &file, error));
