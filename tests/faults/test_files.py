@@ -688,6 +688,13 @@ def artist_14_a_glb_of_a_gltf_holds_its_images(run):
     run.write("in/tex/a.png", PNG + bytes(2 << 20))
     run.ffd("deform", "in/m.gltf", "out/l.glb", "-l", "l.json", code=LIMIT, err=re.compile("memory"))
     check(not run.exists("out/l.glb"), "nothing is written")
+    # Images of their own are files of the job: they need no --memory, however large they are.
+    run.write("in/m.gltf", {**asset, "images": [{"uri": f"tex/{i}.png"} for i in range(12)]})
+    for i in range(12):
+        run.write(f"in/tex/{i}.png", PNG + bytes([i]) * (3 << 20))
+    run.ffd("deform", "in/m.gltf", "out/l.glb", "-l", "l.json")
+    text = json.dumps(glb_split(run.read("out/l.glb"))[0])
+    equal([image_of(text, i)[1] for i in (0, 11)], [PNG + bytes([i]) * (3 << 20) for i in (0, 11)])
 
 
 @case
