@@ -473,10 +473,10 @@ def artist_10_hints_name_what_is_meant(run):
     axes = 'unknown word "{}"; known ones are "x", "y", "z"'
     nearest = 'unknown word "{}"; the nearest known one is "{}"'
     for word, why in (("Y", nearest.format("Y", "y")), ("Z", nearest.format("Z", "z")), ("-y", sign.format("-y", "0, -1, 0")),
-                      ("-Z", sign.format("-Z", "0, 0, -1")), ("+x", nearest.format("+x", "x")), ("up", axes.format("up")), ("w", axes.format("w")),
+                      ("-Z", sign.format("-Z", "0, 0, -1")), ("x-", sign.format("x-", "-1, 0, 0")), ("Y-", sign.format("Y-", "0, -1, 0")), ("+x", nearest.format("+x", "x")), ("up", axes.format("up")), ("w", axes.format("w")),
                       ("XY", axes.format("XY"))):
         for move, at in (({"twist": {"axis": word, "degrees": 90}}, "twist/axis"),
-                         ({"bend": {"axis": "x" if word[-1] in "Yy" else "y", "toward": word, "degrees": 9}}, "bend/toward")):
+                         ({"bend": {"axis": "x" if "y" in word.lower() else "y", "toward": word, "degrees": 9}}, "bend/toward")):
             run.write("l.json", lattice(moves=[move]))
             run.ffd("check", "m.obj", "-l", "l.json", code=INVALID, err=f"l.json:1: /moves/0/{at}: {why}")
     for word in ("Top", "al", "ALL", "lst", "-1"):
@@ -504,8 +504,14 @@ def artist_10_hints_name_what_is_meant(run):
         run.ffd("check", "m.obj", "-l", "l.json", *words, code=USAGE, err=why)
     run.ffd("view", "m.obj", "-o", "v.png", "--camera", "Front", code=USAGE,
             err='--camera: "Front" is not front, back, left, right, top, bottom, iso or a direction like 1,0.5,2 (nearest: front)')
+    for side in ("-front", "top-"):
+        run.ffd("view", "m.obj", "-o", "v.png", "--camera", side, code=USAGE,
+                err=f'--camera: "{side}" is not front, back, left, right, top, bottom, iso or a direction like 1,0.5,2')
+    for up, why in (("-y", ""), ("Z-", ""), ("Z", " (nearest: z)"), ("+x", " (nearest: x)")):
+        run.ffd("view", "m.obj", "-o", "v.png", "--up", up, code=USAGE, err=f'--up: "{up}" is not one of y, z, x{why}')
     for words, why in ((["--axis", "Y"], "x, y, z or a direction like 0,1,1 (nearest: y)"), (["--axis", "up"], "x, y, z or a direction like 0,1,1"),
                        (["--axis", "-Y"], "x, y, z or a direction like 0,1,1 (that direction is 0,-1,0)"),
+                       (["--axis", "x-"], "x, y, z or a direction like 0,1,1 (that direction is -1,0,0)"),
                        (["--knots", "open,Closed,open"], "three of clamped, open, uniform, closed (nearest: closed)")):
         run.ffd("lattice", "new", "m.obj", "-o", "n.json", *words, code=USAGE, err=f'{words[0]}: "{words[1]}" is not {why}')
 
