@@ -13,6 +13,8 @@
 
 typedef struct linear_tables {
     uint16_t light[256];
+    double shares[256]; /* light as a part of 1 */
+    double alphas[256]; /* bytes as parts of 1 */
     uint8_t bytes[1 << LINEAR_BITS];
 } linear_tables;
 

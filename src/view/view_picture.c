@@ -461,7 +461,8 @@ static ffd_status prepare(picture_work *w)
     const uint64_t drawing =
         ffd_picture_bytes(pixel_count(options), scene->vertex_count, scene->triangle_count);
     TRY(take_memory(w));
-    TRY(ffd_view_surface_make(scene, has_texture, &w->budget, drawing, options->log, &w->surface, w->error));
+    TRY(ffd_view_surface_make(scene, has_texture, &w->budget, drawing, options->threads, options->log,
+                              &w->surface, w->error));
     w->twins = ffd_alloc(scene->vertex_count, sizeof *w->twins);
     w->white = ffd_alloc_zero(scene->triangle_count, sizeof *w->white);
     if (!w->twins || !w->white)

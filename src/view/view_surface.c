@@ -1,7 +1,5 @@
 #include "view/view_surface.h"
 #include "base/memory/memory.h"
-#include "base/text/words.h"
-#include <stdio.h>
 #include <string.h>
 
 /* The linear base colour of a material whose texture is lost. */
@@ -11,102 +9,14 @@ static const double grey[3] = {0.3, 0.312, 0.335};
 #define TRIANGLE_BYTES (4 * sizeof(uint32_t))
 #define TEXCOORD_BYTES (6 * sizeof(float))
 
-/* Makes the luminance of an image its alpha, unless it has an alpha of its own. */
-static void make_opacity(image *of)
-{
-    const size_t count = (size_t)of->width * of->height;
-    bool is_opaque = true;
-    for (size_t i = 0; i < count && is_opaque; i++)
-        is_opaque = of->pixels[4 * i + 3] == 255;
-    /* ITU-R BT.709, in 256ths */
-    for (size_t i = 0; i < count && is_opaque; i++) {
-        uint8_t *const pixel = of->pixels + 4 * i;
-        pixel[3] = (uint8_t)((54u * pixel[0] + 183u * pixel[1] + 19u * pixel[2]) / 256);
-    }
-}
-
-/* All textures are in memory at the same time. */
-static ffd_status decode(const mesh_image *from, bool is_opacity, memory_budget *budget, texture *to,
-                         ffd_error *error)
-{
-    image decoded = {0};
-    ffd_status status;
-    TRY_END(ffd_image_decode(from->bytes, from->size, budget, &decoded, error));
-    if (is_opacity)
-        make_opacity(&decoded);
-    TRY_END(ffd_budget_take(budget, ffd_texture_size(decoded.width, decoded.height), 1, error));
-    TRY_END(ffd_texture_make(&decoded, to, error));
-end:
-    if (status)
-        ffd_free(decoded.pixels);
-    return status;
-}
-
-/* How materials use an image: it may be two textures. */
-enum { USED_AS_COLOR = 1, USED_AS_OPACITY = 2 };
-
-static void note_use(const mesh_materials *from, const mesh_texture *of, uint8_t use, uint8_t *uses)
-{
-    if (of->image < from->image_count)
-        uses[of->image] |= use;
-}
-
-static void find_uses(const mesh_materials *from, uint8_t *uses)
-{
-    for (size_t i = 0; i < from->count; i++) {
-        note_use(from, &from->list[i].base, USED_AS_COLOR, uses);
-        note_use(from, &from->list[i].glow, USED_AS_COLOR, uses);
-        note_use(from, &from->list[i].opacity, USED_AS_OPACITY, uses);
-    }
-}
-
-/* An image that cannot be decoded is logged, and its material is drawn grey; running out of memory is an
-   error. */
-static ffd_status decode_all(const mesh_materials *from, memory_budget *budget, const mesh_log *log,
-                             view_surface *s, ffd_error *error)
-{
-    char first[300] = "";
-    size_t lost = 0;
-    s->texture_count = from->image_count;
-    s->textures = ffd_alloc_zero(from->image_count, sizeof *s->textures);
-    s->opacities = ffd_alloc_zero(from->image_count, sizeof *s->opacities);
-    uint8_t *const uses = ffd_alloc_zero(from->image_count, 1);
-    ffd_status status;
-    TRY_END(s->textures && s->opacities && uses ? FFD_OK : ffd_fail_memory(error));
-    find_uses(from, uses);
-    for (size_t i = 0; i < 2 * from->image_count; i++) {
-        const size_t index = i / 2;
-        const bool is_opacity = i % 2;
-        ffd_error own;
-        if (!(uses[index] & (is_opacity ? USED_AS_OPACITY : USED_AS_COLOR)))
-            continue;
-        const ffd_status decoded = decode(&from->images[index], is_opacity, budget,
-                                          is_opacity ? &s->opacities[index] : &s->textures[index], &own);
-        if (decoded == FFD_E_MEMORY)
-            TRY_END(ffd_fail_memory(error));
-        if (!decoded)
-            continue;
-        uses[index] = 0; /* it is lost for the other use too */
-        if (lost++ == 0)
-            snprintf(first, sizeof first, "%.100s: %.180s", from->images[index].name, own.message);
-    }
-    if (lost)
-        ffd_log_line(log, FFD_LOG_WARNING, "grey in the picture: %zu %s, as %s", lost,
-                     ffd_plural(lost, "image", "images"), first);
-end:
-    ffd_free(uses);
-    return status;
-}
-
 /* Returns the texture of an image; NULL if there is none. *is_lost: there is one that cannot be had. */
-static const texture *find_texture(const view_surface *s, const texture *list, const mesh_texture *of,
-                                   bool *is_lost)
+static const texture *find_texture(const texture *list, size_t count, const mesh_texture *of, bool *is_lost)
 {
-    if (of->image >= s->texture_count)
+    if (of->image >= count)
         *is_lost = of->image == MATERIAL_LOST;
     else
         *is_lost = list[of->image].level_count == 0;
-    return of->image < s->texture_count && !*is_lost ? &list[of->image] : NULL;
+    return of->image < count && !*is_lost ? &list[of->image] : NULL;
 }
 
 static void fill_material(const view_surface *s, const mesh_material *from, picture_material *to)
@@ -120,9 +30,10 @@ static void fill_material(const view_surface *s, const mesh_material *from, pict
                              .is_unlit = from->is_unlit,
                              .is_double_sided = from->is_double_sided};
     memcpy(to->color, from->color, sizeof to->color);
-    to->texture = find_texture(s, s->textures, &from->base, &base_is_lost);
-    to->opacity = find_texture(s, s->opacities, &from->opacity, &opacity_is_lost);
-    to->glow = find_texture(s, s->textures, &from->glow, &glow_is_lost);
+    const view_textures *const t = &s->textures;
+    to->texture = find_texture(t->colors, t->count, &from->base, &base_is_lost);
+    to->opacity = find_texture(t->opacities, t->count, &from->opacity, &opacity_is_lost);
+    to->glow = find_texture(t->colors, t->count, &from->glow, &glow_is_lost);
     if (!glow_is_lost) /* else all of it would be as bright as its brightest place */
         memcpy(to->emission, from->emission, sizeof to->emission);
     if (!base_is_lost)
@@ -178,7 +89,8 @@ static void count_triangles(const view_scene *scene, view_surface *s)
 }
 
 ffd_status ffd_view_surface_make(const view_scene *scene, bool textured, memory_budget *budget,
-                                 uint64_t reserve, const mesh_log *log, view_surface *s, ffd_error *error)
+                                 uint64_t reserve, int threads, const mesh_log *log, view_surface *s,
+                                 ffd_error *error)
 {
     const size_t count = scene->triangle_count;
     const bool has_texcoords = textured && scene->texcoords,
@@ -199,7 +111,7 @@ ffd_status ffd_view_surface_make(const view_scene *scene, bool textured, memory_
     if (textured) {
         memory_budget rest = *budget;
         rest.taken += reserve; /* more than there is: then no texture fits */
-        TRY(decode_all(&scene->materials, &rest, log, s, error));
+        TRY(ffd_view_textures_decode(&scene->materials, &rest, threads, log, &s->textures, error));
         budget->taken = rest.taken - reserve;
     }
     return fill_materials(scene, s, error);
@@ -207,12 +119,7 @@ ffd_status ffd_view_surface_make(const view_scene *scene, bool textured, memory_
 
 void ffd_view_surface_free(view_surface *s)
 {
-    for (size_t i = 0; s->textures && i < s->texture_count; i++)
-        ffd_texture_free(&s->textures[i]);
-    for (size_t i = 0; s->opacities && i < s->texture_count; i++)
-        ffd_texture_free(&s->opacities[i]);
-    ffd_free(s->textures);
-    ffd_free(s->opacities);
+    ffd_view_textures_free(&s->textures);
     ffd_free(s->glow_texcoords);
     ffd_free(s->list);
     ffd_free(s->triangles);

@@ -203,6 +203,26 @@ def models_that_share_a_buffer_are_moved_once_each(run):
 
 
 @case
+def a_job_that_can_never_write_claims_no_file(run):
+    """OUT without a mesh's ending fails by itself: a job that reads a file of that name goes on, in either order, and so does one that writes it."""
+    begin(run)
+    wrong = {"in": "a.obj", "out": "l.json", "lattice": "box.json"}
+    told = r'^m\.jsonl:{}: l\.json: the ending "\.json" is not that of a mesh format'
+    kept = run.read("l.json")
+    for order, arguments in itertools.product((0, 1), MODES):
+        shutil.rmtree(run.path("cache"), ignore_errors=True)
+        if run.exists("fine.obj"):
+            run.remove("fine.obj")
+        jobs = [wrong, job(out="fine.obj")]
+        run.write("m.jsonl", lines_of(jobs[::-1] if order else jobs))
+        batch(run, "m.jsonl", *arguments, done=1, failed=[told.format(1 + order)])
+        check(run.exists("fine.obj"), arguments)
+        equal(run.read("l.json"), kept)
+    run.write("m.jsonl", lines_of([{**wrong, "out": "x.txt"}, job(out="x.txt", options={"output-format": "obj"})]))
+    batch(run, "m.jsonl", done=1, failed=[r'^m\.jsonl:1: x\.txt: the ending "\.txt" is not that of a mesh format'])
+
+
+@case
 def no_buffer_of_another_model_is_written_over(run):
     """The name of an output's buffer is passed over, with a warning; the look at the folder is made whatever else is known."""
     told = "is a file of n.gltf too, and stays: x-1.bin is written in place of it"

@@ -8,7 +8,7 @@ a warning, and the exit code of what is not valid with --strict.
 import json
 import sys
 
-from broken_gltf_cases import CASES, PLAIN
+from broken_gltf_cases import CASES, FORMAL, PLAIN
 from harness import INVALID, OK, case, check, equal, lattice, main
 
 TABLE = sys.argv.pop() if len(sys.argv) > 1 and sys.argv[1].endswith(".tsv") else None
@@ -19,8 +19,10 @@ def start(run):
     run.write("short.bin", b"\0" * 64)
 
 
-def judge_flaws(run, name, output, is_plain):
-    """What is plain is said, and reported, and refused with --strict, in the same words; nothing else is."""
+def judge_flaws(run, name, output, kind):
+    """What is plain is said, and reported, and refused with --strict, in the same words; what is formal only
+    refused; nothing else is either."""
+    is_plain = kind == PLAIN
     words = ("deform", name, output, "-l", "l.json", "--force")
     said = run.ffd(*words, "--report", "r.json", err=lambda lines: None).err
     flaws = json.loads(run.text("r.json"))["jobs"][0].get("flaws", [])
@@ -29,11 +31,13 @@ def judge_flaws(run, name, output, is_plain):
     equal([line for line in said if line in expected], expected, name)
     equal(len(flaws), int(is_plain), f"{name}: flaws {flaws}")
     for strict in (("info", name), words):
-        done = run.ffd(*strict, "--strict", "-q", code=INVALID if is_plain else OK, data=True)
+        done = run.ffd(*strict, "--strict", "-q", code=INVALID if kind in (PLAIN, FORMAL) else OK, data=True)
         if is_plain:
             # Each file is one line of JSON; a GLB file has no lines.
             line = "" if name.endswith(".glb") and "pointer" in flaws[0] else " " if name.endswith(".glb") else "1: "
             equal(done.err, [f"{name}:{line}{said_of[0]}"])
+        elif kind == FORMAL:
+            check(len(done.err) == 1 and done.err[0].startswith(name + ":"), done.err)
 
 
 @case
@@ -48,8 +52,8 @@ def codes_of_the_khronos_validator(run):
             done = run.ffd(*words, code=tuple(range(8)), data=True)
             outcomes.append((done.code, " ".join(done.err)))
         (deformed, why), (described, _) = outcomes
-        is_plain = expected == PLAIN
-        expected = OK if is_plain else expected
+        kind = expected
+        expected = OK if kind in (PLAIN, FORMAL) else expected
         rows.append((code, what, str(deformed), str(described), why))
         if deformed != expected:
             wrong.append(f"{code} ({what}): exit {deformed}, expected {expected}; {why}")
@@ -58,7 +62,7 @@ def codes_of_the_khronos_validator(run):
         if described not in (OK, deformed):
             wrong.append(f"{code} ({what}): exit {described} of info, {deformed} of deform")
         if deformed == OK:
-            judge_flaws(run, name, output, is_plain)
+            judge_flaws(run, name, output, kind)
             run.ffd("compare", name, output, "--tolerance", "2", "-q", code=(0, 1))
         check(run.exists(output) == (deformed == OK), f"{code} ({what}): output {run.names()}")
         run.remove(output)

@@ -37,8 +37,8 @@ def write(run, materials, sets=(CORNERS,), component=5126, drawn=None, **members
     indices = scene.add([[i] for i in (0, 1, 2, 0, 2, 3)], 5121, "SCALAR")
     primitives = [{"attributes": attributes, "indices": indices, **({} if m is None else {"material": m})}
                   for m in (range(len(materials)) if drawn is None else drawn)]
-    scene.asset.update(images=[{"uri": "x.png"}], textures=[{"source": 0}], materials=materials, scene=0,
-                       scenes=[{"nodes": [0]}], nodes=[{"mesh": 0}], meshes=[{"primitives": primitives}])
+    scene.asset.update(extensionsUsed=["KHR_texture_transform"], images=[{"uri": "x.png"}], textures=[{"source": 0}],
+                       materials=materials, scene=0, scenes=[{"nodes": [0]}], nodes=[{"mesh": 0}], meshes=[{"primitives": primitives}])
     run.write("a.glb", scene.glb())
 
 

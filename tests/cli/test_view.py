@@ -847,6 +847,23 @@ def textures_are_drawn_and_broken_ones_are_grey(run):
 
 
 @case
+def textures_are_the_same_for_any_threads(run):
+    """Four images, of which one is broken. Where not all of them fit at once: test_memory.py."""
+    for i, side in enumerate((50, 90, 140, 150)):
+        png = make_png([[(60 * i, 255 - x, 20) for x in range(side)]] * side)
+        run.write(f"{i}.png", png[:100] if i == 1 else png)
+    run.write("m.mtl", "".join(f"newmtl m{i}\nmap_Kd {i}.png\n" for i in range(4)))
+    run.write("t.obj", "mtllib m.mtl\nvt 0 0\nvt 1 0\nvt 1 1\n"
+              + "".join(f"v {i} 0 0\nv {i + 1} 0 0\nv {i} 1 0\nusemtl m{i}\nf -3/1 -2/2 -1/3\n" for i in range(4)))
+    pictures = set()
+    for threads in ("1", "2", "4"):
+        run.ffd("view", "t.obj", "-o", "p.png", "--force", "--size", "200x100", "--threads", threads,
+                err=re.compile(r"t\.obj: grey in the picture: 1 image, as 1\.png: the PNG image is broken"))
+        pictures.add(run.read("p.png"))
+    equal(len(pictures), 1, "pictures of 1, 2 and 4 threads")
+
+
+@case
 def colours_of_vertices_are_drawn(run):
     run.write("a.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 1 1 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3 4\n")
     check(is_red(*picture(run, "a.obj", "--camera", "front", "--size", "100x100")[50][50]), "red")

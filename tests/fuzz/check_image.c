@@ -20,6 +20,8 @@ void check_image(const uint8_t *data, size_t size, const void *magic, size_t mag
     memcpy(bytes, magic, magic_size < size ? magic_size : size);
     image found = {0, 0, NULL};
     ffd_error error = {0};
+    uint32_t width = 0, height = 0;
+    const bool is_measured = ffd_image_measure(bytes, size, &width, &height);
     const ffd_status status = ffd_image_decode(bytes, size, &budget, &found, &error);
     free(bytes);
     if (status) {
@@ -29,6 +31,8 @@ void check_image(const uint8_t *data, size_t size, const void *magic, size_t mag
         PROMISE(!found.pixels, "a failure has pixels");
         return;
     }
+    PROMISE(!is_measured || (width == found.width && height == found.height),
+            "its head says %u x %u, it has %u x %u", width, height, found.width, found.height);
     PROMISE(found.pixels && found.width > 0 && found.height > 0, "an image without pixels");
     PROMISE((uint64_t)found.width * found.height * 4 <= MOST_BYTES, "%u x %u pixels", found.width,
             found.height);

@@ -65,8 +65,8 @@ LAYERS = {
         "mesh", "mesh/morph", "mesh/resource",
     },
     "view": {
-        "base", "base/file", "base/memory", "base/text", "base/vector", "json", "mesh", "mesh/meshopt", "picture",
-        "picture/image",
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "json", "mesh", "mesh/meshopt",
+        "picture", "picture/image",
     },
     "job/report": {"base", "base/file", "base/memory", "base/text", "job/figures", "json"},
     "spline": {"base", "base/memory", "base/text"},

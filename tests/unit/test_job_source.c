@@ -201,7 +201,7 @@ static const char *listed(const job_source_desc *desc)
     return text;
 }
 
-#define JOB(in) "{\"in\": \"" in ".obj\", \"lattice\": \"l\", \"out\": \"o\"}"
+#define JOB(in) "{\"in\": \"" in ".obj\", \"lattice\": \"l\", \"out\": \"o.obj\"}"
 
 static void shards_share_out_the_lines_of_a_manifest(void **state)
 {
@@ -321,23 +321,24 @@ static void a_job_may_take_the_budget_of_its_files(void **state)
     memset(blanks, ' ', sizeof blanks);
     put("3MB", blanks, sizeof blanks);
     put("1MB", blanks, 1000000);
+    put("1MB.obj", blanks, 1000000);
     put("it's=", blanks, 2000000);
-    check_memory(&frame, "{\"in\": \"none\", \"lattice\": \"none\", \"out\": \"b\"}", false, 100);
-    check_memory(&frame, "{\"in\": \"3MB\", \"lattice\": \"none\", \"out\": \"1MB\"}", false, 160);
-    check_memory(&frame, "{\"in\": \"3MB\", \"lattice\": [\"1MB\", \"1MB\", \"it's=\"], \"out\": \"b\"}",
+    check_memory(&frame, "{\"in\": \"none\", \"lattice\": \"none\", \"out\": \"b.obj\"}", false, 100);
+    check_memory(&frame, "{\"in\": \"3MB\", \"lattice\": \"none\", \"out\": \"1MB.obj\"}", false, 160);
+    check_memory(&frame, "{\"in\": \"3MB\", \"lattice\": [\"1MB\", \"1MB\", \"it's=\"], \"out\": \"b.obj\"}",
                  false, 240);
     check_memory(&frame,
                  "{\"in\": \"1MB\", \"morph\": {\"a\": \"3MB\", \"it's='\": \"it's=\", \"''\": \"1MB\"}, "
-                 "\"out\": \"b\"}",
+                 "\"out\": \"b.obj\"}",
                  false, 240);
-    check_memory(&frame, "{\"in\": \"3MB\", \"lattice\": \"none\", \"out\": \"b\"}", true, 400);
+    check_memory(&frame, "{\"in\": \"3MB\", \"lattice\": \"none\", \"out\": \"b.obj\"}", true, 400);
 #define WITH(size)                                                                                           \
-    "{\"in\": \"3MB\", \"lattice\": \"none\", \"out\": \"b\", \"options\": {\"memory\": " size "}}"
+    "{\"in\": \"3MB\", \"lattice\": \"none\", \"out\": \"b.obj\", \"options\": {\"memory\": " size "}}"
     check_memory(&frame, WITH("\"2G\""), false, 2000);
     check_memory(&frame, WITH("\"2G\""), true, 2000);
     check_memory(&frame, WITH("\"20M\""), false, 160);
     check_memory(&given, WITH("500000000"), false, 500);
-    check_memory(&given, "{\"in\": \"3MB\", \"lattice\": \"none\", \"out\": \"b\"}", false, 400);
+    check_memory(&given, "{\"in\": \"3MB\", \"lattice\": \"none\", \"out\": \"b.obj\"}", false, 400);
     (void)state;
 }
 

@@ -36,6 +36,21 @@ static void load(file *f, const char *name)
     fclose(from);
 }
 
+/* The head states the size of what is decoded, and no shorter part of it does so wrongly. */
+static void assert_measured(const file *f, const image *decoded)
+{
+    uint32_t width = 0, height = 0;
+    for (size_t size = 0; size <= f->size; size++) {
+        unsigned char *const copy = malloc(size > 0 ? size : 1);
+        assert_non_null(copy);
+        memcpy(copy, f->bytes, size);
+        const bool is_measured = ffd_image_measure(copy, size, &width, &height);
+        free(copy);
+        assert_true(is_measured || size < f->size);
+        assert_true(!is_measured || (width == decoded->width && height == decoded->height));
+    }
+}
+
 typedef void (*pixel_function)(int x, int y, uint8_t pixel[4]);
 
 static void color(int x, int y, uint8_t pixel[4])
@@ -94,6 +109,7 @@ static void all_kinds_of_png_show_their_pixels(void **state)
         if (ffd_image_decode(f.bytes, f.size, NULL, &found, &error))
             fail_msg("%s: %s", kinds[i].name, error.message);
         assert_true(found.width == 11 && found.height == 9);
+        assert_measured(&f, &found);
         for (int p = 0; p < 99; p++) {
             uint8_t pixel[4];
             kinds[i].pixel(p % 11, p / 11, pixel);
@@ -114,6 +130,7 @@ static image decode_sample(const char *name, int width, int height)
     if (ffd_image_decode(f.bytes, f.size, NULL, &found, &error))
         fail_msg("%s: %s", name, error.message);
     assert_true(found.width == (uint32_t)width && found.height == (uint32_t)height);
+    assert_measured(&f, &found);
     return found;
 }
 

@@ -423,7 +423,14 @@ static bool add_files(job_maker *maker)
     return added && add_lattices(maker) && add_morphs(maker) && add_clips(maker);
 }
 
-/* Checks what can be checked without a look at any file. */
+/* Whether a mesh without a format that is given has none by its ending either. */
+static bool lacks_format(ffd_format given, const char *path)
+{
+    return path && given == FFD_FORMAT_AUTO && ffd_format_from_name(path) == FFD_FORMAT_AUTO;
+}
+
+/* Checks what can be checked without a look at any file. A job that could never write its output claims no
+   file: other jobs go on. */
 static bool check_settings(const job_maker *maker)
 {
     const ffd_deform_desc *const desc = &maker->job->desc;
@@ -431,8 +438,10 @@ static bool check_settings(const job_maker *maker)
     ffd_error error;
     ffd_status status;
     TRY_END(ffd_deform_desc_check(desc, &error));
-    if (!desc->input.format && ffd_format_from_name(desc->input.path) == FFD_FORMAT_AUTO)
+    if (lacks_format(desc->input.format, desc->input.path))
         TRY_END(ffd_format_refuse_name(desc->input.path, &error));
+    if (lacks_format(desc->output_format, desc->output))
+        TRY_END(ffd_format_refuse_name(desc->output, &error));
     return true;
 end:
     ffd_error_format(&error, what, sizeof what);

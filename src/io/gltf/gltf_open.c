@@ -17,6 +17,7 @@
 #include "io/gltf/read/gltf_check.h"
 #include "io/gltf/read/gltf_contents.h"
 #include "io/gltf/read/gltf_drawing.h"
+#include "io/gltf/read/gltf_formal.h"
 #include "io/gltf/read/gltf_hidden.h"
 #include "io/gltf/read/gltf_schema.h"
 #include "json/json_parse.h"
@@ -387,6 +388,7 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
     d->skins_status = ffd_gltf_prepare_skins(d, &d->skins_error);
     if (d->skins_status == FFD_OK)
         TRY(ffd_gltf_judge_weights(d, error));
+    TRY(ffd_gltf_refuse_formal(d, error));
     ffd_gltf_forget(d);
     if (d->skins_status == FFD_E_LIMIT)
         return ffd_fail(error, FFD_E_LIMIT, "%s", d->skins_error.message);

@@ -1,22 +1,34 @@
-/* image.h - decodes PNG, JPEG and WebP, and writes PNG. image.c detects the format, image_size.c checks the
-   size. png.c, jpeg.c and webp.c use the libraries, in a module; image_load.c replaces them in the program
-   and loads the module. */
+/* image.h - decodes PNG, JPEG and WebP, and writes PNG. image.c detects the format, image_header.c finds the
+   size and image_size.c checks it. png.c, jpeg.c and webp.c use the libraries, in a module; image_load.c
+   replaces them in the program and loads the module. */
 #ifndef FFD_PICTURE_IMAGE_IMAGE_H
 #define FFD_PICTURE_IMAGE_IMAGE_H
 
 #include "base/fail.h"
 #include "mesh/memory_budget.h"
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
 /* Limits of images, because a short file can claim any size. */
 #define IMAGE_MOST_SIDE 32767
 #define IMAGE_MOST_PIXELS ((uint64_t)1 << 27)
+/* Decoding takes at most this many bytes a pixel, those of the result included: for a JPEG of several scans.
+ */
+#define IMAGE_DECODING_BYTES 10
 
 typedef struct image {
     uint32_t width, height;
     uint8_t *pixels; /* RGBA, rows from the top; free with ffd_free */
 } image;
+
+typedef enum image_format { IMAGE_OTHER, IMAGE_PNG, IMAGE_JPEG, IMAGE_WEBP } image_format;
+
+/* Returns the format that the first bytes of a file show. */
+image_format ffd_image_format(const unsigned char *bytes, size_t size);
+/* Finds the size that the head of a file states, and does not decode it. Returns false where there is none.
+ */
+bool ffd_image_measure(const unsigned char *bytes, size_t size, uint32_t *width, uint32_t *height);
 
 /* A callback that receives the next bytes. */
 typedef ffd_status (*image_sink)(void *context, const void *bytes, size_t size, ffd_error *error);

@@ -17,6 +17,24 @@ static bool has(const gltf_document *d, uint32_t object, const char *key)
 /* How far the length of a rotation may be from 1: rounding of numbers with three decimals. */
 #define UNIT_TOLERANCE 1e-3
 
+/* How far the axes of a matrix may be from right angles, as a cosine: rounding of numbers in single
+   precision. */
+#define SHEAR_TOLERANCE 1e-4
+
+/* Whether no translation, rotation and scale make up a matrix: viewers that take it apart differ. */
+static bool is_sheared(const double matrix[16])
+{
+    for (int i = 0; i < 3; i++) {
+        const double *const a = matrix + 4 * i, *const b = matrix + 4 * ((i + 1) % 3);
+        const double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        const double squares =
+            (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) * (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
+        if (fabs(dot) > SHEAR_TOLERANCE * sqrt(squares))
+            return true;
+    }
+    return false;
+}
+
 static ffd_status note_node(gltf_document *d, size_t n, ffd_error *error)
 {
     const gltf_node *const node = &d->model.nodes[n];
@@ -29,6 +47,9 @@ static ffd_status note_node(gltf_document *d, size_t n, ffd_error *error)
         TRY(ffd_gltf_flaw(d, value, error,
                           "a node has a matrix or a translation, rotation and scale, not both: its "
                           "matrix counts"));
+    if (node->has_matrix && is_sheared(node->matrix))
+        TRY(ffd_gltf_flaw(d, member_or(d, value, "matrix"), error,
+                          "the matrix shears: no translation, rotation and scale make it up"));
     if (!node->has_matrix && has(d, value, "rotation") && !(fabs(sqrt(square) - 1) <= UNIT_TOLERANCE))
         TRY(ffd_gltf_flaw(
             d, member_or(d, value, "rotation"), error,
@@ -65,12 +86,24 @@ static ffd_status note_positions(gltf_document *d, const gltf_primitive *primiti
     return FFD_OK;
 }
 
+static ffd_status note_indices(gltf_document *d, const gltf_primitive *primitive, ffd_error *error)
+{
+    const int accessor = primitive->indices;
+    const int view = accessor < 0 ? -1 : d->model.accessors[accessor].view;
+    if (view < 0 || d->model.views[view].stride == 0)
+        return FFD_OK;
+    return ffd_gltf_flaw(d, ffd_json_tree_member(&d->tree, primitive->value, "indices"), error,
+                         "the bufferView of indices states a byteStride, which counts here: viewers differ "
+                         "in this");
+}
+
 static ffd_status note_primitive(gltf_document *d, const gltf_primitive *primitive, ffd_error *error)
 {
     double material = 0;
     const uint32_t index = ffd_json_tree_member(&d->tree, primitive->value, "material");
     const uint32_t materials = ffd_json_tree_member(&d->tree, 0, "materials");
     TRY(note_positions(d, primitive, error));
+    TRY(note_indices(d, primitive, error));
     if (ffd_json_tree_number(&d->tree, index, &material) &&
         !(material >= 0 && material < (double)ffd_json_tree_count(&d->tree, materials)))
         TRY(ffd_gltf_flaw(d, index, error, "there is no material %.0f", material));

@@ -70,11 +70,13 @@ end:
 #define TEXT_SEEN ((size_t)64)
 #define TEXT_LEAST ((size_t)3)
 
+/* Of the finite positions. */
 typedef struct range {
     double min[3], max[3];
+    bool has_others; /* positions that are not finite */
 } range;
 
-static const range nothing = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+static const range nothing = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, false};
 
 /* A search for the range of the elements of an accessor, tile by tile. */
 typedef struct range_search {
@@ -91,6 +93,8 @@ static void widen(range *r, const double *xyz, size_t count)
         if (isfinite(xyz[i])) {
             r->min[i % 3] = minimum_number(r->min[i % 3], xyz[i]);
             r->max[i % 3] = maximum_number(r->max[i % 3], xyz[i]);
+        } else {
+            r->has_others = true;
         }
 }
 
@@ -130,11 +134,13 @@ static range range_of(const gltf_document *d, size_t a)
         search.found[t] = nothing;
     ffd_parallel_tiles(count, share > SMALLEST_TILE ? share : SMALLEST_TILE, d->threads, search_tile,
                        &search);
-    for (size_t t = 0; t < TILES; t++)
+    for (size_t t = 0; t < TILES; t++) {
+        all.has_others = all.has_others || search.found[t].has_others;
         for (size_t c = 0; c < 3; c++) {
             all.min[c] = minimum_number(all.min[c], search.found[t].min[c]);
             all.max[c] = maximum_number(all.max[c], search.found[t].max[c]);
         }
+    }
     return all;
 }
 
@@ -170,6 +176,8 @@ static ffd_status compare(gltf_document *d, size_t a, const range *found, ffd_er
     const uint32_t min = ffd_json_tree_member(&d->tree, value, "min");
     const uint32_t max = ffd_json_tree_member(&d->tree, value, "max");
     range stated;
+    if (found->has_others && d->base.flaws.strict) /* else its vertices are counted as invalid */
+        TRY(ffd_gltf_flaw(d, value, error, "positions are finite, but some of these are not"));
     if (!ffd_gltf_stated(d, a, stated.min, stated.max))
         return FFD_OK;
     double largest = 0;
@@ -192,6 +200,14 @@ static ffd_status compare(gltf_document *d, size_t a, const range *found, ffd_er
         if (found->max[c] > (float)stated.max[c])
             return ffd_gltf_flaw(d, max, error, "a position has %c = %.9g, more than the max %.9g", "xyz"[c],
                                  found -> max[c], stated.max[c]);
+        if (!d->base.flaws.strict || found->has_others)
+            continue; /* bounds that are too wide mislead nobody */
+        if (found->min[c] > (float)stated.min[c])
+            return ffd_gltf_flaw(d, min, error, "no position has the min %c = %.9g: the least is %.9g",
+                                 "xyz"[c], stated.min[c], found->min[c]);
+        if (found->max[c] < (float)stated.max[c])
+            return ffd_gltf_flaw(d, max, error, "no position has the max %c = %.9g: the largest is %.9g",
+                                 "xyz"[c], stated.max[c], found->max[c]);
     }
     return FFD_OK;
 }
