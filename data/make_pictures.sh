@@ -69,4 +69,7 @@ for rig in keep follow; do
         --size 150x200
 done
 draw corner models/column.obj -l lattices/corner.json --frames 2 --color det --camera front --size 320x320
+"$ffd" lattice refine lattices/bend.json -o fine.json --mesh models/column.obj --size 6,14,6 --quiet
+draw coarse models/column.obj -l lattices/bend.json $pair --camera 2,0.4,1 --size 160x260
+draw fine models/column.obj -l fine.json $pair --camera 2,0.4,1 --size 160x260
 python3 "$data/make_greville.py" "$ffd" "$out/greville.svg"

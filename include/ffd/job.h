@@ -8,6 +8,7 @@
 #ifndef FFD_JOB_H
 #define FFD_JOB_H
 
+#include <ffd/author.h>
 #include <ffd/embedding.h>
 #include <ffd/error.h>
 #include <ffd/export.h>
@@ -615,6 +616,57 @@ FFD_API void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc, size_t size);
    of ffd_lattice_save. */
 FFD_API ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *desc, ffd_error *error);
 
+/* A job of `ffd lattice refine`: reads a lattice, makes one of more control points or higher degrees that is
+   the same map (ffd_lattice_refine), and writes it. */
+typedef struct ffd_lattice_refine_desc {
+    size_t struct_size; /* sizeof(ffd_lattice_refine_desc) in the caller's header */
+    ffd_lattice_source lattice;
+    const ffd_setting *set; /* set_count values for placeholders in its moves, or NULL */
+    size_t set_count;
+    /* The box of a lattice that goes round a mesh is laid round these mesh_count meshes, or what of them
+       matches one of only_count selectors; NULL: it stays without positions, where none are needed. */
+    const ffd_source *meshes;
+    size_t mesh_count;
+    const char *const *only;
+    size_t only_count;
+    /* memory, strict and space: of the lattice and of meshes that it names. The other members are ignored. */
+    ffd_source reading;
+    const ffd_refine_desc *refine;
+    bool measure;               /* find largest_difference of the result */
+    int threads;                /* >= 1, or 0 for all cores; does not affect the output */
+    const char *output;         /* path; "-": standard output */
+    bool force;                 /* overwrite an existing output */
+    ffd_output_set *output_set; /* the files of this run; may be NULL */
+    ffd_log_function log;       /* receives warnings, which begin with the name of a mesh; may be NULL */
+    void *log_user;
+    ffd_sink_function sink; /* as in ffd_deform_desc */
+    void *sink_user;
+} ffd_lattice_refine_desc;
+
+/* Sets desc to defaults. size: sizeof(ffd_lattice_refine_desc) in the caller's header. */
+FFD_API void ffd_lattice_refine_desc_init(ffd_lattice_refine_desc *desc, size_t size);
+
+/* What such a job has done. */
+typedef struct ffd_refine_result {
+    size_t struct_size; /* sizeof(ffd_refine_result) in the caller's header, set by the caller */
+    ffd_status status;
+    ffd_error error; /* if status is not FFD_OK */
+    struct {
+        double read, refine, write; /* refine: with the measuring */
+    } seconds;
+    size_t size_before[3], size[3]; /* 0 where the lattice could not be read, or refined */
+    int degree_before[3], degree[3];
+    /* The largest difference of a coordinate of C, at rest and deformed, at 3 places of each new span in each
+       direction; -1: not measured. */
+    double largest_difference;
+} ffd_refine_result;
+
+/* Runs the job. The output is complete or absent. result may be NULL. Errors: those of ffd_lattice_load,
+   ffd_lattice_refine, ffd_lattice_save, and of reading a mesh; FFD_E_ARGUMENT for meshes where the lattice
+   does not go round one. */
+FFD_API ffd_status ffd_lattice_refine_run(const ffd_lattice_refine_desc *desc, ffd_refine_result *result,
+                                          ffd_error *error);
+
 /* Writes the figures of a result for people, as `ffd check` prints them, a line or two for each. lattice: the
    name of the lattice result->folds.witness.lattice, or NULL. *text ends with a line break and a 0 byte; the
    caller frees it with ffd_free. Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_MEMORY. */
@@ -644,6 +696,9 @@ FFD_API void ffd_report_destroy(ffd_report **report);
    Errors: FFD_E_IO, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,
                                   const ffd_job_result *result, ffd_error *error);
+/* The same for a job of ffd_lattice_refine_run. */
+FFD_API ffd_status ffd_report_add_refine(ffd_report *report, const char *input, const char *output,
+                                         const ffd_refine_result *result, ffd_error *error);
 /* Completes the report. To be called at most once, after the jobs. Errors: FFD_E_IO, FFD_E_MEMORY, and those
    of the sink. */
 FFD_API ffd_status ffd_report_write(ffd_report *report, ffd_error *error);

@@ -394,9 +394,10 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
         TRY(ffd_report_create(desc->given->report, pool.wishes.stable, NULL, &run->report, error));
     if (desc->given->positions)
         TRY(ffd_run_rows_place(&run->rows, desc, error));
-    /* The report of a job that waits for its picture is made when that is drawn. */
+    /* The report of a job that waits for its picture is made when that is drawn, from its result. The index
+       needs the JSON pointer of a failure. */
     pool.wishes.frames = run->frames.wait;
-    pool.wishes.result = pool.wishes.result || run->frames.wait;
+    pool.wishes.result = pool.wishes.result || run->view;
     pool.wishes.report = (run->report || run->view || run->rows.report) && !run->frames.wait;
     pool.wishes.quality = pool.wishes.quality || run->report || run->view;
     pool.draws = run->view != NULL;

@@ -36,8 +36,9 @@ void ffd_run_find_drawn(batch_run *run, pool_task *task)
     drawn_note note;
     if (ffd_journal_find(run->journal, &task->picture_target, &drawn, &known) && known.size == sizeof note) {
         memcpy(&note, known.data, sizeof note);
+        const bool is_known = memcmp(&note.frame, &none, sizeof none) != 0; /* not after a pattern's run */
         task->order.has_drawn = ffd_hash_equal(&note.shown, &shown) &&
-                                (run->frames.are_common || ffd_hash_equal(&drawn.inputs, &alone));
+                                (run->frames.are_common ? is_known : ffd_hash_equal(&drawn.inputs, &alone));
         task->order.drawn = drawn.outputs;
         task->order.frame = note.frame;
         task->drawn_as = drawn.inputs;

@@ -21,72 +21,75 @@ static bool is_far(const pool_task *task)
     return task->end.frame.away > FARTHEST;
 }
 
-/* Finds the group of a look among those of a mesh; NULL: there is none. */
-static frame_group *find_group(const run_frames *frames, uint32_t mesh, const hash128 *look)
+/* What a group has in common, without padding. */
+typedef struct group_key {
+    hash128 look;
+    uint64_t mesh;
+} group_key;
+
+static group_key key_of(const pool_task *task)
 {
-    for (uint32_t at = frames->groups[mesh]; at; at = frames->list[at - 1].next)
-        if (ffd_hash_equal(&frames->list[at - 1].look, look))
-            return &frames->list[at - 1];
-    return NULL;
+    return (group_key){ffd_task_picture_hash(&task->job.look), task->frame_mesh};
 }
 
-static frame_group *add_group(run_frames *frames, uint32_t mesh, const hash128 *look, uint64_t first)
+/* Finds the number of a key, and makes room for its entry in a list, which has one for each key. *is_new: the
+   entry is not filled. The room comes first: a key that is known has an entry. */
+static bool number_of(intern_table *keys, const void *key, size_t key_size, void **entries, size_t *capacity,
+                      size_t size, uint32_t *number, bool *is_new)
 {
-    if (!ffd_grow((void **)&frames->list, &frames->capacity, frames->count + 1, sizeof *frames->list))
-        return NULL;
-    frame_group *const group = &frames->list[frames->count++];
-    *group = (frame_group){
-        .look = *look, .first = first, .frame = ffd_view_frame_none(), .next = frames->groups[mesh]};
-    frames->groups[mesh] = (uint32_t)frames->count;
-    return group;
-}
-
-/* Finds the number of a mesh, which may be new. */
-static bool find_mesh(run_frames *frames, const hash128 *mesh, uint32_t *index)
-{
-    const size_t before = frames->meshes.count;
-    if (!ffd_intern(&frames->meshes, mesh, sizeof *mesh, index))
+    const size_t before = keys->count;
+    if (!ffd_grow(entries, capacity, before + 1, size) || !ffd_intern(keys, key, key_size, number))
         return false;
-    if (*index < before)
-        return true;
-    if (!ffd_grow((void **)&frames->groups, &frames->mesh_capacity, frames->meshes.count,
-                  sizeof *frames->groups))
-        return false;
-    frames->groups[*index] = 0;
+    *is_new = *number == before;
     return true;
+}
+
+/* Finds the mesh of a task, which may be new. */
+static bool find_mesh(run_frames *frames, const hash128 *place, pool_task *task)
+{
+    bool is_new;
+    if (!number_of(&frames->mesh_keys, place, sizeof *place, (void **)&frames->meshes, &frames->mesh_capacity,
+                   sizeof *frames->meshes, &task->frame_mesh, &is_new))
+        return false;
+    if (is_new)
+        frames->meshes[task->frame_mesh] = (frame_mesh){0};
+    return true;
+}
+
+/* Finds the group of a task that has its mesh, which may be new. */
+static bool find_group(run_frames *frames, const pool_task *task, uint32_t *group)
+{
+    const group_key key = key_of(task);
+    bool is_new;
+    if (!number_of(&frames->group_keys, &key, sizeof key, (void **)&frames->groups, &frames->group_capacity,
+                   sizeof *frames->groups, group, &is_new))
+        return false;
+    if (is_new)
+        frames->groups[*group] = (frame_group){.first = task->index, .frame = ffd_view_frame_none()};
+    return true;
+}
+
+static bool has_more(const frame_group *a, const frame_group *b)
+{
+    return a->count > b->count || (a->count == b->count && a->first < b->first);
 }
 
 ffd_status ffd_frames_add(run_frames *frames, pool_task *task, const hash128 *mesh, ffd_error *error)
 {
-    const hash128 look = ffd_task_look_hash(&task->job.look);
-    if (!find_mesh(frames, mesh, &task->frame_mesh))
+    uint32_t number;
+    if (!find_mesh(frames, mesh, task) || !find_group(frames, task, &number))
         return ffd_fail_memory(error);
-    frame_group *group = find_group(frames, task->frame_mesh, &look);
-    if (!group)
-        group = add_group(frames, task->frame_mesh, &look, task->index);
-    if (!group)
-        return ffd_fail_memory(error);
+    frame_group *const group = &frames->groups[number];
+    frame_mesh *const of = &frames->meshes[task->frame_mesh];
     frames->pictures++;
+    of->jobs++;
     group->count++;
     group->first = group->first < task->index ? group->first : task->index;
+    if (of->jobs == 1 || has_more(group, &frames->groups[of->most]))
+        of->most = number;
     if (!is_far(task))
         ffd_view_frame_join(&group->frame, &task->end.frame);
     return FFD_OK;
-}
-
-/* Returns the group of a mesh with the most jobs, and of these the first; *jobs: the jobs of the mesh. */
-static const frame_group *main_group(const run_frames *frames, uint32_t mesh, uint64_t *jobs)
-{
-    const frame_group *best = NULL;
-    *jobs = 0;
-    for (uint32_t at = frames->groups[mesh]; at; at = frames->list[at - 1].next) {
-        const frame_group *const group = &frames->list[at - 1];
-        *jobs += group->count;
-        if (!best || group->count > best->count ||
-            (group->count == best->count && group->first < best->first))
-            best = group;
-    }
-    return best;
 }
 
 /* Notes a picture for the warning. */
@@ -108,14 +111,15 @@ static void note_left(run_frames *frames, const pool_task *task, bool has_other_
 
 void ffd_frames_choose(run_frames *frames, pool_task *task)
 {
-    const hash128 look = ffd_task_look_hash(&task->job.look);
-    uint64_t jobs;
-    const frame_group *const group = main_group(frames, task->frame_mesh, &jobs);
-    const bool is_like_others = ffd_hash_equal(&group->look, &look),
+    const frame_mesh *const mesh = &frames->meshes[task->frame_mesh];
+    const group_key key = key_of(task);
+    uint32_t number;
+    const bool is_like_others =
+                   ffd_intern_find(&frames->group_keys, &key, sizeof key, &number) && number == mesh->most,
                is_left = is_far(task) || !is_like_others;
     task->order.has_frame = true;
-    task->order.frame = is_left ? task->end.frame : group->frame;
-    if (!is_left || jobs == 1)
+    task->order.frame = is_left ? task->end.frame : frames->groups[mesh->most].frame;
+    if (!is_left || mesh->jobs == 1)
         return;
     task->own_frame = is_like_others ? "far" : "options";
     note_left(frames, task, !is_like_others);
@@ -151,9 +155,10 @@ bool ffd_frames_warn(const run_frames *frames, const char *name, ffd_error *note
 
 void ffd_frames_free(run_frames *frames)
 {
-    ffd_intern_free(&frames->meshes);
+    ffd_intern_free(&frames->mesh_keys);
+    ffd_intern_free(&frames->group_keys);
+    ffd_free(frames->meshes);
     ffd_free(frames->groups);
-    ffd_free(frames->list);
     ffd_records_free(&frames->tasks);
     ffd_buffer_free(&frames->record);
     ffd_buffer_free(&frames->left_names);

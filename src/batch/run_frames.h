@@ -9,26 +9,31 @@
 
 /* The jobs on one mesh whose pictures are drawn with equal options. */
 typedef struct frame_group {
-    hash128 look;
     uint64_t first, count; /* index of the first job, and how many there are */
     view_frame frame;      /* of those that are not far away */
-    uint32_t next;         /* of the same mesh, plus 1; 0: none */
 } frame_group;
+
+/* The jobs on one mesh. */
+typedef struct frame_mesh {
+    uint64_t jobs;
+    uint32_t most; /* index of the group with the most jobs, and of these with the first one */
+} frame_mesh;
 
 /* The names that a warning tells. */
 #define FRAMES_NAMED 4
 
 /* All zeros: jobs do not wait. */
 typedef struct run_frames {
-    bool are_common;     /* jobs on one mesh have one */
-    bool wait;           /* pictures are drawn when the last job has ended */
-    bool are_drawn;      /* it has, */
-    bool all_made;       /* and no job was dropped */
-    intern_table meshes; /* places */
-    uint32_t *groups;    /* of each mesh: index of its last group, plus 1 */
+    bool are_common;        /* jobs on one mesh have one */
+    bool wait;              /* pictures are drawn when the last job has ended */
+    bool are_drawn;         /* it has, */
+    bool all_made;          /* and no job was dropped */
+    intern_table mesh_keys; /* places */
+    frame_mesh *meshes;
     size_t mesh_capacity;
-    frame_group *list;
-    size_t count, capacity;
+    intern_table group_keys; /* mesh and look (group_key) */
+    frame_group *groups;
+    size_t group_capacity;
     record_queue tasks;     /* that wait, in the order of the jobs */
     byte_buffer record;     /* scratch memory */
     uint64_t pictures;      /* to be drawn */

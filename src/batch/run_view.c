@@ -129,6 +129,16 @@ ffd_status ffd_run_view_name(const run_view *view, pool_task *task, hash128 file
                             : FFD_OK;
 }
 
+/* Returns why a job has failed, here or in its worker. */
+static ffd_error failure_of(const pool_task *task)
+{
+    ffd_job_result result;
+    if (task->failure.status || task->result.size < sizeof result)
+        return task->failure;
+    memcpy(&result, task->result.data, sizeof result);
+    return result.error;
+}
+
 ffd_status ffd_run_view_add(run_view *view, const pool_task *task, const byte_buffer *text, ffd_error *error)
 {
     index_entry entry;
@@ -138,7 +148,9 @@ ffd_status ffd_run_view_add(run_view *view, const pool_task *task, const byte_bu
     TRY(ffd_index_entry_read(text, &entry, error));
     ffd_settings_show(&task->job.desc, &settings);
     char *const shown = ffd_buffer_finish(&settings);
+    const ffd_error failure = failure_of(task);
     entry.row.line = task->job.line;
+    entry.row.pointer = failure.pointer;
     entry.row.settings = shown;
     entry.row.picture = task->end.has_picture ? task->picture_name : NULL;
     entry.row.page =

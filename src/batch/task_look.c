@@ -1,4 +1,7 @@
 #include "batch/task_look.h"
+#include "base/arithmetic.h"
+#include "job/view/view.h"
+#include "view/view_picture.h"
 #include <string.h>
 
 task_look ffd_task_look(const ffd_view_desc *desc)
@@ -34,4 +37,19 @@ hash128 ffd_task_look_hash(const ffd_view_desc *desc)
     const hash_block blocks[] = {{&look, sizeof look},
                                  {animation, strlen(animation) + (desc->animation != NULL)}};
     return ffd_hash_blocks(blocks, 2);
+}
+
+hash128 ffd_task_picture_hash(const ffd_view_desc *desc)
+{
+    ffd_view_desc look = *desc;
+    double greatest = 0;
+    for (int a = 0; a < 3; a++)
+        greatest = larger_of(greatest, fabs(look.camera[a]));
+    for (int a = 0; a < 3 && greatest > 0; a++)
+        look.camera[a] /= greatest;
+    look.width = look.width ? look.width : VIEW_PICTURE_WIDTH;
+    look.height = look.height ? look.height : VIEW_PICTURE_HEIGHT;
+    look.frames = look.animation && !look.frames ? VIEW_POSES : look.frames;
+    look.color = look.color == FFD_VIEW_AUTO ? FFD_VIEW_DISPLACEMENT : look.color;
+    return ffd_task_look_hash(&look);
 }

@@ -22,5 +22,8 @@ task_look ffd_task_look(const ffd_view_desc *desc);
 ffd_view_desc ffd_task_look_desc(const task_look *look, const char *animation);
 /* Returns a hash of the look of a description, with its animation. */
 hash128 ffd_task_look_hash(const ffd_view_desc *desc);
+/* The same for a picture alone, which descriptions that say the same in other words share: where they name a
+   default, or give a direction by another length. */
+hash128 ffd_task_picture_hash(const ffd_view_desc *desc);
 
 #endif

@@ -1,7 +1,7 @@
 /* lattice_new.c - ffd lattice new: a lattice round meshes. */
 #include "cli/command.h"
 #include "cli/member.h"
-#include <errno.h>
+#include "cli/three.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,38 +16,8 @@ typedef struct settings {
     cli_logging logging;
 } settings;
 
-/* Splits "4,4,4" into three texts; "4" stands for three. */
-static bool split_three(const char *value, char part[3][32])
-{
-    for (int a = 0; a < 3; a++) {
-        const size_t length = strcspn(value, ",");
-        if (length == 0 || length >= sizeof part[a])
-            return false;
-        memcpy(part[a], value, length);
-        part[a][length] = 0;
-        if (a == 0 && !value[length]) {
-            strcpy(part[1], part[0]);
-            strcpy(part[2], part[0]);
-            return true;
-        }
-        value += length;
-        if (a < 2 ? *value != ',' : *value != 0)
-            return false;
-        value++;
-    }
-    return true;
-}
-
-static bool parse_count(const char *text, long least, long greatest, long *count)
-{
-    char *end;
-    errno = 0;
-    *count = strtol(text, &end, 10);
-    return *text >= '0' && *text <= '9' && *end == 0 && !errno && *count >= least && *count <= greatest;
-}
-
 /* Returns whether a direction has one layer. */
-static bool is_plane(char part[3][32])
+static bool is_plane(char part[3][CLI_PART])
 {
     return strcmp(part[0], "1") == 0 || strcmp(part[1], "1") == 0 || strcmp(part[2], "1") == 0;
 }
@@ -55,11 +25,11 @@ static bool is_plane(char part[3][32])
 static bool set_size(void *context, const cli_option *option, const char *value)
 {
     settings *s = context;
-    char part[3][32] = {{0}};
+    char part[3][CLI_PART] = {{0}};
     long count = 0;
-    bool right = split_three(value, part);
+    bool right = cli_split_three(value, part);
     for (int a = 0; right && a < 3; a++) {
-        right = parse_count(part[a], 2, 1000000, &count);
+        right = cli_parse_count(part[a], 2, 1000000, &count);
         s->desc.size[a] = (size_t)count;
     }
     if (!right)
@@ -74,11 +44,11 @@ static bool set_size(void *context, const cli_option *option, const char *value)
 static bool set_degree(void *context, const cli_option *option, const char *value)
 {
     settings *s = context;
-    char part[3][32];
+    char part[3][CLI_PART];
     long degree = 0;
-    bool right = split_three(value, part);
+    bool right = cli_split_three(value, part);
     for (int a = 0; right && a < 3; a++) {
-        right = parse_count(part[a], 1, FFD_MAX_DEGREE, &degree);
+        right = cli_parse_count(part[a], 1, FFD_MAX_DEGREE, &degree);
         s->desc.degree[a] = (int)degree;
     }
     if (!right)
@@ -95,9 +65,9 @@ static bool set_knots(void *context, const cli_option *option, const char *value
     static const ffd_knots known[] = {FFD_KNOTS_CLAMPED, FFD_KNOTS_OPEN,   FFD_KNOTS_OPEN,
                                       FFD_KNOTS_UNIFORM, FFD_KNOTS_CLOSED, FFD_KNOTS_CLOSED};
     settings *s = context;
-    char part[3][32];
+    char part[3][CLI_PART];
     const char *meant = NULL;
-    bool right = split_three(value, part);
+    bool right = cli_split_three(value, part);
     for (int a = 0; right && a < 3; a++) {
         right = false;
         for (int i = 0; !right && knots_names[i]; i++)
@@ -117,8 +87,8 @@ static bool set_knots(void *context, const cli_option *option, const char *value
 static bool set_margin(void *context, const cli_option *option, const char *value)
 {
     settings *s = context;
-    char part[3][32];
-    bool right = split_three(value, part);
+    char part[3][CLI_PART];
+    bool right = cli_split_three(value, part);
     s->has_margins = strchr(value, ',') != NULL;
     for (int a = 0; right && a < 3; a++)
         right = cli_parse_number(part[a], &s->desc.margin[a]) && s->desc.margin[a] >= 0;
@@ -148,14 +118,14 @@ static void hint_axis(const char *value, char hint[CLI_HINT])
 static bool set_axis(void *context, const cli_option *option, const char *value)
 {
     settings *s = context;
-    char part[3][32];
+    char part[3][CLI_PART];
     s->has_axis = true;
     if (strlen(value) == 1 && *value >= 'x' && *value <= 'z') {
         for (int a = 0; a < 3; a++)
             s->desc.axis[a] = *value == "xyz"[a];
         return true;
     }
-    bool right = strchr(value, ',') && split_three(value, part);
+    bool right = strchr(value, ',') && cli_split_three(value, part);
     for (int a = 0; right && a < 3; a++)
         right = cli_parse_number(part[a], &s->desc.axis[a]);
     right = right && (s->desc.axis[0] != 0 || s->desc.axis[1] != 0 || s->desc.axis[2] != 0);

@@ -113,14 +113,20 @@ end:
     return status;
 }
 
+ffd_status ffd_job_check_box(const char *output, const path_list *box_files,
+                             const ffd_lattice_source *lattice, ffd_error *error)
+{
+    return holds(box_files, output)
+               ? ffd_fail_file(error, FFD_E_EXISTS, output,
+                               "is a file of the meshes that the box of %s goes round and is not overwritten",
+                               ffd_lattice_name(lattice))
+               : FFD_OK;
+}
+
 ffd_status ffd_job_check_box_files(const char *output, const lattice_chain *chain,
                                    const ffd_lattice_source *lattices, ffd_error *error)
 {
     for (size_t i = 0; i < chain->count; i++)
-        if (holds(&chain->links[i].box_files, output))
-            return ffd_fail_file(
-                error, FFD_E_EXISTS, output,
-                "is a file of the meshes that the box of %s goes round and is not overwritten",
-                ffd_lattice_name(&lattices[i]));
+        TRY(ffd_job_check_box(output, &chain->links[i].box_files, &lattices[i], error));
     return FFD_OK;
 }

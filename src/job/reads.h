@@ -17,8 +17,10 @@ bool ffd_job_reads_lattice(const ffd_lattice_source *lattices, size_t count, con
    replace. */
 ffd_status ffd_job_check_mesh_files(const char *output, const ffd_source *source,
                                     const mesh_document *document, ffd_error *error);
-/* The same for the meshes that the boxes of lattices go round, and their buffers. lattices: those of the
-   chain. */
+/* The same for the meshes that the box of a lattice goes round, and their buffers, which box_files has. */
+ffd_status ffd_job_check_box(const char *output, const path_list *box_files,
+                             const ffd_lattice_source *lattice, ffd_error *error);
+/* The same for all lattices of a chain. */
 ffd_status ffd_job_check_box_files(const char *output, const lattice_chain *chain,
                                    const ffd_lattice_source *lattices, ffd_error *error);
 

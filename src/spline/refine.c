@@ -2,6 +2,7 @@
 #include "base/arithmetic.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
+#include "spline/halving.h"
 #include "spline/knots.h"
 #include <math.h>
 #include <stdint.h>
@@ -81,22 +82,34 @@ static ffd_status clamp_row(const knot_row *from, knot_row *to, ffd_error *error
     return FFD_OK;
 }
 
+/* Returns the number of spans that are not empty. */
+static size_t count_spans(const knot_row *row)
+{
+    const size_t count = knot_count(row);
+    size_t distinct = 0;
+    for (size_t i = 0; i < count; i += run_of(row->t, i, count))
+        distinct++;
+    return distinct - 1;
+}
+
+/* Returns how often the last knot stands at the end. */
+static size_t run_at_end(const knot_row *row)
+{
+    const size_t last = knot_count(row) - 1;
+    size_t run = 1;
+    while (run <= last && !(row->t[last - run] < row->t[last]))
+        run++;
+    return run;
+}
+
 /* Repeats every distinct knot once more. Of a closed row those of the seam stand at the start, and its end
  * once. */
 static ffd_status elevate_row(const knot_row *from, knot_row *to, ffd_error *error)
 {
     const size_t count = knot_count(from);
-    size_t distinct = 0, seam = 0, k = 0;
-    for (size_t i = 0; i < count; i += run_of(from->t, i, count))
-        distinct++;
-    const size_t added = from->closed ? distinct - 1 : distinct;
-    TRY(make_row(from->degree + 1, from->closed ? from->points + added : from->points + added - 1,
-                 from->closed, to, error));
-    for (size_t i = 0, run; from->closed && i < count; i += run) {
-        run = run_of(from->t, i, count);
-        if (i + run == count)
-            seam = run - 1; /* copies at the end that go to the start */
-    }
+    const size_t seam = from->closed ? run_at_end(from) - 1 : 0; /* copies at the end that go to the start */
+    size_t k = 0;
+    TRY(make_row(from->degree + 1, from->points + count_spans(from), from->closed, to, error));
     for (size_t i = 0, run; i < count; i += run) {
         run = run_of(from->t, i, count);
         size_t copies = run + 1;
@@ -112,13 +125,13 @@ static ffd_status elevate_row(const knot_row *from, knot_row *to, ffd_error *err
 static double wrap(const knot_row *row, double value)
 {
     const double first = domain_first(row), period = domain_last(row) - first;
-    if (value >= first && value < first + period)
+    if (value >= first && value < domain_last(row))
         return value;
     const double wrapped = value - period * floor_of((value - first) / period);
     return wrapped >= first && wrapped < domain_last(row) ? wrapped : first;
 }
 
-/* Checks how often each knot of the row stands in it. */
+/* Checks how often each knot of the row stands in it. Those at the end of a period are those at its start. */
 static ffd_status check_runs(const knot_row *row, char direction, ffd_error *error)
 {
     const double first = domain_first(row), last = domain_last(row);
@@ -128,10 +141,11 @@ static ffd_status check_runs(const knot_row *row, char direction, ffd_error *err
         const double value = row->t[i];
         const bool is_end = !row->closed && (value <= first || value >= last);
         const size_t allowed = (size_t)row->degree + is_end;
-        if (run > allowed)
+        const size_t times = row->closed && i == 0 ? run + run_at_end(row) - 1 : run;
+        if (times > allowed)
             return ffd_fail(error, FFD_E_ARGUMENT,
                             "{insert} %c: the knot %s would be there %zu times; degree %d allows %zu %s",
-                            direction, ffd_number_text(value).text, run, row->degree, allowed,
+                            direction, ffd_number_text(value).text, times, row->degree, allowed,
                             is_end ? "at an end of the domain" : "inside it");
     }
     return FFD_OK;
@@ -152,65 +166,35 @@ static ffd_status insert_knots(const knot_row *from, const refine_wish *wish, ch
                             "{insert} %c: the knot %s is outside of the domain, %s to %s", direction,
                             ffd_number_text(value).text, ffd_number_text(first).text,
                             ffd_number_text(last).text);
-        to->t[count + i] = value;
+        to->t[count + i] = value + 0.0; /* 0 has one sign: which of two came first would depend on qsort */
     }
     qsort(to->t, count + wish->insert_count, sizeof *to->t, compare_numbers);
     return check_runs(to, direction, error);
 }
 
-/* Spans that differ by rounding count as equally long. */
-#define ALIKE (1 - 1e-9)
-
-/* Returns the longest span of the domain. */
-static double longest_span(const double *t, size_t first, size_t last)
-{
-    double longest = 0;
-    for (size_t i = first; i < last; i++)
-        longest = t[i + 1] - t[i] > longest ? t[i + 1] - t[i] : longest;
-    return longest;
-}
-
-/* Halves the longest spans, the first one first, until there are as many control points. */
+/* Halves the longest spans until there are as many control points. */
 static ffd_status halve_spans(const knot_row *from, size_t points, char direction, knot_row *to,
                               ffd_error *error)
 {
-    const size_t begin = from->closed ? 0 : (size_t)from->degree;
-    size_t count = knot_count(from), missing = points - from->points, end = from->points;
+    const size_t first = from->closed ? 0 : (size_t)from->degree, count = knot_count(from);
+    const size_t missing = points - from->points;
+    size_t found;
     TRY(make_row(from->degree, points, from->closed, to, error));
-    double *const t = to->t, *const next = ffd_alloc(knot_count(to), sizeof *next);
-    if (!next)
-        return ffd_fail_memory(error);
-    memcpy(t, from->t, count * sizeof *t);
-    ffd_status status = FFD_OK;
-    while (missing > 0) {
-        const double least = ALIKE * longest_span(t, begin, end);
-        size_t k = 0, halved = 0;
-        for (size_t i = 0; i < count; i++) {
-            next[k++] = t[i];
-            if (i < begin || i >= end || !(t[i + 1] - t[i] >= least) || halved == missing)
-                continue;
-            const double middle = 0.5 * t[i] + 0.5 * t[i + 1];
-            if (!(t[i] < middle && middle < t[i + 1]))
-                TRY_END(ffd_fail(error, FFD_E_ARGUMENT,
-                                 "{size}: the spans along %c cannot be halved so often", direction));
-            next[k++] = middle;
-            halved++;
-        }
-        memcpy(t, next, k * sizeof *t);
-        count = k;
-        end += halved;
-        missing -= halved;
-    }
-end:
-    ffd_free(next);
-    return status;
+    memcpy(to->t, from->t, count * sizeof *to->t);
+    TRY(ffd_halve_spans(from->t, first, from->points, missing, to->t + count, &found, error));
+    if (found < missing)
+        return ffd_fail(error, FFD_E_ARGUMENT, "{size}: the spans along %c cannot be halved so often",
+                        direction);
+    qsort(to->t, count + missing, sizeof *to->t, compare_numbers);
+    return FFD_OK;
 }
 
 static ffd_status first_row(const knot_vector *knots, knot_row *row, ffd_error *error)
 {
     const bool closed = ffd_knots_closed(knots);
     TRY(make_row(knots->degree, knots->points, closed, row, error));
-    memcpy(row->t, knots->t + (closed ? knots->degree : 0), knot_count(row) * sizeof *row->t);
+    for (size_t i = 0; i < knot_count(row); i++)
+        row->t[i] = knots->t[i + (closed ? (size_t)knots->degree : 0)] + 0.0;
     return FFD_OK;
 }
 
@@ -220,12 +204,24 @@ static bool is_clamped(const knot_row *row)
     return row->closed || (row->t[0] >= row->t[d] && row->t[n + d] <= row->t[n]);
 }
 
-static ffd_status elevate(const refine_wish *wish, refine_plan *plan, ffd_error *error)
+static ffd_status check_limit(size_t points, char direction, size_t most, ffd_error *error)
+{
+    return points <= most
+               ? FFD_OK
+               : ffd_fail(error, FFD_E_LIMIT, "{size}: %zu control points along %c are more than %zu", points,
+                          direction, most);
+}
+
+static ffd_status elevate(const refine_wish *wish, char direction, size_t most, refine_plan *plan,
+                          ffd_error *error)
 {
     if (!is_clamped(&plan->rows[plan->count - 1])) {
         plan->count++;
         TRY(clamp_row(&plan->rows[plan->count - 2], &plan->rows[plan->count - 1], error));
     }
+    const knot_row *const row = &plan->rows[plan->count - 1];
+    TRY(check_limit(row->points + count_spans(row) * (size_t)(wish->degree - row->degree), direction, most,
+                    error));
     while (plan->rows[plan->count - 1].degree < wish->degree) {
         plan->count++;
         TRY(elevate_row(&plan->rows[plan->count - 2], &plan->rows[plan->count - 1], error));
@@ -236,10 +232,9 @@ static ffd_status elevate(const refine_wish *wish, refine_plan *plan, ffd_error 
 static ffd_status check_wish(const knot_row *last, const refine_wish *wish, char direction, size_t most,
                              ffd_error *error)
 {
-    const size_t points = last->points + wish->insert_count;
-    if (points > most || wish->points > most)
-        return ffd_fail(error, FFD_E_LIMIT, "{size}: %zu control points along %c are more than %zu",
-                        points > wish->points ? points : wish->points, direction, most);
+    const size_t points =
+        wish->insert_count > SIZE_MAX - last->points ? SIZE_MAX : last->points + wish->insert_count;
+    TRY(check_limit(points > wish->points ? points : wish->points, direction, most, error));
     if (wish->points > 0 && wish->points < points)
         return ffd_fail(
             error, FFD_E_ARGUMENT, "{size} %zu along %c is less than the %zu control points that are there%s",
@@ -258,7 +253,7 @@ ffd_status ffd_refine_plan(const knot_vector *knots, const refine_wish *wish, ch
                          direction, knots->degree, MAX_DEGREE, ffd_degree_hint(wish->degree)));
     TRY_END(first_row(knots, &plan->rows[0], error));
     if (wish->degree > knots->degree)
-        TRY_END(elevate(wish, plan, error));
+        TRY_END(elevate(wish, direction, most, plan, error));
     TRY_END(check_wish(&plan->rows[plan->count - 1], wish, direction, most, error));
     if (wish->insert_count > 0) {
         plan->count++;

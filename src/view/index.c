@@ -141,20 +141,24 @@ static void append_flipped(byte_buffer *html, const ffd_job_result *figures)
                           figures->flipped_faces > 0 ? " class=\"bad\"" : "", figures->flipped_faces);
 }
 
-/* Whether an absolute path begins here: at the beginning of a message, or after a blank or a quote. */
-static bool begins_path(const char *message, size_t i)
+/* Whether an absolute path begins here: at the beginning of a message, or after a blank or a quote. A JSON
+   pointer looks like one. */
+static bool begins_path(const char *message, size_t i, const char *pointer)
 {
+    const size_t length = pointer ? strlen(pointer) : 0;
+    if (length > 0 && strncmp(message + i, pointer, length) == 0 && message[i + length] == ':')
+        return false;
     return (i == 0 || message[i - 1] == ' ' || message[i - 1] == '"') && ffd_path_is_absolute(message + i);
 }
 
 /* Appends a message without the folders of the absolute paths in it. A path ends at a quote or colon; within
-   a message, where it is not quoted, at a blank too. */
-static void append_message(byte_buffer *html, const char *message)
+   a message, where it is not quoted, at a blank too. pointer: as of a row. */
+static void append_message(byte_buffer *html, const char *message, const char *pointer)
 {
     byte_buffer text = {0};
     for (size_t i = 0, end; message[i]; i = end) {
         end = i + 1;
-        if (begins_path(message, i)) {
+        if (begins_path(message, i, pointer)) {
             /* the colon of a drive is part of it */
             const size_t drive = message[i] != '/' && message[i] != '\\' ? 2 : 0;
             end = i + drive + strcspn(message + i + drive, i == 0 ? "\":" : "\": ");
@@ -179,7 +183,7 @@ static void append_state(byte_buffer *html, const index_row *row)
                       row->state == INDEX_FAILED ? " class=\"bad\"" : "", words[row->state]);
     if (row->error) {
         ffd_buffer_text(html, ": <span class=\"error\">");
-        append_message(html, row->error);
+        append_message(html, row->error, row->pointer);
         ffd_buffer_text(html, "</span>");
     }
     ffd_buffer_text(html, "</td>");

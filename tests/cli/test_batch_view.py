@@ -406,4 +406,16 @@ def the_index_keeps_folders_to_itself(run):
     check("<title>m.jsonl" in text and "none.obj: cannot be opened" in text and "none.json: cannot be opened" in text, text[-2000:])
 
 
+@case
+def the_index_says_where_in_a_file_a_job_has_failed(run):
+    """A JSON pointer begins as a path does, but is no secret; in a manifest and where a pattern names the meshes."""
+    start(run)
+    run.write("bad.json", lattice(moves=[{"at": [0, 0, 9], "by": [1, 0, 0]}]))
+    run.write("m.jsonl", lines_of([job(0, lattice=run.path("bad.json"))]))
+    for jobs in (["m.jsonl"], ["--in", "a.obj", "-l", run.path("bad.json"), "--out-dir", "out"]):
+        run.ffd("batch", *jobs, "--view", "pics", "--force", code=NO, err=anything)
+        error = re.search('class="error">([^<]*)', run.text("pics/index.html"))[1]
+        check(re.fullmatch(r"bad\.json:\d+: /moves/0/at/2: index 9 .*", error), error)
+
+
 main()

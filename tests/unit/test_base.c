@@ -1,4 +1,5 @@
 /* test_base.c - sizes, lower bounds, slots, buffers, words, paths, JSON text, messages, tiles, sorting. */
+#define _GNU_SOURCE /* pthread_setattr_default_np */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,6 +19,7 @@
 #include "base/text/buffer.h"
 #include "base/text/words.h"
 #include "json/json_text.h"
+#include <pthread.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -344,6 +346,32 @@ static void tiles_visit_each_item_once(void **state)
     (void)state;
 }
 
+#ifdef __GLIBC__
+/* Writes to all of 400 KB of the stack, as a search in a curved lattice does. */
+static void use_stack(void *context, size_t tile, size_t begin, size_t end, int worker)
+{
+    volatile char block[400 << 10];
+    (void)context, (void)begin, (void)end, (void)worker;
+    for (size_t i = 0; i < sizeof block; i += 1024)
+        block[i] = (char)tile;
+}
+
+/* Other C libraries give a thread 128 KB. */
+static void threads_have_the_stack_that_searches_need(void **state)
+{
+    (void)state;
+    pthread_attr_t before, small;
+    assert_int_equal(pthread_getattr_default_np(&before), 0);
+    assert_int_equal(pthread_attr_init(&small), 0);
+    assert_int_equal(pthread_attr_setstacksize(&small, (size_t)128 << 10), 0);
+    assert_int_equal(pthread_setattr_default_np(&small), 0);
+    ffd_parallel_tiles(64, 1, 4, use_stack, NULL);
+    assert_int_equal(pthread_setattr_default_np(&before), 0);
+    pthread_attr_destroy(&small);
+    pthread_attr_destroy(&before);
+}
+#endif
+
 typedef struct ordered_log {
     unsigned char made[1000]; /* by thread, for each tile */
     size_t in_slot[32];       /* tile + 1, until it is finished */
@@ -452,6 +480,9 @@ int main(void)
         cmocka_unit_test(the_last_up_to_a_key_is_the_first_where_all_are_beyond),
         cmocka_unit_test(tiles_visit_each_item_once),
         cmocka_unit_test(tiles_are_finished_in_their_order),
+#ifdef __GLIBC__
+        cmocka_unit_test(threads_have_the_stack_that_searches_need),
+#endif
         cmocka_unit_test(many_items_are_sorted),
         cmocka_unit_test(a_sort_hears_a_cancel_and_lacks_memory),
     };

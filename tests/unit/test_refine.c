@@ -255,6 +255,60 @@ static void boxes_and_presets_stay(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
+/* The mesh of a box that is not laid yet is found beside the file that names it. */
+static void boxes_round_meshes_keep_these(void **state)
+{
+    (void)state;
+    static const char text[] = "{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[4,4,4],"
+                               "\"rest\":{\"box\":{\"meshes\":[\"a.obj\",\"b.obj\"]},\"margin\":0.25}}";
+    const char *const path = "refine-meshes.json";
+    FILE *const file = fopen(path, "w");
+    ffd_lattice *lattice;
+    ffd_refine_desc desc;
+    char *before, *after;
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0 && fclose(file) == 0);
+    assert_int_equal(ffd_lattice_load(path, &lattice, NULL), FFD_OK);
+    ffd_refine_desc_init(&desc, sizeof desc);
+    desc.size[2] = 9;
+    ffd_lattice *refined = refine(lattice, &desc);
+    assert_text_has(refined, "\"a.obj\"");
+    assert_text_has(refined, "\"b.obj\"");
+    assert_text_has(refined, "\"margin\": 0.25");
+    assert_int_equal(ffd_lattice_get_mesh_count(refined), 2);
+    for (size_t i = 0; i < 2; i++) {
+        assert_int_equal(ffd_lattice_get_mesh(lattice, i, &before, NULL), FFD_OK);
+        assert_int_equal(ffd_lattice_get_mesh(refined, i, &after, NULL), FFD_OK);
+        assert_string_equal(before, after);
+        ffd_free(before);
+        ffd_free(after);
+    }
+    ffd_lattice_destroy(&refined);
+    ffd_lattice_destroy(&lattice);
+    remove(path);
+}
+
+/* Else it would depend on the system's qsort which of 0 and -0 comes first. */
+static void zeros_among_knots_have_one_sign(void **state)
+{
+    (void)state;
+    static const double zeros[] = {-0.0, 0.0};
+    ffd_lattice *lattice =
+        make("\"size\":[5,2,2],\"degree\":[2,1,1],\"knots\":[[-1,-1,-1,-0.0,0.5,1,1,1],"
+             "\"clamped\",\"clamped\"],\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[3,1,1]}}",
+             "");
+    for (int i = 0; i < 2; i++) {
+        ffd_refine_desc desc;
+        ffd_refine_desc_init(&desc, sizeof desc);
+        desc.insert[0] = &zeros[i];
+        desc.insert_count[0] = 1;
+        ffd_lattice *refined = refine(lattice, &desc);
+        assert_text_has(refined, "[-1, -1, -1, 0, 0, 0.5, 1, 1, 1]");
+        ffd_lattice_destroy(&refined);
+    }
+    ffd_lattice_destroy(&lattice);
+}
+
 static void assert_refused(const ffd_lattice *lattice, const ffd_refine_desc *desc, ffd_status expected,
                            const char *why)
 {
@@ -264,6 +318,8 @@ static void assert_refused(const ffd_lattice *lattice, const ffd_refine_desc *de
     assert_string_equal(message_of(&error), why);
     assert_null(refined);
 }
+
+#define RING "[2,0,0],[1,2,0],[-1,2,0],[-2,0,0],[-1,-2,0],[1,-2,0]"
 
 static void wishes_that_cannot_be_met_are_refused(void **state)
 {
@@ -300,6 +356,19 @@ static void wishes_that_cannot_be_met_are_refused(void **state)
     desc.insert_count[0] = 1;
     assert_refused(lattice, &desc, FFD_E_ARGUMENT,
                    "insert u: the knot 0 would be there 5 times; degree 3 allows 4 at an end of the domain");
+    desc.insert_count[0] = SIZE_MAX; /* nobody has so many */
+    assert_refused(lattice, &desc, FFD_E_LIMIT,
+                   "size: 18446744073709551615 control points along u are more than 67108864");
+    desc.insert_count[0] = 1;
+    ffd_lattice_destroy(&lattice);
+    /* The ends of a period are one knot: it is there 3 times already, at 0 and at 4. */
+    lattice =
+        make("\"size\":[6,2,2],\"degree\":[3,1,1],"
+             "\"knots\":[{\"closed\":[0,0,1,2,3,4,4]},\"clamped\",\"clamped\"],\"rest\":{\"points\":[" RING
+             "," RING "," RING "," RING "]}",
+             "");
+    assert_refused(lattice, &desc, FFD_E_ARGUMENT,
+                   "insert u: the knot 0 would be there 4 times; degree 3 allows 3 inside it");
     ffd_lattice_destroy(&lattice);
     lattice = make("\"size\":[4,4,4],\"rest\":{\"box\":\"mesh\"}", "{\"at\":[1,1,1],\"by\":[1,0,0]}");
     desc.insert[0] = often;
@@ -314,6 +383,8 @@ int main(void)
         cmocka_unit_test(a_refined_lattice_is_the_same_map),
         cmocka_unit_test(control_points_without_a_new_knot_keep_their_bits),
         cmocka_unit_test(boxes_and_presets_stay),
+        cmocka_unit_test(boxes_round_meshes_keep_these),
+        cmocka_unit_test(zeros_among_knots_have_one_sign),
         cmocka_unit_test(wishes_that_cannot_be_met_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

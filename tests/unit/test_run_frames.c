@@ -15,6 +15,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../support/repetitions.h"
+
 static pool_task task_of(uint64_t index, double reach, double away, ffd_up up)
 {
     pool_task task = {.index = index, .job = {.line = index + 1, .look = {.up = up}}};
@@ -81,6 +83,49 @@ static void other_options_are_those_of_fewer_jobs(void **state)
     }
 }
 
+/* Jobs that each have a camera of their own: a look at all groups for each would take minutes. */
+static void very_many_looks_of_one_mesh_are_told_apart_soon(void **state)
+{
+    (void)state;
+    const uint64_t count = (uint64_t)repetitions(100000);
+    run_frames frames = {0};
+    ffd_error error;
+    for (int pass = 0; pass < 2; pass++)
+        for (uint64_t i = 0; i < count; i++) {
+            pool_task task = task_of(i, (double)i + 1, 0, FFD_UP_Y);
+            task.job.look.camera[0] = 1;
+            task.job.look.camera[1] = (double)(i < 3 ? 0 : i);
+            if (pass == 0)
+                assert_int_equal(ffd_frames_add(&frames, &task, &mesh, &error), FFD_OK);
+            else
+                ffd_frames_choose(&frames, &task);
+            assert_true(pass == 0 || task.order.frame.displacement == (double)(i < 3 ? 3 : i + 1));
+        }
+    assert_int_equal(frames.left, count - 3);
+    ffd_frames_free(&frames);
+}
+
+/* The batch goes on to the ends of running jobs. */
+static void without_memory_jobs_have_no_frame(void **state)
+{
+    (void)state;
+    ffd_error error;
+    for (long successes = 0;; successes++) {
+        run_frames frames = {0};
+        pool_task task = task_of(0, 1, 0, FFD_UP_Y);
+        ffd_alloc_fail_after(successes);
+        const ffd_status first = ffd_frames_add(&frames, &task, &mesh, &error);
+        ffd_alloc_fail_after(-1);
+        assert_true(first == FFD_OK || first == FFD_E_MEMORY);
+        assert_int_equal(ffd_frames_add(&frames, &task, &mesh, &error), FFD_OK);
+        ffd_frames_choose(&frames, &task);
+        assert_true(task.order.frame.displacement == 1 && !task.own_frame);
+        ffd_frames_free(&frames);
+        if (!first)
+            return;
+    }
+}
+
 static void looks_differ_in_each_option(void **state)
 {
     (void)state;
@@ -103,6 +148,42 @@ static void looks_differ_in_each_option(void **state)
         const ffd_view_desc back = ffd_task_look_desc(&look, others[i].animation);
         const hash128 again = ffd_task_look_hash(&back);
         assert_true(ffd_hash_equal(&other, &again));
+    }
+}
+
+static void looks_that_mean_the_same_share_a_frame(void **state)
+{
+    (void)state;
+    ffd_view_desc plain, beside, walking;
+    ffd_view_desc_init(&plain, sizeof plain);
+    beside = walking = plain;
+    beside.camera[0] = 1;
+    beside.camera[1] = 0.5;
+    walking.animation = "walk";
+    const ffd_view_desc *const of[] = {&plain, &plain, &plain, &beside, &walking};
+    ffd_view_desc same[] = {plain, plain, plain, beside, walking};
+    same[0].width = 1600;
+    same[1].height = 900;
+    same[2].color = FFD_VIEW_DISPLACEMENT;
+    same[3].camera[0] = 3;
+    same[3].camera[1] = 1.5;
+    same[4].frames = 5;
+    for (size_t i = 0; i < sizeof same / sizeof *same; i++) {
+        const hash128 a = ffd_task_picture_hash(of[i]), b = ffd_task_picture_hash(&same[i]);
+        const hash128 c = ffd_task_look_hash(of[i]), d = ffd_task_look_hash(&same[i]);
+        assert_true(ffd_hash_equal(&a, &b));
+        if (ffd_hash_equal(&c, &d)) /* a page may tell them apart */
+            fail_msg("look %zu is that of the batch", i);
+    }
+    ffd_view_desc others[] = {plain, plain, plain, beside, walking};
+    others[0].width = 1601;
+    others[1].color = FFD_VIEW_PLAIN;
+    others[2].camera[0] = -1;
+    others[3].camera[1] = 0.25;
+    others[4].frames = 6;
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        const hash128 a = ffd_task_picture_hash(of[i]), b = ffd_task_picture_hash(&others[i]);
+        assert_false(ffd_hash_equal(&a, &b));
     }
 }
 
@@ -257,7 +338,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(frames_enclose_what_is_near),
                                        cmocka_unit_test(other_options_are_those_of_fewer_jobs),
+                                       cmocka_unit_test(very_many_looks_of_one_mesh_are_told_apart_soon),
+                                       cmocka_unit_test(without_memory_jobs_have_no_frame),
                                        cmocka_unit_test(looks_differ_in_each_option),
+                                       cmocka_unit_test(looks_that_mean_the_same_share_a_frame),
                                        cmocka_unit_test(jobs_come_back_as_they_were),
                                        cmocka_unit_test(records_come_back_in_their_order)};
     return cmocka_run_group_tests(tests, NULL, NULL);

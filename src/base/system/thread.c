@@ -21,6 +21,24 @@ static void *start(void *argument)
     return NULL;
 }
 
+/* The least stack of a thread. The search for u,v,w in a curved lattice has the Bezier coefficients of
+   degrees to 14 on it, 108,000 bytes a volume, and more than one; some C libraries give a thread 128 KB. */
+#define LEAST_STACK ((size_t)1 << 20)
+
+/* Starts a thread, with at least that stack where the system allows it. */
+static bool create(worker_thread *thread)
+{
+    pthread_attr_t own;
+    size_t size = 0;
+    const bool has_own = pthread_attr_init(&own) == 0;
+    if (has_own && pthread_attr_getstacksize(&own, &size) == 0 && size < LEAST_STACK)
+        pthread_attr_setstacksize(&own, LEAST_STACK);
+    const bool created = pthread_create(&thread->thread, has_own ? &own : NULL, start, thread) == 0;
+    if (has_own)
+        pthread_attr_destroy(&own);
+    return created;
+}
+
 /* Runs `run` in this many threads. Worker 0 is the calling thread, which does all the work if no others can
    be started. */
 static void start_workers(void (*run)(void *work, int index), void *work, int threads)
@@ -31,7 +49,7 @@ static void start_workers(void (*run)(void *work, int index), void *work, int th
         worker_thread *next = &others[started];
         *next =
             (worker_thread){.run = run, .work = work, .index = started + 1, .deadline = ffd_deadline_get()};
-        if (pthread_create(&next->thread, NULL, start, next) != 0)
+        if (!create(next))
             break;
         started++;
     }

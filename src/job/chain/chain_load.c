@@ -30,24 +30,24 @@ static void borrow_lattice(const chain_files *files, lattice_chain *chain, size_
 }
 
 /* Fits the lattice to its box, unless the box depends on the job's mesh. */
-static ffd_status fit(const chain_files *files, ffd_job_cache *cache, chain_link *link, bool *fitted,
-                      ffd_error *error)
+static ffd_status fit(const chain_files *files, ffd_job_cache *cache, ffd_lattice *lattice,
+                      path_list *box_files, bool *fitted, ffd_error *error)
 {
-    const bool names_meshes = ffd_lattice_get_mesh_count(link->lattice) > 0;
+    const bool names_meshes = ffd_lattice_get_mesh_count(lattice) > 0;
     mesh_boxes own = {0};
     fit_extent extent;
     ffd_status status = FFD_OK;
-    *fitted = !ffd_lattice_needs_bounds(link->lattice);
+    *fitted = !ffd_lattice_needs_bounds(lattice);
     if (*fitted || (!names_meshes && !files->shared))
         return FFD_OK;
     *fitted = true;
     if (names_meshes)
-        status = ffd_mesh_box_find(cache ? ffd_job_cache_mesh_boxes(cache) : &own, link->lattice, files->mesh,
-                                   &extent, &link->box_files, files->log, error);
+        status = ffd_mesh_box_find(cache ? ffd_job_cache_mesh_boxes(cache) : &own, lattice, files->mesh,
+                                   &extent, box_files, files->log, error);
     else
         extent = ffd_shown_box_extent(&files->shared->box);
     ffd_mesh_boxes_free(&own);
-    return status ? status : ffd_lattice_fit_extent(link->lattice, &extent, error);
+    return status ? status : ffd_lattice_fit_extent(lattice, &extent, error);
 }
 
 /* Adds to open the placeholders of a lattice that have no value, if it can be read once more. */
@@ -107,7 +107,7 @@ static ffd_status load_link(const chain_files *files, bool *used, lattice_chain 
     bool fitted = false;
     ffd_status status;
     TRY_END(load_lattice(files, used, i, link->stamp.size, &chain->memory, &link->lattice, error));
-    TRY_END(fit(files, chain->cache, link, &fitted, error));
+    TRY_END(fit(files, chain->cache, link->lattice, &link->box_files, &fitted, error));
     if (fitted)
         TRY_END(ffd_chain_prepare(chain, i, error));
 end:
@@ -191,6 +191,25 @@ end:
     ffd_free(used);
     if (status)
         ffd_chain_free(chain);
+    return status;
+}
+
+ffd_status ffd_chain_load_one(const chain_files *files, memory_budget *memory, ffd_lattice **lattice,
+                              path_list *box_files, ffd_error *error)
+{
+    bool *const used = ffd_alloc_zero(files->set_count, sizeof *used), fitted;
+    ffd_status status;
+    *lattice = NULL;
+    TRY_END(used ? FFD_OK : ffd_fail_memory(error));
+    TRY_END(load_lattice(files, used, 0, 0, memory, lattice, error));
+    TRY_END(refuse_unused(files, used, error));
+    TRY_END(fit(files, NULL, *lattice, box_files, &fitted, error));
+end:
+    ffd_free(used);
+    if (status) {
+        ffd_fail_name_file(error, files->lattices[0].path);
+        ffd_lattice_destroy(lattice);
+    }
     return status;
 }
 

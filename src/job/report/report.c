@@ -13,18 +13,17 @@ const char *ffd_report_outcome_name(report_outcome outcome)
     return names[outcome];
 }
 
-static void write_outcome(json_text *json, const report_entry *entry)
+void ffd_report_write_outcome(json_text *json, ffd_status status, const ffd_error *error, bool skipped)
 {
-    const ffd_status status = entry->result->status;
     char line[2048];
-    const report_outcome outcome = entry->skipped ? REPORT_SKIPPED : status ? REPORT_FAILED : REPORT_OK;
+    const report_outcome outcome = skipped ? REPORT_SKIPPED : status ? REPORT_FAILED : REPORT_OK;
     ffd_json_string(json, "status", ffd_report_outcome_name(outcome));
     ffd_json_count(json, "exit", (uint64_t)ffd_status_exit_code(status));
     if (!status) {
         ffd_json_null(json, "error");
         return;
     }
-    ffd_error_format(&entry->result->error, line, sizeof line);
+    ffd_error_format(error, line, sizeof line);
     ffd_json_string(json, "error", line);
 }
 
@@ -57,8 +56,9 @@ static void write_outputs(json_text *json, const report_entry *entry)
     ffd_json_end(json, ']');
 }
 
-static void write_entry(json_text *json, const report_entry *entry)
+static void write_entry(json_text *json, const void *context)
 {
+    const report_entry *const entry = context;
     ffd_json_object(json, NULL, false);
     if (entry->line)
         ffd_json_count(json, "line", entry->line);
@@ -77,7 +77,7 @@ static void write_entry(json_text *json, const report_entry *entry)
         ffd_json_string(json, "own_frame", entry->result->own_frame);
     if (entry->set)
         ffd_json_raw(json, "set", entry->set, strlen(entry->set));
-    write_outcome(json, entry);
+    ffd_report_write_outcome(json, entry->result->status, &entry->result->error, entry->skipped);
     if (entry->planned) {
         ffd_figures_write_unknown(json);
     } else if (!entry->figures || !copy_figures(json, entry->figures, entry->stable)) {
@@ -86,20 +86,25 @@ static void write_entry(json_text *json, const report_entry *entry)
     ffd_json_end(json, '}');
 }
 
-void ffd_report_entry_text(const report_entry *entry, byte_buffer *text)
+void ffd_report_indent_entry(report_entry_writer *write, const void *entry, byte_buffer *text)
 {
     byte_buffer whole = {0};
     json_text json;
     ffd_json_begin(&json, &whole);
     ffd_json_object(&json, NULL, false);
     ffd_json_array(&json, NULL, false);
-    const size_t before = whole.size; /* indented like an entry of a report */
-    write_entry(&json, entry);
+    const size_t before = whole.size;
+    write(&json, entry);
     const char *const start = whole.failed ? NULL : memchr(whole.data + before, '{', whole.size - before);
     if (start)
         ffd_buffer_append(text, start, whole.size - (size_t)(start - whole.data));
     text->failed = text->failed || !start;
     ffd_buffer_free(&whole);
+}
+
+void ffd_report_entry_text(const report_entry *entry, byte_buffer *text)
+{
+    ffd_report_indent_entry(write_entry, entry, text);
 }
 
 void ffd_report_figures(const ffd_job_result *result, byte_buffer *text)

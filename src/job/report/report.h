@@ -4,6 +4,7 @@
 
 #include "base/file/path_list.h"
 #include "base/text/buffer.h"
+#include "json/json_text.h"
 #include <ffd/job.h>
 
 /* The status of an entry. */
@@ -28,6 +29,13 @@ typedef struct report_entry {
     bool planned;        /* the job was not run, so its figures are unknown */
     bool stable;         /* leave out times */
 } report_entry;
+
+/* Writes an entry, an object, into the array of a report. */
+typedef void report_entry_writer(json_text *json, const void *entry);
+/* Appends the text that a writer makes of an entry, indented as in a report. */
+void ffd_report_indent_entry(report_entry_writer *write, const void *entry, byte_buffer *text);
+/* Writes the members status, exit and error of an entry. */
+void ffd_report_write_outcome(json_text *json, ffd_status status, const ffd_error *error, bool skipped);
 
 /* Appends the text of an entry. */
 void ffd_report_entry_text(const report_entry *entry, byte_buffer *text);

@@ -7,6 +7,7 @@
 #include "job/report/output_set.h"
 #include "job/report/replace.h"
 #include "job/report/report.h"
+#include "job/report/report_refine.h"
 #include "json/json_text.h"
 #include <string.h>
 
@@ -248,6 +249,26 @@ ffd_status ffd_report_add_text(ffd_report *report, uint64_t index, const char *t
     return FFD_OK;
 }
 
+/* Adds the text of an entry behind the others, and frees it. */
+static ffd_status add_last(ffd_report *report, byte_buffer *text, ffd_error *error)
+{
+    const ffd_status status = text->failed
+                                  ? ffd_fail_memory(error)
+                                  : ffd_report_add_text(report, report->count, text->data, text->size, error);
+    ffd_buffer_free(text);
+    return status;
+}
+
+ffd_status ffd_report_add_refine(ffd_report *report, const char *input, const char *output,
+                                 const ffd_refine_result *callers, ffd_error *error)
+{
+    ffd_refine_result result = {.struct_size = sizeof result};
+    byte_buffer text = {0};
+    TRY(ffd_struct_take(&result, sizeof result, callers, "ffd_refine_result", error));
+    ffd_report_refine_text(input, output, &result, report->stable, &text);
+    return add_last(report, &text, error);
+}
+
 /* Copies a caller's result, and its array of results of morph targets. *morphs is freed by the caller. */
 static ffd_status take_result(const ffd_job_result *callers, ffd_job_result *result, ffd_job_result **morphs,
                               ffd_error *error)
@@ -277,11 +298,7 @@ static ffd_status add_entry(ffd_report *report, const char *input, const char *o
                                 .stable = report->stable};
     byte_buffer text = {0};
     ffd_report_entry_text(&entry, &text);
-    const ffd_status status = text.failed
-                                  ? ffd_fail_memory(error)
-                                  : ffd_report_add_text(report, report->count, text.data, text.size, error);
-    ffd_buffer_free(&text);
-    return status;
+    return add_last(report, &text, error);
 }
 
 ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,

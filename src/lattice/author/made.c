@@ -102,6 +102,24 @@ static void set_knots(made_lattice *made, int a, lattice_spec *spec)
     made->knots[a] = NULL;
 }
 
+/* Keeps the meshes that the box is still to be laid round, and the file beside which they are. */
+static ffd_status copy_meshes(const lattice_spec *from, lattice_spec *spec, ffd_error *error)
+{
+    if (from->mesh_count == 0)
+        return FFD_OK;
+    ffd_free(spec->name);
+    spec->name = ffd_text_copy(from->name);
+    spec->meshes = ffd_alloc_zero(from->mesh_count, sizeof *spec->meshes);
+    if (!spec->name || !spec->meshes)
+        return ffd_fail_memory(error);
+    for (; spec->mesh_count < from->mesh_count; spec->mesh_count++) {
+        spec->meshes[spec->mesh_count] = ffd_text_copy(from->meshes[spec->mesh_count]);
+        if (!spec->meshes[spec->mesh_count])
+            return ffd_fail_memory(error);
+    }
+    return FFD_OK;
+}
+
 /* Sets the rest as a box: that of the file, or as it was laid round a mesh, or still to be laid. */
 static ffd_status set_box(const made_lattice *made, lattice_spec *spec, ffd_error *error)
 {
@@ -113,7 +131,9 @@ static ffd_status set_box(const made_lattice *made, lattice_spec *spec, ffd_erro
     spec->has_axes = from->has_axes;
     spec->spacing = FFD_SPACING_GREVILLE;
     spec->rest = made->from->rest ? SPEC_BOX : from->rest;
-    if (!made->from->rest || from->rest != SPEC_BOX_MESH)
+    if (!made->from->rest)
+        return copy_meshes(from, spec, error);
+    if (from->rest != SPEC_BOX_MESH)
         return FFD_OK;
     return ffd_shape_grow_box(made->from->fitted.min, made->from->fitted.max, from->margin, spec->box_min,
                               spec->box_max, error);

@@ -1,10 +1,11 @@
 /* refine.c - ffd_lattice_refine: the same map with more control points or of higher degree. */
-#include "spline/refine.h"
+#include "lattice/author/refine.h"
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
 #include "lattice/author/made.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
+#include "spline/refine.h"
 #include <ffd/author.h>
 #include <stdint.h>
 #include <string.h>
@@ -233,6 +234,26 @@ static ffd_status refine(refinement *of, ffd_error *error)
     return refine_plain(of, from->rest ? from->difference : from->spec->deformed_offsets, error);
 }
 
+static void free_plans(refinement *of)
+{
+    for (int a = 0; a < 3; a++)
+        ffd_refine_plan_free(&of->plans[a]);
+}
+
+ffd_status ffd_lattice_refined_size(const ffd_lattice *lattice, const ffd_refine_desc *desc, size_t size[3],
+                                    ffd_error *error)
+{
+    ffd_refine_desc own;
+    refinement of = {.lattice = lattice};
+    ffd_refine_desc_init(&own, sizeof own);
+    TRY(ffd_struct_take(&own, sizeof own, desc, "ffd_refine_desc", error));
+    const ffd_status status = make_plans(&of, &own, error);
+    for (int a = 0; a < 3 && !status; a++)
+        size[a] = last_row(&of.plans[a])->points;
+    free_plans(&of);
+    return status;
+}
+
 ffd_status ffd_lattice_refine(const ffd_lattice *lattice, const ffd_refine_desc *desc, ffd_lattice **refined,
                               ffd_error *error)
 {
@@ -248,10 +269,9 @@ ffd_status ffd_lattice_refine(const ffd_lattice *lattice, const ffd_refine_desc 
     TRY_END(refine(&of, error));
     TRY_END(ffd_made_finish(&made, refined, error));
 end:
-    for (int a = 0; a < 3; a++) {
-        ffd_refine_plan_free(&of.plans[a]);
+    free_plans(&of);
+    for (int a = 0; a < 3; a++)
         ffd_free(of.copied[a]);
-    }
     ffd_made_free(&made);
     return status;
 }

@@ -1,0 +1,111 @@
+#include "job/author/author_job.h"
+#include "base/file/mapping.h"
+#include "job/chain/chain_load.h"
+#include "job/input/deform_desc.h"
+#include "job/input/shown_box.h"
+#include "job/input/source.h"
+#include "job/reads.h"
+#include "job/report/output_set.h"
+#include "lattice/file/lattice_source.h"
+#include "lattice/file/spec_text.h"
+
+static ffd_status check_desc(const author_job *job, ffd_error *error)
+{
+    bool is_complete = job->lattice->path && job->output && ffd_desc_has_settings(job->set, job->set_count) &&
+                       ffd_desc_has_texts(job->only, job->only_count);
+    for (size_t i = 0; i < job->mesh_count && is_complete; i++)
+        is_complete = job->meshes && job->meshes[i].path;
+    if (!is_complete)
+        return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
+    if (job->only_count > 0 && job->mesh_count == 0)
+        return ffd_fail(error, FFD_E_ARGUMENT, "{only} chooses parts of {meshes}, but there are none");
+    return FFD_OK;
+}
+
+/* What is read is never replaced, not with force either. */
+static ffd_status check_output(const author_job *job, ffd_error *error)
+{
+    if (job->sink)
+        return FFD_OK;
+    bool is_input = ffd_job_reads_lattice(job->lattice, 1, job->output);
+    for (size_t i = 0; i < job->mesh_count; i++)
+        is_input = is_input || ffd_job_reads_mesh(&job->meshes[i], job->output);
+    if (is_input)
+        return ffd_fail_file(error, FFD_E_EXISTS, job->output, "is an input of this command");
+    for (size_t i = 0; i < job->mesh_count; i++)
+        TRY(ffd_job_check_mesh_files(job->output, &job->meshes[i], NULL, error));
+    if (ffd_format_from_name(job->output) != FFD_FORMAT_AUTO)
+        return ffd_fail_file(error, FFD_E_ARGUMENT, job->output,
+                             "a lattice file is JSON, but the output has the ending of a mesh");
+    return ffd_output_check(job->output, job->force, error);
+}
+
+/* Measures the box round the job's own meshes. */
+static ffd_status measure(const author_job *job, ffd_shared_box *box, ffd_error *error)
+{
+    ffd_shown_box_clear(&box->box);
+    for (size_t i = 0; i < job->mesh_count; i++)
+        TRY(ffd_shown_box_add(&box->box, &job->meshes[i], job->only, job->only_count, &box->files, &job->log,
+                              error));
+    if (job->mesh_count > 0 && !(box->box.all.min[0] <= box->box.all.max[0]))
+        return ffd_fail_file(error, FFD_E_INVALID, ffd_source_name(&job->meshes[0]),
+                             "there is no vertex that the lattice could go round");
+    return FFD_OK;
+}
+
+/* Meshes are given for the box of a lattice that names none itself. */
+static ffd_status refuse_meshes(const author_job *job, const ffd_lattice *lattice, ffd_error *error)
+{
+    const bool names_own = ffd_lattice_get_mesh_count(lattice) > 0;
+    if (job->mesh_count == 0 || (ffd_lattice_needs_bounds(lattice) && !names_own))
+        return FFD_OK;
+    return ffd_fail_file(error, FFD_E_ARGUMENT, job->lattice->path,
+                         "{meshes} cannot be used: the lattice does not go round %s",
+                         names_own ? "other meshes than those that it names" : "a mesh");
+}
+
+static ffd_status load(const author_job *job, author_input *input, ffd_error *error)
+{
+    ffd_shared_box box = {0};
+    const chain_files files = {.lattices = job->lattice,
+                               .count = 1,
+                               .set = job->set,
+                               .set_count = job->set_count,
+                               .mesh = job->reading,
+                               .shared = job->mesh_count > 0 ? &box : NULL,
+                               .log = &job->log};
+    ffd_status status;
+    TRY_END(measure(job, &box, error));
+    TRY_END(ffd_chain_load_one(&files, &input->memory, &input->lattice, &input->files, error));
+    TRY_END(refuse_meshes(job, input->lattice, error));
+end:
+    ffd_paths_free(&box.files);
+    return status;
+}
+
+ffd_status ffd_author_begin(const author_job *job, author_input *input, ffd_error *error)
+{
+    const unsigned losses = ffd_mapping_losses();
+    *input = (author_input){.memory = ffd_budget_make(job->reading->memory)};
+    TRY(check_desc(job, error));
+    TRY(check_output(job, error));
+    TRY(ffd_mapping_judge(losses, load(job, input, error), error));
+    return job->sink ? FFD_OK : ffd_job_check_box(job->output, &input->files, job->lattice, error);
+}
+
+void ffd_author_end(author_input *input)
+{
+    ffd_lattice_destroy(&input->lattice);
+    ffd_paths_free(&input->files);
+}
+
+ffd_status ffd_author_write(const author_job *job, const ffd_lattice *made, ffd_error *error)
+{
+    file_output *output;
+    TRY(ffd_output_create(&output, error));
+    ffd_output_record(output, ffd_output_set_list(job->output_set));
+    ffd_output_redirect(output, job->sink, job->sink_user);
+    const ffd_status status = ffd_lattice_write(made, output, job->output, job->force, error);
+    ffd_output_destroy(&output);
+    return status;
+}

@@ -1,0 +1,151 @@
+/* refine_job.c - the job of `ffd lattice refine`. */
+#include "base/memory/memory.h"
+#include "base/struct_size.h"
+#include "base/system/clock.h"
+#include "base/system/thread.h"
+#include "job/author/author_job.h"
+#include "job/chain/lattice_memory.h"
+#include "job/input/in_memory.h"
+#include "lattice/author/difference.h"
+#include "lattice/author/refine.h"
+#include "lattice/file/lattice_source.h"
+#include <inttypes.h>
+#include <string.h>
+
+void ffd_lattice_refine_desc_init(ffd_lattice_refine_desc *desc, size_t size)
+{
+    const ffd_lattice_refine_desc defaults = {.struct_size = sizeof defaults};
+    ffd_struct_give(&defaults, sizeof defaults, desc, size);
+}
+
+static void note_shape(const ffd_lattice *lattice, size_t size[3], int degree[3])
+{
+    for (int a = 0; a < 3; a++) {
+        size[a] = lattice->size[a];
+        degree[a] = lattice->knots[a].degree;
+    }
+}
+
+/* Takes the memory of the refined lattice, before any of it is used. Its degrees change little. */
+static ffd_status take_memory_of(const ffd_lattice *from, const ffd_refine_desc *refine, author_input *input,
+                                 ffd_error *error)
+{
+    lattice_spec spec = {.count = 1, .weights = from->rest_weights};
+    TRY(ffd_lattice_refined_size(from, refine, spec.size, error));
+    for (int a = 0; a < 3; a++)
+        spec.count *= spec.size[a];
+    return ffd_lattice_memory_take(&input->memory, &spec, 0, error);
+}
+
+static void tell(const author_job *job, const ffd_refine_result *r)
+{
+    ffd_log_line(
+        &job->log, FFD_LOG_INFO,
+        "%s: %zu x %zu x %zu control points of degree %d, %d, %d become %zu x %zu x %zu of degree %d, "
+        "%d, %d; the maps differ by at most %.2g",
+        ffd_lattice_name(job->lattice), r->size_before[0], r->size_before[1], r->size_before[2],
+        r->degree_before[0], r->degree_before[1], r->degree_before[2], r->size[0], r->size[1], r->size[2],
+        r->degree[0], r->degree[1], r->degree[2], r->largest_difference);
+}
+
+/* Makes the lattice and measures it. */
+static ffd_status make(const ffd_lattice_refine_desc *desc, author_input *input, ffd_lattice **made,
+                       ffd_refine_result *result, ffd_error *error)
+{
+    TRY(take_memory_of(input->lattice, desc->refine, input, error));
+    TRY(ffd_lattice_refine(input->lattice, desc->refine, made, error));
+    note_shape(*made, result->size, result->degree);
+    return desc->measure ? ffd_lattice_difference(input->lattice, *made, desc->threads,
+                                                  &result->largest_difference, error)
+                         : FFD_OK;
+}
+
+static ffd_status refine(const author_job *job, const ffd_lattice_refine_desc *desc,
+                         ffd_refine_result *result, ffd_error *error)
+{
+    const double start = ffd_clock_seconds();
+    author_input input;
+    ffd_lattice *made = NULL;
+    ffd_status status;
+    TRY_END(ffd_author_begin(job, &input, error));
+    note_shape(input.lattice, result->size_before, result->degree_before);
+    const double read = ffd_clock_seconds();
+    result->seconds.read = read - start;
+    TRY_END(make(desc, &input, &made, result, error));
+    const double refined = ffd_clock_seconds();
+    result->seconds.refine = refined - read;
+    TRY_END(ffd_author_write(job, made, error));
+    result->seconds.write = ffd_clock_seconds() - refined;
+    if (desc->measure)
+        tell(job, result);
+end:
+    if (status && status != FFD_E_ARGUMENT)
+        ffd_fail_name_file(error, desc->lattice.path);
+    ffd_lattice_destroy(&made);
+    ffd_author_end(&input);
+    return status;
+}
+
+/* Registers what is in memory under paths, in a copy of the array of meshes, which the caller frees. */
+static ffd_status take_memory(job_memory *memory, ffd_lattice_refine_desc *desc, ffd_source **meshes,
+                              ffd_error *error)
+{
+    const size_t count = desc->meshes ? desc->mesh_count : 0;
+    TRY(ffd_in_memory_lattice(&desc->lattice, "the lattice", "lattice", error));
+    *meshes = ffd_alloc(count, sizeof **meshes);
+    if (!*meshes)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < count; i++) {
+        (*meshes)[i] = desc->meshes[i];
+        TRY(ffd_in_memory_source(memory, &(*meshes)[i], error));
+    }
+    desc->meshes = count > 0 ? *meshes : NULL;
+    return ffd_in_memory_output(desc->sink, desc->output, error);
+}
+
+static ffd_status run(ffd_lattice_refine_desc *desc, job_memory *memory, ffd_refine_result *result,
+                      ffd_error *error)
+{
+    ffd_source *meshes = NULL;
+    ffd_status status;
+    TRY_END(desc->refine ? ffd_threads_check(desc->threads, error)
+                         : ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete"));
+    TRY_END(take_memory(memory, desc, &meshes, error));
+    const author_job job = {.lattice = &desc->lattice,
+                            .set = desc->set,
+                            .set_count = desc->set_count,
+                            .meshes = desc->meshes,
+                            .mesh_count = desc->mesh_count,
+                            .only = desc->only,
+                            .only_count = desc->only_count,
+                            .reading = &desc->reading,
+                            .output = desc->output,
+                            .force = desc->force,
+                            .output_set = desc->output_set,
+                            .log = {desc->log, desc->log_user},
+                            .sink = desc->sink,
+                            .sink_user = desc->sink_user};
+    TRY_END(refine(&job, desc, result, error));
+end:
+    ffd_free(meshes);
+    return status;
+}
+
+ffd_status ffd_lattice_refine_run(const ffd_lattice_refine_desc *callers, ffd_refine_result *callers_result,
+                                  ffd_error *error)
+{
+    ffd_lattice_refine_desc desc;
+    ffd_refine_result result = {.struct_size = sizeof result, .largest_difference = -1};
+    ffd_lattice_refine_desc_init(&desc, sizeof desc);
+    TRY(ffd_struct_take(&desc, sizeof desc, callers, "ffd_lattice_refine_desc", error));
+    if (callers_result)
+        TRY(ffd_struct_check(sizeof result, callers_result, "ffd_refine_result", error));
+    job_memory memory = {0};
+    const ffd_status status = run(&desc, &memory, &result, &result.error);
+    result.status = ffd_in_memory_end(&memory, status, &result.error);
+    if (result.status && error)
+        *error = result.error;
+    if (callers_result)
+        ffd_struct_give(&result, sizeof result, callers_result, callers_result->struct_size);
+    return result.status;
+}
