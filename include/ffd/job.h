@@ -717,7 +717,8 @@ FFD_API ffd_status ffd_report_merge_run(const char *const *reports, size_t count
 /* `ffd report junit`: writes count reports, or comparisons of two folders (ffd_compare_folders_json), as
    JUnit XML to output: a suite for each, a case for each job or mesh. A job with exit code 1, or a mesh that
    differs, is a failure; one with another exit code, or that could not be read, an error. Names, force and
-   errors: as of ffd_report_merge_run. */
+   errors: as of ffd_report_merge_run; also FFD_E_EXISTS if output is one of the reports, which would be lost.
+ */
 FFD_API ffd_status ffd_report_junit_run(const char *const *reports, size_t count, const char *output,
                                         bool force, ffd_error *error);
 

@@ -48,8 +48,8 @@ FFD_API void ffd_make_one_line(char *text, size_t size);
 /* Returns the entry of known (count words) that is most similar to word by edit distance, the first one if
    there are several; NULL if count is 0. Thread-safe. */
 FFD_API const char *ffd_nearest_word(const char *word, const char *const *known, size_t count);
-/* Returns that entry if it is what an unknown word means; NULL if it is not similar enough, or others are as
-   similar. Thread-safe. */
+/* Returns that entry if it is what an unknown word means; NULL if it is not similar enough, if others are as
+   similar, or if the word is that entry with a minus, its opposite. Thread-safe. */
 FFD_API const char *ffd_word_meant(const char *word, const char *const *known, size_t count);
 
 /* Returns whether both paths lead to the same file, which need not exist yet; false if memory runs out.

@@ -109,6 +109,17 @@ static void check_interrupts(batch_run *run)
         ffd_pool_stop(run->pool);
 }
 
+/* With --stop a job that is not valid ends the run before those after it begin. */
+static ffd_status heed_invalid(batch_run *run, ffd_error *error)
+{
+    if (!run->desc->given->stop || run->frames.are_drawn)
+        return FFD_OK;
+    TRY(ffd_run_note_ends(run, error));
+    if (run->ending)
+        drop_waiting(run);
+    return FFD_OK;
+}
+
 /* If the rest of the manifest cannot be read, or no worker can be started, the running jobs are still
    finished. */
 static ffd_status begin_jobs(batch_run *run, ffd_error *error)
@@ -117,6 +128,7 @@ static ffd_status begin_jobs(batch_run *run, ffd_error *error)
     TRY_END(run->frames.are_drawn ? ffd_run_take_waiting(run, error) : read_jobs(run, error));
     if (!run->frames.are_drawn)
         TRY_END(ffd_run_claim_tasks(run, error));
+    TRY_END(heed_invalid(run, error));
     if (!run->ending)
         TRY_END(ffd_pool_assign(run->pool, run->tasks, run->count, error));
 end:

@@ -102,8 +102,11 @@ static bool set_margin(void *context, const cli_option *option, const char *valu
 static void hint_axis(const char *value, char hint[CLI_HINT])
 {
     static const char *const known[] = {"x", "y", "z"};
-    const char *const meant = ffd_word_meant(value, known, 3);
-    if (meant && *value == '-')
+    const size_t length = strlen(value);
+    const bool is_signed = length == 2 && (value[0] == '-' || value[1] == '-');
+    const char letter[] = {length == 2 && value[0] == '-' ? value[1] : value[0], 0};
+    const char *const meant = ffd_word_meant(is_signed ? letter : value, known, 3);
+    if (meant && is_signed)
         snprintf(hint, CLI_HINT, " (that direction is %s)",
                  *meant == 'x'   ? "-1,0,0"
                  : *meant == 'y' ? "0,-1,0"

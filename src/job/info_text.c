@@ -11,8 +11,10 @@
 
 #define INDENT 2
 #define GAP 2
+/* Wider names do not widen the column: blanks beside all the others would be many times the file. */
+#define WIDEST 100
 
-/* A walk over the JSON. The first one measures the widest name, the second one writes. */
+/* A walk over the JSON. The first one measures the widest name up to WIDEST, the second one writes. */
 typedef struct renderer {
     const json_tree *facts;
     byte_buffer *out; /* NULL in the first walk */
@@ -127,19 +129,32 @@ static void write_name(byte_buffer *out, const char *name)
         ffd_buffer_append(out, *c == '_' || (unsigned char)*c < 0x20 ? " " : c, 1);
 }
 
+/* Makes room in the column for a name of this width with its indent. */
+static void make_room(renderer *r, size_t used)
+{
+    if (used <= WIDEST && used > r->width)
+        r->width = used;
+}
+
+/* Ends the column after a name. */
+static void write_gap(renderer *r, size_t used)
+{
+    write_spaces(r->out, (used < r->width ? r->width - used : 0) + GAP);
+}
+
 /* value JSON_NONE: write the name alone. */
 static void render_line(renderer *r, size_t depth, const char *name, uint32_t value)
 {
     const size_t used = INDENT * depth + text_width(name);
     if (!r->out) {
-        if (value != JSON_NONE && used > r->width)
-            r->width = used;
+        if (value != JSON_NONE)
+            make_room(r, used);
         return;
     }
     write_spaces(r->out, INDENT * depth);
     write_name(r->out, name);
     if (value != JSON_NONE) {
-        write_spaces(r->out, r->width + GAP - used);
+        write_gap(r, used);
         write_value(r, value);
     }
     ffd_buffer_text(r->out, "\n");
@@ -199,12 +214,12 @@ static bool begin_named(renderer *r, size_t depth, const char *name)
 {
     const size_t used = INDENT * depth + text_width(name);
     if (!r->out) {
-        r->width = used > r->width ? used : r->width;
+        make_room(r, used);
         return false;
     }
     write_spaces(r->out, INDENT * depth);
     write_string(r->out, name);
-    write_spaces(r->out, r->width + GAP - used);
+    write_gap(r, used);
     return true;
 }
 

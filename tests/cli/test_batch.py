@@ -372,6 +372,12 @@ def stop_after_a_failure(run):
     run.write("m.jsonl", lines_of([job(500), "bad", job(501)]))
     batch(run, "m.jsonl", "-j1", "--stop", done=1, failed=["^m.jsonl:2"])
     check(not run.exists("o501.obj"), "a job after a malformed line was begun")
+    # What is no job at the beginning, with any number of workers: they have nothing to do yet.
+    for line in ("bad", {"in": "a.obj", "lattice": "l.json"}):
+        for workers in ("1", "4"):
+            run.write("m.jsonl", lines_of([line, *[job(i) for i in range(600, 606)]]))
+            batch(run, "m.jsonl", "-j", workers, "--stop", "--report", "r.json", failed=["^m.jsonl:1"], more="(--stop)")
+            check(not run.exists("o600.obj"), "a job after the first line was begun")
 
 
 @case

@@ -225,9 +225,15 @@ def dialects_of_tables(run):
                         ("out|H\nb.obj|1\n", 'line 1: the columns are separated by bars: numbers may have a decimal comma'),
                         ("out,H\nb.obj,1\n,\n , \n", 'line 3: all cells of the row are empty: its job has the values of --set and the '
                                                         'defaults (the first of 2 such)'),
+                        ("out H\nb.obj 1\n", 'line 1: the table has one column, "out H": commas, semicolons, tabs and bars separate columns, '
+                                               'blanks and colons do not'),
+                        ("# H : out\n1 : b.obj\n", 'line 1: the table has one column, "# H : out": commas, semicolons, tabs and bars '
+                                                   'separate columns, blanks and colons do not'),
                         ("out , H\nb.obj, 1\n", 'line 1: blanks beside "out" are left out (the first of 2 such)')):
         check("t.csv: " + told in sets_of(run, table, "--out-dir", ".", code=(OK, NO))[1], table)
     # What only looks like it.
+    for table in ("out H,out\n1,b.obj\n", "out\nb.obj\n", " out \nb.obj\n", "outer H\n1\n", "no H\n1\n"):
+        check(not [line for line in sets_of(run, table, "--out-dir", ".", code=(OK, NO))[1] if "has one column" in line], table)
     for table in ("sep=\nb.obj\n", "sep=:\nb.obj\n", "sep=;;\nb.obj;1;2\n"):
         check(not [line for line in sets_of(run, table, "--out-dir", ".", code=(OK, NO))[1] if "names the separator" in line], table)
     run.write("t.csv", "sep=;\n")

@@ -643,6 +643,24 @@ def a_mirrored_half_keeps_its_mesh(run):
 
 
 @case
+def a_flat_mirrored_half_keeps_its_mesh(run):
+    """Flat at 0 along an axis, or as a whole on x = 0: there the results are rounding alone, and differ in all their digits."""
+    numbers = random.Random(5)
+    taper, rotate = {"taper": {"axis": "y", "factor": 0.5}}, {"rotate": {"axis": "x", "degrees": 30}}
+    twist = {"twist": {"axis": "y", "degrees": 360}}
+    for flat in (0, 1, 2):
+        points = [[0 if a == flat else numbers.choice([0, numbers.random()]) for a in range(3)] for _ in range(60)]
+        for move, mirror, parent in ((taper, [-1, 1, 1], {}), (rotate, [-1, 1, 1], {}), (twist, [-1, 1, -1], {}),
+                                     (twist, [-1, 1, -1], {"rotation": [0, 0.6, 0, 0.8]})):
+            scene = Scene(nodes=[PLAIN, PLAIN | {"scale": mirror}, {"children": [0, 1]} | parent], scenes=[{"nodes": [2]}])
+            scene.asset["meshes"] = [{"primitives": [{"attributes": {"POSITION": scene.add(points, bounds=True)}, "mode": 0}]}]
+            out = deformed(run, scene, lattice(size=(6, 6, 6), low=(-2, -2, -2), high=(2, 2, 2), moves=[move]))
+            equal(len(glb_split(out)[0]["meshes"]), 1, f"flat along {flat}: {move}, {parent}")
+            if move == rotate:
+                near([p[0] for p in vectors(out, 0)], [p[0] for p in points], 1e-7)
+
+
+@case
 def what_differs_by_more_gets_a_copy_as_before(run):
     """Of two mirrored pairs the second stands elsewhere: it shares one copy."""
     shift = {"translation": [0, 0.05, 0]}

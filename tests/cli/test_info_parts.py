@@ -65,6 +65,18 @@ def parts_of_an_obj(run):
 
 
 @case
+def one_long_name_widens_no_other_line(run):
+    """Of a file of 100 kB the text had 20 MB, of one of 5 MB hundreds of gigabytes."""
+    long, names = "x" * 100000, [f"y{i}" for i in range(200)]
+    run.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + "".join(f"g {name}\nf 1 2 3\n" for name in [long, *names, "z" * 80]))
+    lines = run.ffd("info", "a.obj", "--parts").text.splitlines()
+    told = [line.split(None, 1) for line in lines if "3 vertices, 1 face" in line]
+    check(f"group:{long}  3 vertices, 1 face, from 0 0 0 to 1 1 0" in [line.strip() for line in lines], "the long name")
+    equal(sorted(name for name, _ in told), sorted(f"group:{name}" for name in [long, *names, "z" * 80]))
+    equal({line.index("3 vertices") for line in lines if "3 vertices, 1 face" in line and long not in line}, {2 + 6 + 80 + 2}, "the column")
+
+
+@case
 def every_name_is_one_that_only_takes(run):
     run.write("a.obj", SHEET)
     run.write("l.json", lattice(low=(-9, -9, -9), high=(9, 9, 9), moves=[{"by": [1, 0, 0]}]))

@@ -165,7 +165,8 @@ def a_mesh_without_vertices_is_warned_of(run):
 
 @case
 def rows_behind_those_that_are_stated(run):
-    """A PLY with a third vertex where two are stated: a line says it, --strict refuses it, and it stays."""
+    """A PLY with a third vertex where two are stated: a line says it, --strict refuses it, and it stays. An OFF with a second
+    face; with a fourth vertex, which is taken for the face."""
     header = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
     said = "6 bytes stand behind the rows that the header states: they stay as they are"
     run.write("a.ply", header + "0 0 0\n1 0 0\n7 7 7\n")
@@ -175,6 +176,16 @@ def rows_behind_those_that_are_stated(run):
     run.ffd("info", "a.ply", "--strict", code=INVALID, err=re.compile("behind the rows"))
     run.write("b.ply", header + "0 0 0\n1 0 0\n \n\n")
     run.ffd("info", "b.ply", "--strict")
+    header, face = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n", "3 0 1 2\n"
+    for rows, line in ((face + face, 7), ("0 0 5\n" + face, 7), (face + "# a comment\n\n" + face, 9)):
+        run.write("a.off", header + rows)
+        said = f"a.off: line {line}: 8 bytes stand behind the faces that the header states: they stay as they are"
+        run.ffd("deform", "a.off", "o.off", "-l", "l.json", "--outside", "extend", "--force", err=said)
+        check(run.text("o.off").endswith(rows), run.text("o.off"))
+        run.ffd("info", "a.off", "--strict", code=INVALID, err=re.compile("behind the faces"))
+    for rows in (face, face + "\n \n# a comment\n", face[:-1]):
+        run.write("b.off", header + rows)
+        run.ffd("info", "b.off", "--strict")
 
 
 main()

@@ -83,6 +83,7 @@ def comparisons_of_folders(run):
         ("same.obj", "B", None, None), ("only.obj", "B", "failure", "only in a")])])
     run.ffd("report", "junit", "-", "-o", "y.xml", stdin=comparison.out)
     equal(suites(run, "y.xml")[0][0], "standard input")
+    run.ffd("report", "junit", "/dev/null", "-o", "z.xml", code=INVALID, err="/dev/null:1: not a report: '{' is expected, found the end")
 
 
 @case
@@ -101,6 +102,12 @@ def what_is_refused(run):
     equal(suites(run, "x.xml"), [("r.json", [0, 0, 0, 0], [])])
     run.ffd("report", "junit", "r.json", "-o", "x.xml", code=IO)
     run.ffd("report", "junit", "r.json", "-o", "x.xml", "--force")
+    # What it reads is not lost, by whatever name.
+    before = run.read("r.json")
+    os.symlink("r.json", run.path("link.xml"))
+    for output in ("r.json", "./r.json", "link.xml"):
+        run.ffd("report", "junit", "r.json", "-o", output, "--force", code=IO, err=f"{output}: is an input of this command")
+        equal(run.read("r.json"), before)
 
 
 main()

@@ -473,10 +473,10 @@ def artist_10_hints_name_what_is_meant(run):
     axes = 'unknown word "{}"; known ones are "x", "y", "z"'
     nearest = 'unknown word "{}"; the nearest known one is "{}"'
     for word, why in (("Y", nearest.format("Y", "y")), ("Z", nearest.format("Z", "z")), ("-y", sign.format("-y", "0, -1, 0")),
-                      ("-Z", sign.format("-Z", "0, 0, -1")), ("+x", nearest.format("+x", "x")), ("up", axes.format("up")), ("w", axes.format("w")),
+                      ("-Z", sign.format("-Z", "0, 0, -1")), ("x-", sign.format("x-", "-1, 0, 0")), ("Y-", sign.format("Y-", "0, -1, 0")), ("+x", nearest.format("+x", "x")), ("up", axes.format("up")), ("w", axes.format("w")),
                       ("XY", axes.format("XY"))):
         for move, at in (({"twist": {"axis": word, "degrees": 90}}, "twist/axis"),
-                         ({"bend": {"axis": "x" if word[-1] in "Yy" else "y", "toward": word, "degrees": 9}}, "bend/toward")):
+                         ({"bend": {"axis": "x" if "y" in word.lower() else "y", "toward": word, "degrees": 9}}, "bend/toward")):
             run.write("l.json", lattice(moves=[move]))
             run.ffd("check", "m.obj", "-l", "l.json", code=INVALID, err=f"l.json:1: /moves/0/{at}: {why}")
     for word in ("Top", "al", "ALL", "lst", "-1"):
@@ -504,8 +504,14 @@ def artist_10_hints_name_what_is_meant(run):
         run.ffd("check", "m.obj", "-l", "l.json", *words, code=USAGE, err=why)
     run.ffd("view", "m.obj", "-o", "v.png", "--camera", "Front", code=USAGE,
             err='--camera: "Front" is not front, back, left, right, top, bottom, iso or a direction like 1,0.5,2 (nearest: front)')
+    for side in ("-front", "top-"):
+        run.ffd("view", "m.obj", "-o", "v.png", "--camera", side, code=USAGE,
+                err=f'--camera: "{side}" is not front, back, left, right, top, bottom, iso or a direction like 1,0.5,2')
+    for up, why in (("-y", ""), ("Z-", ""), ("Z", " (nearest: z)"), ("+x", " (nearest: x)")):
+        run.ffd("view", "m.obj", "-o", "v.png", "--up", up, code=USAGE, err=f'--up: "{up}" is not one of y, z, x{why}')
     for words, why in ((["--axis", "Y"], "x, y, z or a direction like 0,1,1 (nearest: y)"), (["--axis", "up"], "x, y, z or a direction like 0,1,1"),
                        (["--axis", "-Y"], "x, y, z or a direction like 0,1,1 (that direction is 0,-1,0)"),
+                       (["--axis", "x-"], "x, y, z or a direction like 0,1,1 (that direction is -1,0,0)"),
                        (["--knots", "open,Closed,open"], "three of clamped, open, uniform, closed (nearest: closed)")):
         run.ffd("lattice", "new", "m.obj", "-o", "n.json", *words, code=USAGE, err=f'{words[0]}: "{words[1]}" is not {why}')
 
@@ -549,6 +555,17 @@ def wild3_19_colours_of_faces_are_kept(run):
             for out in ("m.obj", "m.glb", "m.stl"):
                 one_line(run.ffd("deform", name, out, "-l", "l.json", "--force", err=anything), "cannot hold", "face colours")
             one_line(run.ffd("view", name, "-o", "v.png", "--force", err=anything), "the colours of faces are not shown")
+    # A 1 that a program has written without its point is white, before and after the fractions; among bytes it is not.
+    for faces, back in (("3 0 1 2 1 1 1\n3 0 2 3 0.5 0.25 1\n3 1 2 3 0 1 0\n", ["1.0 1.0 1.0", "0.5 0.25 1.0", "0.0 1.0 0.0"]),
+                        ("3 0 1 2 1 0 0 1\n2 0 1 1 1 1\n3 0 2 3 0.5 0 0 0.5\n", ["1.0 0.0 0.0 1.0", "0.5 0.0 0.0 0.5"]),
+                        ("3 0 1 2 1 1 1\n3 0 2 3\n3 1 2 3 1e-1 0 0\n", ["1.0 1.0 1.0", "0.6666666865348816 0.6666666865348816 0.6666666865348816",
+                                                                    "0.10000000149011612 0.0 0.0"]),
+                        ("3 0 1 2 51 51 51\n3 0 2 3 1 0 0\n3 1 2 3 0.5 0 0\n", ["0.20000000298023224 0.20000000298023224 0.20000000298023224",
+                                                                             "0.003921568859368563 0.0 0.0", "0.5 0.0 0.0"])):
+        run.write("m.off", OFF + faces)
+        run.ffd("deform", "m.off", "m.ply", "-l", "l.json", "--force", err=anything)
+        run.ffd("deform", "m.ply", "n.off", "-l", "l.json", "--force", err=anything)
+        equal([line.split(" ", 4)[4] for line in run.text("n.off").splitlines()[6:] if line.startswith("3")], back)
     # Other spellings, and what is no colour.
     run.write("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
                        "property uchar diffuse_blue\nproperty list uchar int vertex_indices\nproperty uchar diffuse_red\n"
@@ -677,6 +694,13 @@ def artist_14_a_glb_of_a_gltf_holds_its_images(run):
     run.write("in/tex/a.png", PNG + bytes(2 << 20))
     run.ffd("deform", "in/m.gltf", "out/l.glb", "-l", "l.json", code=LIMIT, err=re.compile("memory"))
     check(not run.exists("out/l.glb"), "nothing is written")
+    # Images of their own are files of the job: they need no --memory, however large they are.
+    run.write("in/m.gltf", {**asset, "images": [{"uri": f"tex/{i}.png"} for i in range(12)]})
+    for i in range(12):
+        run.write(f"in/tex/{i}.png", PNG + bytes([i]) * (3 << 20))
+    run.ffd("deform", "in/m.gltf", "out/l.glb", "-l", "l.json")
+    text = json.dumps(glb_split(run.read("out/l.glb"))[0])
+    equal([image_of(text, i)[1] for i in (0, 11)], [PNG + bytes([i]) * (3 << 20) for i in (0, 11)])
 
 
 @case

@@ -56,8 +56,19 @@ void ffd_nearest_offer(nearest_word *nearest, const char *known)
     nearest->distance = distance;
 }
 
+/* Whether the word is the best one with a minus: "-y" and "y-" are the other direction. */
+static bool is_opposite(const nearest_word *nearest)
+{
+    const char *const word = nearest->word;
+    const size_t length = nearest->length;
+    return length > 1 && nearest->distance == 1 && length == strlen(nearest->best) + 1 &&
+           (word[0] == '-' || word[length - 1] == '-');
+}
+
 const char *ffd_nearest_meant(const nearest_word *nearest)
 {
+    if (is_opposite(nearest))
+        return NULL;
     const size_t known = strlen(nearest->best), longest = nearest->length > known ? nearest->length : known;
     const size_t twice = 2 * nearest->distance;
     return twice < longest || (twice == longest && !nearest->is_tied) ? nearest->best : NULL;

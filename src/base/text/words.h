@@ -29,7 +29,8 @@ typedef struct nearest_word {
 void ffd_nearest_offer(nearest_word *nearest, const char *known);
 
 /* Returns the word that is meant: the best one, if it is similar; NULL where it is not, as one half of a word
-   of three letters, or where another is as similar at that limit, as "x" and "y" are to "xy". */
+   of three letters, or where another is as similar at that limit, as "x" and "y" are to "xy"; nor where the
+   word is the best one with a minus, which is its opposite. */
 const char *ffd_nearest_meant(const nearest_word *nearest);
 
 /* Writes what a message says of an unknown word: the known one that is meant, or all of them. Truncates to

@@ -167,10 +167,28 @@ static char lower(char c)
     return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
 }
 
+static const char *const files[] = {"in", "out", "lattice"};
+
+/* Whether the name of a table's only column looks like several: words between blanks or colons, one of which
+   is a column of files. */
+static bool is_like_row(const char *name)
+{
+    static const char between[] = " \t:";
+    bool found = false;
+    size_t words = 0, length;
+    for (const char *word = name; *word; word += length) {
+        word += strspn(word, between);
+        length = strcspn(word, between);
+        words += length > 0;
+        for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+            found = found || (strlen(files[i]) == length && memcmp(word, files[i], length) == 0);
+    }
+    return found && words > 1;
+}
+
 /* Whether a name is one of a column of files but for capitals. */
 static bool is_like_file(const char *name)
 {
-    static const char *const files[] = {"in", "out", "lattice"};
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         size_t k = 0;
         while (name[k] && lower(name[k]) == files[i][k])
@@ -191,6 +209,11 @@ static ffd_status note_name(csv_table *table, const char *name, size_t index, ff
                              "column %zu has no name, as the index of pandas (index=False), and is left out",
                              index + 1);
     }
+    if (table->columns.count == 1 && is_like_row(name))
+        return ffd_flaw_line(&table->flaws, table->name, line, error,
+                             "the table has one column, \"%.60s\": commas, semicolons, tabs and bars "
+                             "separate columns, blanks and colons do not",
+                             name);
     if (index == 0 && name[0] == '#' && name[1])
         return ffd_flaw_line(&table->flaws, table->name, line, error,
                              "the first row names the columns, although it begins with \"%.20s\"", name);

@@ -1,6 +1,7 @@
 #include "io/off/off_document.h"
 #include "base/memory/memory.h"
 #include "base/system/deadline.h"
+#include "base/text/words.h"
 
 static ffd_status refuse_number(const off_document *d, size_t line, const char *what, text_word word,
                                 ffd_error *error)
@@ -64,6 +65,18 @@ static ffd_status read_vertices(off_document *d, off_walk *walk, ffd_error *erro
     return FFD_OK;
 }
 
+/* More vertices or faces than the header states would stay where they are, or be taken for the others. */
+static ffd_status note_behind(off_document *d, const text_scan *scan, ffd_error *error)
+{
+    const size_t bytes = (size_t)(scan->last - scan->at);
+    return bytes == 0 ? FFD_OK
+                      : ffd_flaw_line(&d->file.base.flaws, d->file.name, scan->line, error,
+                                      "%zu %s behind the faces that the header states: %s as %s", bytes,
+                                      ffd_plural(bytes, "byte stands", "bytes stand"),
+                                      ffd_plural(bytes, "it stays", "they stay"),
+                                      ffd_plural(bytes, "it is", "they are"));
+}
+
 static ffd_status read_body(off_document *d, ffd_error *error)
 {
     off_walk walk;
@@ -75,7 +88,7 @@ static ffd_status read_body(off_document *d, ffd_error *error)
     /* So that empty lines and comments do not count as bytes after the last face. */
     ffd_text_find(&walk.scan);
     d->behind = walk.scan.at;
-    return FFD_OK;
+    return note_behind(d, &walk.scan, error);
 }
 
 ffd_status ffd_off_open(file_input *input, const ffd_source *source, mesh_document **document,

@@ -12,6 +12,8 @@ typedef struct extractor {
     off_walk walk;
     model_corner *corners; /* those of the current face */
     size_t capacity;
+    bool decimals, wholes; /* faces have colours with a decimal point, in whole numbers */
+    double largest_whole;
     ffd_error *error;
 } extractor;
 
@@ -49,33 +51,65 @@ static ffd_status take_vertex(extractor *e, size_t i)
 }
 
 /* Reads the colour behind a face's corners: whole numbers up to 255, or numbers up to 1, of which one has a
-   point or an exponent. Returns how many words there are; colour is set if there are 3 or 4 numbers. */
-static size_t take_colour(extractor *e, double colour[4])
+   point or an exponent (*whole tells which). Returns how many words there are, SIZE_MAX if one is no number;
+   colour is set if there are 3 or 4 numbers. */
+static size_t read_colour(extractor *e, double colour[4], bool *whole)
 {
     size_t words = 0, numbers = 0;
-    bool whole = true;
     text_word word;
-    colour[3] = -1;
+    *whole = true;
     for (; ffd_off_walk_rest(&e->walk, &word); words++)
         if (words < 4 && ffd_text_number(word, &colour[words])) {
             uint64_t number;
-            whole = whole && ffd_text_whole(word, &number);
+            *whole = *whole && ffd_text_whole(word, &number);
             numbers++;
         }
-    for (size_t c = 0; c < 4 && whole; c++)
-        colour[c] /= 255;
-    colour[3] = numbers == 3 ? 1 : colour[3];
     return numbers == words ? words : SIZE_MAX;
+}
+
+static void note_colour(extractor *e, double colour[4], size_t words, bool whole)
+{
+    e->wholes = e->wholes || whole;
+    e->decimals = e->decimals || !whole;
+    for (size_t c = 0; c < words && whole; c++) {
+        e->largest_whole = colour[c] > e->largest_whole ? colour[c] : e->largest_whole;
+        colour[c] /= 255;
+    }
 }
 
 static ffd_status colour_face(extractor *e, bool is_face)
 {
-    double colour[4] = {0, 0, 0, 0};
-    const size_t words = take_colour(e, colour);
-    if (words == 0 || (is_face && (words == 3 || words == 4)))
-        return words ? ffd_model_colour_face(e->model, colour, e->error) : FFD_OK;
+    double colour[4] = {0, 0, 0, 1};
+    bool whole;
+    const size_t words = read_colour(e, colour, &whole);
+    if (words == 0)
+        return FFD_OK;
+    if (is_face && (words == 3 || words == 4)) {
+        note_colour(e, colour, words, whole);
+        return ffd_model_colour_face(e->model, colour, e->error);
+    }
     e->model->features |= MODEL_HAS_MORE; /* of a line or point, or the number of a colour in a table */
     return FFD_OK;
+}
+
+/* Colours in whole numbers up to 1 beside others with a decimal point are fractions too: many programs write
+   1.0 as "1". Only when all faces are read is that known, so that their colours are read again. */
+static void mend_whole_colours(extractor *e, const off_walk *faces)
+{
+    if (!e->wholes || !e->decimals || e->largest_whole > 1)
+        return;
+    e->walk = *faces;
+    for (size_t i = 0, face = 0; i < e->document->header.faces && face < e->model->coloured_faces; i++) {
+        const size_t count = ffd_off_walk_face_size(&e->walk);
+        double colour[4] = {0, 0, 0, 1};
+        bool whole;
+        for (size_t c = 0; c < count && ffd_off_walk_corner_index(&e->walk) != UINT32_MAX; c++)
+            ;
+        const size_t words = read_colour(e, colour, &whole);
+        if (count > 2 && (words == 3 || words == 4) && whole)
+            memcpy(e->model->face_colours + 4 * face, colour, sizeof colour);
+        face += count > 2;
+    }
 }
 
 static ffd_status take_face(extractor *e)
@@ -109,8 +143,10 @@ ffd_status ffd_off_model(const mesh_document *document, mesh_state state, mesh_m
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < d->header.vertices; i++)
         TRY_END(take_vertex(&e, i));
+    const off_walk faces = e.walk;
     for (size_t i = 0; i < d->header.faces; i++)
         TRY_END(take_face(&e));
+    mend_whole_colours(&e, &faces);
     TRY_END(ffd_model_finish(model, error));
 end:
     ffd_free(e.corners);

@@ -303,7 +303,7 @@ static bool is_comparison(const file_input *file)
 
 static ffd_status add_file(junit_suite *all, const char *path, ffd_error *error)
 {
-    const char *const name = ffd_file_is_stream(path) ? "standard input" : path;
+    const char *const name = ffd_file_display_name(path);
     file_input file;
     junit_suite suite = {0};
     TRY(ffd_file_map(path, &file, error));
@@ -350,6 +350,9 @@ ffd_status ffd_report_junit_run(const char *const *reports, size_t count, const 
     junit_suite all = {0};
     if (count == 0)
         return ffd_fail(error, FFD_E_ARGUMENT, "no report is given");
+    for (size_t i = 0; i < count; i++)
+        if (!ffd_output_is_stream(output) && ffd_file_same(output, reports[i]))
+            return ffd_fail_file(error, FFD_E_EXISTS, output, "is an input of this command");
     TRY(ffd_output_check(output, force, error));
     const unsigned losses = ffd_mapping_losses();
     ffd_status status;

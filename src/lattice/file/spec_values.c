@@ -153,10 +153,11 @@ ffd_status ffd_spec_read_positive(json_cursor object, const char *key, double *v
                            ffd_number_text(*value).text);
 }
 
-/* Refuses an axis with a sign, such as "-y": the word without it turns the other way. */
+/* Refuses an axis with a sign, such as "-y" or "y-": the word without it turns the other way. */
 static ffd_status refuse_sign(json_cursor cursor)
 {
-    static const char *const signs[] = {"-x", "-y", "-z", "-X", "-Y", "-Z"};
+    static const char *const signs[] = {"-x", "-y", "-z", "-X", "-Y", "-Z",
+                                        "x-", "y-", "z-", "X-", "Y-", "Z-"};
     for (size_t i = 0; i < COUNT_OF(signs); i++)
         if (ffd_json_tree_string_is(cursor.tree, cursor.value, signs[i]))
             return ffd_cursor_fail(cursor, "the axis \"%s\" has a sign; write [%s] for that direction",

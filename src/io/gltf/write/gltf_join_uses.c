@@ -62,12 +62,12 @@ typedef struct shared_mesh {
     const gltf_document *document;
     const gltf_plan *plan;
     size_t index;
-    double size[3]; /* the largest coordinates of its vertices before the deformation, per axis */
+    double size; /* the largest coordinate of its vertices before the deformation */
 } shared_mesh;
 
 static shared_mesh describe(const gltf_document *d, const gltf_plan *plan, size_t mesh)
 {
-    shared_mesh made = {d, plan, mesh, {0, 0, 0}};
+    shared_mesh made = {d, plan, mesh, 0};
     for (const gltf_primitive *p = NULL; (p = ffd_gltf_next_primitive(d, mesh, p));) {
         if (ffd_gltf_instances(d, p)[0].part[GLTF_POSITION] == GLTF_NONE)
             continue;
@@ -76,7 +76,7 @@ static shared_mesh describe(const gltf_document *d, const gltf_plan *plan, size_
             float at[3];
             ffd_gltf_original(d, accessor, i, 3, at);
             for (int c = 0; c < 3; c++)
-                made.size[c] = larger_of(made.size[c], fabs((double)at[c]));
+                made.size = larger_of(made.size, fabs((double)at[c]));
         }
     }
     return made;
@@ -86,38 +86,37 @@ static shared_mesh describe(const gltf_document *d, const gltf_plan *plan, size_
 typedef struct slack {
     double step;                /* the step of integers; 0: the numbers are floats */
     bool along;                 /* the vectors are directions: rounding is relative to their length */
-    double size[3];             /* the mesh's */
+    double size;                /* the mesh's */
     const mesh_part *placed[2]; /* the part that transforms the vectors in each use; NULL: none */
 } slack;
 
 /* Bounds the effect of rounding in double on file coordinates: positions are transformed to the world and
-   back. */
+   back. A deformation mixes the axes, so that the largest coordinate counts for all: a mesh that is flat at 0
+   gets coordinates there that are nothing but rounding. */
 static void find_rounding(const slack *allowed, const float x[4], const float y[4], double rounding[4])
 {
-    double size[3];
-    rounding[3] = ROUNDINGS * DBL_EPSILON; /* quaternions are directions */
-    for (int c = 0; c < 3; c++) {
-        size[c] = larger_of(allowed->size[c], larger_of(fabs((double)x[c]), fabs((double)y[c])));
-        rounding[c] = allowed->along ? 1 : size[c];
-    }
+    double size = allowed->size;
+    for (int c = 0; c < 3; c++)
+        size = larger_of(size, larger_of(fabs((double)x[c]), fabs((double)y[c])));
+    for (int c = 0; c < 3; c++)
+        rounding[c] = allowed->along ? 1 : size;
+    rounding[3] = 1; /* quaternions are directions */
     for (int k = 0; k < 2 && !allowed->along; k++) {
         const mesh_part *const part = allowed->placed[k];
-        double world[3];
+        double world = 0;
         if (!part || part->identity || part->skinned || part->singular)
             continue;
         for (int b = 0; b < 3; b++) {
-            world[b] = fabs(part->offset[b]);
-            for (int c = 0; c < 3; c++)
-                world[b] += fabs(part->linear[3 * b + c]) * size[c];
+            const double *const row = part->linear + 3 * b;
+            world =
+                larger_of(world, fabs(part->offset[b]) + (fabs(row[0]) + fabs(row[1]) + fabs(row[2])) * size);
         }
         for (int c = 0; c < 3; c++) {
-            double back = 0;
-            for (int b = 0; b < 3; b++)
-                back += fabs(part->inverse[3 * c + b]) * world[b];
-            rounding[c] = larger_of(rounding[c], back);
+            const double *const row = part->inverse + 3 * c;
+            rounding[c] = larger_of(rounding[c], (fabs(row[0]) + fabs(row[1]) + fabs(row[2])) * world);
         }
     }
-    for (int c = 0; c < 3; c++)
+    for (int c = 0; c < 4; c++)
         rounding[c] *= ROUNDINGS * DBL_EPSILON;
 }
 
@@ -180,7 +179,7 @@ static bool agree_in_slot(const shared_mesh *mesh, const gltf_primitive *primiti
     const size_t vectors = gltf_vector_slots(primitive);
     const slack allowed = {.step = component == GLTF_FLOAT ? 0 : ffd_gltf_step(accessor),
                            .along = slot % GLTF_DEFORMED != GLTF_POSITION || slot >= vectors,
-                           .size = {mesh->size[0], mesh->size[1], mesh->size[2]},
+                           .size = mesh->size,
                            .placed = {part_of(mesh, primitive, use[0]), part_of(mesh, primitive, use[1])}};
     if (component != component_of(d, &b))
         return false;

@@ -24,6 +24,7 @@ typedef struct resources {
     resource_list copies;
     bool embeds; /* a GLB that is made of a .gltf holds its images */
     memory_budget budget;
+    intern_table counted; /* the images that are files of the job, whose sizes raise the budget */
 } resources;
 
 static ffd_status image_path(const gltf_document *d, size_t image, char **path, ffd_error *error)
@@ -192,6 +193,18 @@ static ffd_status put_data_uri(resources *r, size_t image, const file_input *byt
     return FFD_OK;
 }
 
+/* Counts an image among the files of the job: once, however often it is named. */
+static ffd_status count_image(resources *r, const char *path, size_t size, ffd_error *error)
+{
+    const size_t before = r->counted.count;
+    uint32_t index;
+    if (!ffd_intern(&r->counted, path, strlen(path), &index))
+        return ffd_fail_memory(error);
+    if (r->counted.count > before)
+        ffd_budget_add_file(&r->budget, size, 0);
+    return FFD_OK;
+}
+
 static ffd_status embed_image(resources *r, size_t index, char *path, ffd_error *error)
 {
     const gltf_document *d = r->saver->document;
@@ -214,6 +227,7 @@ static ffd_status embed_image(resources *r, size_t index, char *path, ffd_error 
         return FFD_OK;
     }
     ffd_status status;
+    TRY_END(count_image(r, path, bytes.size, error));
     TRY_END(put_data_uri(r, index, &bytes, error));
     TRY_END(ffd_resource_note(&r->copier, &image, error));
 end:
@@ -394,6 +408,7 @@ ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error)
         TRY_END(warn_of_left(&r, error));
 end:
     ffd_resources_free(&r.copies);
+    ffd_intern_free(&r.counted);
     ffd_free(r.from);
     ffd_free(r.to);
     return status;
