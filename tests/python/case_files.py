@@ -131,6 +131,9 @@ class Files(unittest.TestCase):
             ffd.deform_file(SPOT, "out.obj", lattice, outsid="keep")
         with self.assertRaisesRegex(ValueError, "fail_on"):
             ffd.deform_file(SPOT, "out.obj", lattice, fail_on=["edges"])
+        for mapping in ({"fail_on": {"tear": 0.1}}, {"only": {"group": "a"}}):
+            with self.assertRaisesRegex(TypeError, "is a list of texts, not a mapping"):
+                ffd.deform_file(SPOT, "out.obj", lattice, **mapping)
 
     def test_a_refusal_names_keywords_of_python(self):
         lattice = part_of_spot()

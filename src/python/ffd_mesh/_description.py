@@ -147,9 +147,16 @@ def _set_lattices(desc: Any, lattices: Any) -> list[Any]:
     return kept
 
 
+def _listed(value: Any, what: str) -> list[Any]:
+    """A list, or a single text as one; of a mapping only the keys would be taken."""
+    if isinstance(value, Mapping):
+        raise TypeError(f"{what} is a list of texts, not a mapping")
+    return [value] if isinstance(value, str) else list(value)
+
+
 def _texts(value: Any, what: str) -> Any:
     """Converts a list of texts, or a single one, to an array of the library and its length."""
-    texts = [value] if isinstance(value, str) else list(value)
+    texts = _listed(value, what)
     return (ctypes.c_char_p * len(texts))(*(library.encoded(text, what) for text in texts)), len(texts)
 
 
@@ -162,7 +169,7 @@ def _set_snap(desc: Any, value: Any) -> None:
 
 def _set_gates(desc: Any, value: Any) -> None:
     """Sets the gates from words of --fail-on, such as ["folds", "tear=0.1"]."""
-    for gate in [value] if isinstance(value, str) else value:
+    for gate in _listed(value, "fail_on"):
         word, equals, most = str(gate).partition("=")
         desc.fail_on |= library.value_of("ffd_gate", word, "fail_on")
         if equals and word not in ("tear", "flipped", "edges") or word == "edges" and not equals:
