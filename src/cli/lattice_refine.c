@@ -192,10 +192,11 @@ static int run(const cli_command *command, int count, char **arguments)
 
 static const cli_example examples[] = {
     {"twice as many control points, the same shape",
-     "ffd lattice refine bend.json -o fine.json --size 8,12,8"},
-    {"more of them in one place", "ffd lattice refine bend.json -o local.json --insert v:0.7,0.75,0.8"},
+     "ffd lattice refine bend.json --mesh cow.obj -o fine.json --size 8,12,8"},
+    {"more of them in one place",
+     "ffd lattice refine bend.json --mesh cow.obj -o local.json --insert v:0.7,0.75,0.8"},
     {"smoother pieces, and how far the maps differ",
-     "ffd lattice refine bend.json -o smooth.json --degree 4 --report report.json"},
+     "ffd lattice refine bend.json --mesh cow.obj -o smooth.json --degree 4 --report report.json"},
     {NULL, NULL},
 };
 

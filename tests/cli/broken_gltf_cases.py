@@ -352,10 +352,8 @@ CASES = [
      changed("asset/minVersion", "2.5")),
     ("UNDECLARED_EXTENSION", FORMAL, "an extension that is not declared", ".glb", changed("nodes/0/extensions", {"ACME_x": {}})),
     ("UNDECLARED_EXTENSION", FORMAL, "an extension within one that is declared", ".glb",
-     made(lambda m: m.set("extensionsUsed", ["ACME_x"]).set(
-         "nodes/0/extensions", {"ACME_x": {"list": [], "part": {"extensions": {"ACME_y": {}}}}}))),
-    ("UNDECLARED_EXTENSION", OK, "a name of nobody's in extras", ".glb",
-     changed("nodes/0/extras", {"extensions": {"ACME_x": {}}, "list": []})),
+     made(lambda m: m.set("extensionsUsed", ["KHR_materials_clearcoat"]).set("textures", [{}]).set("materials", [
+         {"extensions": {"KHR_materials_clearcoat": {"clearcoatTexture": {"index": 0, "extensions": {"ACME_y": {}}}}}}]))),
     ("UNSUPPORTED_EXTENSION", OK, "an extension of nobody's", ".glb",
      made(lambda m: m.set("extensionsUsed", ["ACME_x"]).set("nodes/0/extensions", {"ACME_x": {}}))),
     ("UNSUPPORTED_EXTENSION", UNSUPPORTED, "a required extension of nobody's", ".glb",

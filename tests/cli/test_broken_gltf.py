@@ -8,7 +8,7 @@ a warning, and the exit code of what is not valid with --strict.
 import json
 import sys
 
-from broken_gltf_cases import CASES, FORMAL, PLAIN
+from broken_gltf_cases import CASES, FORMAL, PLAIN, Model
 from harness import INVALID, OK, case, check, equal, lattice, main
 
 TABLE = sys.argv.pop() if len(sys.argv) > 1 and sys.argv[1].endswith(".tsv") else None
@@ -70,6 +70,15 @@ def codes_of_the_khronos_validator(run):
         with open(TABLE, "w", encoding="utf-8") as file:
             file.writelines("\t".join(row) + "\n" for row in [("code", "file", "deform", "info", "message"), *rows])
     check(not wrong, f"{len(wrong)} of {len(rows)} files:\n" + "\n".join(wrong))
+
+
+@case
+def what_is_in_extras_and_unknown_extensions_is_theirs(run):
+    """Neither their arrays of nothing nor what is called extensions in extras is an error of glTF."""
+    start(run)
+    model = Model().set("extensionsUsed", ["ACME_x"]).set("nodes/0/extensions", {"ACME_x": {"list": []}})
+    run.write("m.glb", model.set("nodes/0/extras", {"extensions": {"ACME_z": {}}, "list": []}).glb())
+    run.ffd("deform", "m.glb", "o.glb", "-l", "l.json", "--strict")
 
 
 main()
