@@ -2,10 +2,11 @@
 """Numbers that are too coarse for what is asked: steps of quantized positions, and layers whose extent is rounding."""
 
 import json
+import struct
 
 from broken_gltf_cases import CORNERS, Model
 from gltf_asset import SHORT
-from harness import CUBE, case, equal, main, near
+from harness import CUBE, case, check, equal, main, near
 from messages import anything, one_line
 
 
@@ -31,6 +32,42 @@ def quantized_positions_that_are_too_coarse(run):
     model.primitive["attributes"]["POSITION"] = model.add(fine, component=SHORT, bounds=True)
     run.write("q.glb", model.glb())
     run.ffd("deform", "q.glb", "o.glb", "-l", "l.json", "--force", err=[])
+
+
+@case
+def floats_of_an_input_in_another_format(run):
+    """Results are floats where the input has floats: what these cannot hold is said, whatever is written. With doubles
+    and text it is said of a target of floats."""
+    corners = [(x / 4, y / 4, z / 4) for x, y, z in CORNERS]
+    for kind, code, is_lost in (("float", "f", ("obj", "ply", "off", "stl", "glb")), ("double", "d", ("stl",))):
+        run.write("a.ply", (f"ply\nformat binary_little_endian 1.0\nelement vertex 8\nproperty {kind} x\nproperty {kind} y\n"
+                            f"property {kind} z\nelement face 3\nproperty list uchar int vertex_indices\nend_header\n").encode()
+                  + b"".join(struct.pack(f"<3{code}", *p) for p in corners) + b"".join(struct.pack("<B3i", 3, *face) for face in ((0, 1, 2), (3, 4, 5), (6, 7, 0))))
+        run.write("l.json", json.dumps({"format": "ffd-lattice", "version": 1, "size": [2, 2, 2], "rest": {"box": "mesh"},
+                                        "moves": [{"by": [1e7 + 0.3, 0, 0]}]}))
+        for ending in ("obj", "ply", "off", "stl", "glb"):
+            done = run.ffd("deform", "a.ply", "o." + ending, "-l", "l.json", "--force", "--report", "r.json", err=anything)
+            equal(any("the precision of coordinates that far from the origin" in line for line in done.err), ending in is_lost, (kind, ending))
+            if kind == "float":
+                precision = json.loads(run.text("r.json"))["jobs"][0]["precision"]
+                check(precision["error"] > 0.1 and precision["side"] < 2, ending, precision)
+
+
+@case
+def quantized_positions_that_become_coarse_floats(run):
+    """Beyond the range of their type positions are floats, on the same steps near the origin only."""
+    model = Model()
+    steps = [tuple(int(100 * c) for c in p) for p in CORNERS]
+    view = model.view(b"".join(struct.pack("<4h", *p, 0) for p in steps), byteStride=8, target=34962)
+    model.primitive["attributes"]["POSITION"] = model.view_accessor(view, steps, "VEC3", SHORT, True)
+    model.asset["extensionsUsed"] = ["KHR_mesh_quantization"]
+    run.write("q.glb", model.glb())
+    for far, is_lost in ((1e5, False), (1e9, True)):  # whole steps
+        run.write("l.json", json.dumps({"format": "ffd-lattice", "version": 1, "size": [2, 2, 2], "rest": {"box": "mesh"},
+                                        "moves": [{"by": [far + 16, 0, 0]}]}))
+        done = run.ffd("deform", "q.glb", "o.glb", "-l", "l.json", "--force", "--report", "r.json", err=anything)
+        equal(any("floats cannot hold: the precision" in line for line in done.err), is_lost, far)
+        equal(json.loads(run.text("r.json"))["jobs"][0].get("precision") is not None, is_lost, far)
 
 
 @case

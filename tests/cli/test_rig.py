@@ -109,6 +109,17 @@ def a_rigid_motion_of_everything_moves_every_pose(run):
 
 
 @case
+def far_from_the_origin_rounding_is_no_lag(run):
+    """The joints follow to the digits that doubles have there: none is said to stay."""
+    run.write("a.glb", arm().glb())
+    run.write("l.json", box([{"rotate": {"axis": [0.6, 0, 0.8], "degrees": 33}}, {"by": [3000, 100, -200]}]))
+    done = run.ffd("deform", "a.glb", "f.glb", "-l", "l.json", "--rig", "follow", "--report", "r.json", err=anything)
+    no_line(done, "stay")
+    behind = json.loads(run.text("r.json"))["jobs"][0]["behind"]
+    equal([of for of in behind if of["kind"] == "joint"], [])
+
+
+@case
 def a_scale_of_everything_scales_every_pose(run):
     _, _, follow = both(run, arm(), [{"scale": {"factor": 2, "about": [0, 0, 0]}}])
     moves_as(Posed(run.read("a.glb")), follow, lambda p: [2 * x for x in p])

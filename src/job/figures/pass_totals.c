@@ -32,15 +32,19 @@ void ffd_totals_judge_rounding(const pass_totals *tiles, size_t count, double to
     for (size_t i = 0; i < count; i++) {
         const part_rounding *const tile = &tiles[i].rounding;
         part.error = maximum_number(part.error, tile->error);
+        part.float_error = maximum_number(part.float_error, tile->float_error);
         part.before = maximum_number(part.before, tile->before);
         ffd_bounds_join(&part.box, &tile->box);
     }
+    const bool of_floats = part.float_error > part.error;
     const double side = ffd_bounds_side(&part.box);
+    part.error = maximum_number(part.error, part.float_error);
     if (!(side > 0) || !(part.error > tolerance * side) || !(part.error > COARSER * part.before))
         return;
     if (all->lost.side > 0 && part.error / side <= all->lost.error / all->lost.side)
         return;
-    all->lost = (rounding_loss){part.error, side, kind == ROUNDED_TO_DOUBLES, kind == ROUNDED_TO_STEPS};
+    all->lost =
+        (rounding_loss){part.error, side, kind == ROUNDED_TO_DOUBLES, kind == ROUNDED_TO_STEPS && !of_floats};
 }
 
 void ffd_totals_note_splats(pass_totals *totals, size_t part, uint64_t moved)

@@ -8,9 +8,10 @@
 
 /* What rounding to floats or doubles does to a part, in the file's space. */
 typedef struct part_rounding {
-    ffd_bounds box; /* of the results */
-    double error;   /* the largest one of a result; 0 if all are within the tolerance */
-    double before;  /* the largest half step of a coordinate at rest */
+    ffd_bounds box;     /* of the results */
+    double error;       /* the largest one of a result; 0 if all are within the tolerance; */
+    double float_error; /* that of floats, which quantized positions beyond their range become too */
+    double before;      /* the largest half step of a coordinate at rest */
 } part_rounding;
 
 /* The part whose shape rounding changes most. */

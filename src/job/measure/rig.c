@@ -92,8 +92,10 @@ double ffd_rig_lag(const mesh_place_move *move, double diagonal)
     double off[3];
     for (int a = 0; a < 3; a++)
         off[a] = move->to[a] - move->became[a];
+    /* Far from the origin the places themselves are rounded more than a small scene is. */
+    const double scale = larger_of(diagonal, larger_of(vec_greatest(move->to), vec_greatest(move->became)));
     const double lag = vec_length(off);
-    return lag > LAG_ROUNDING * diagonal ? lag : 0;
+    return lag > LAG_ROUNDING * scale ? lag : 0;
 }
 
 static ffd_status name_worst(const mesh_document *document, size_t index, ffd_rig_figures *figures,

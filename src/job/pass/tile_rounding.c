@@ -1,6 +1,6 @@
 /* tile_rounding.c - what the rounding of results does to a tile (mesh/precision.h): to floats, to the steps
-   of quantized positions, or to the doubles that they are computed in. The floats of a conversion are judged
-   by the model that is written. */
+   of quantized positions, or to the doubles that they are computed in. What the file of a conversion cannot
+   hold is judged by the model that is written. */
 #include "base/vector/array_kernel.h"
 #include "base/vector/vec.h"
 #include "job/pass/tile.h"
@@ -18,9 +18,7 @@ double ffd_part_tolerance(const mesh_document *document, const mesh_rounding *ro
 static rounding_kind kind_of(const pass_tile *tile)
 {
     const rounding_kind kind = ffd_rounding_kind(&tile->part->rounding);
-    if (!tile->pass->write || (kind != ROUNDED_TO_DOUBLES && tile->pass->is_converted))
-        return ROUNDED_EACH;
-    return kind;
+    return tile->pass->write ? kind : ROUNDED_EACH;
 }
 
 /* Returns the error of a displacement that is rounded to the steps on which its point stands. */
@@ -53,15 +51,18 @@ static ffd_bounds bounds_of(const pass_tile *tile, const ffd_bounds *counted)
 }
 
 /* Returns the largest half side of the rounding cells in a box: floats and doubles grow coarser away from
-   0. */
-static double coarsest(const mesh_rounding *rounding, const ffd_bounds *box)
+   0. may_be_floats: numbers beyond the range of the steps are stored as floats. */
+static double coarsest(const mesh_rounding *rounding, const ffd_bounds *box, bool may_be_floats)
 {
+    mesh_rounding cells = *rounding;
     double farthest[3], half[3];
     for (int a = 0; a < 3; a++)
         farthest[a] = box->min[a] > box->max[a] ? 0 : larger_of(fabs(box->min[a]), fabs(box->max[a]));
     if (ffd_rounding_is_none(rounding))
         return ffd_double_step(vec_greatest(farthest)) / 2;
-    ffd_rounding_cell(rounding, farthest, half);
+    for (int a = 0; a < 3; a++)
+        cells.is_float[a] = cells.is_float[a] || (may_be_floats && cells.step[a] > 0);
+    ffd_rounding_cell(&cells, farthest, half);
     return larger_of(half[0], larger_of(half[1], half[2]));
 }
 
@@ -72,7 +73,7 @@ void ffd_tile_rounding_at_rest(const pass_tile *tile)
     if (kind_of(tile) != ROUNDED_TO_FLOATS && kind_of(tile) != ROUNDED_TO_DOUBLES)
         return;
     const ffd_bounds box = bounds_of(tile, &tile->totals->before);
-    rounding->before = larger_of(rounding->before, coarsest(&tile->part->rounding, &box));
+    rounding->before = larger_of(rounding->before, coarsest(&tile->part->rounding, &box, false));
 }
 
 /* Nearly always the first vertex that moves is the answer. */
@@ -97,14 +98,15 @@ void ffd_tile_rounding_of_results(const pass_tile *tile)
     const ffd_bounds box = bounds_of(tile, &tile->totals->after);
     ffd_bounds_join(&rounding->box, &box);
     /* The part is no smaller than the tile: errors within the tile's tolerance are within the part's. */
-    const double step = coarsest(&tile->part->rounding, &box);
+    const double step = coarsest(&tile->part->rounding, &box, true);
     const mesh_rounding *const stored = &tile->part->rounding;
     if (step <= ffd_part_tolerance(tile->pass->document, stored) * ffd_bounds_side(&box))
         return;
     if (kind == ROUNDED_TO_DOUBLES) /* the numbers that they round are not known */
         rounding->error = larger_of(rounding->error, step);
-    for (size_t i = 0; i < tile->count && kind == ROUNDED_TO_FLOATS; i++)
-        rounding->error = larger_of(rounding->error, ffd_float_error(tile->scratch->base.stored + 3 * i));
+    for (size_t i = 0; i < tile->count && (kind == ROUNDED_TO_FLOATS || kind == ROUNDED_TO_STEPS); i++)
+        rounding->float_error =
+            larger_of(rounding->float_error, ffd_float_error(tile->scratch->base.stored + 3 * i));
     for (size_t i = 0; i < tile->count && kind == ROUNDED_TO_STEPS; i++)
         rounding->error = larger_of(rounding->error, step_error(stored, tile->scratch->base.delta + 3 * i));
 }

@@ -247,8 +247,8 @@ static ffd_status read_jitter(json_cursor cursor, lattice_move *move)
                                ffd_number_text(move->seed).text);
     return move->mirror.kind == MIRROR_NONE
                ? FFD_OK
-               : ffd_cursor_fail(cursor, "noise has no mirror image: make the lattice symmetric afterwards "
-                                         "(ffd lattice set --symmetrize)");
+               : ffd_cursor_fail(cursor,
+                                 "noise has no mirror image: symmetrize the lattice that it makes instead");
 }
 
 /* form: of an action that is an object, for who writes a number or an array. */
