@@ -214,6 +214,7 @@ def what_cannot_be_is_refused(run):
             (["--insert", "x:0.5"], USAGE, "u, v or w"), (["--insert", "u:"], USAGE, "u, v or w"), (["--insert", "u:0.5,"], USAGE, "u, v or w"),
             (["--insert", "u0.5"], USAGE, "u, v or w"), (["--insert", ""], USAGE, "u, v or w"), (["--insert", "u:nan"], USAGE, "u, v or w"),
             (["--size", "500"], LIMIT, "more than 67108864 control points"),
+            (["--size", "200000000,4,4"], LIMIT, "--size: 200000000 control points along u are more than 67108864"),
             (["--size", "400"], LIMIT, "needs .* MB of memory"),
             (["--size", "5", "--mesh", "a.obj"], USAGE, "--mesh cannot be used: the lattice does not go round a mesh"),
             (["--size", "5", "--only", "group:a"], USAGE, "--only needs --mesh"),
