@@ -260,16 +260,34 @@ static void free_plans(refinement *of)
         ffd_refine_plan_free(&of->plans[a]);
 }
 
-ffd_status ffd_lattice_refined_size(const ffd_lattice *lattice, const ffd_refine_desc *desc, size_t size[3],
-                                    ffd_error *error)
+/* Points and offsets count where they may be written. */
+static lattice_spec arrays_of(const ffd_lattice *lattice)
+{
+    const made_lattice made = {.from = lattice};
+    return (lattice_spec){.count = 1,
+                          .points = ffd_made_is_box(&made) ? NULL : lattice->rest,
+                          .weights = lattice->rest_weights,
+                          .deformed_weights = lattice->deformed_weights,
+                          .deformed_offsets =
+                              lattice->rest ? lattice->difference : lattice->spec->deformed_offsets};
+}
+
+ffd_status ffd_lattice_refined_spec(const ffd_lattice *lattice, const ffd_refine_desc *desc,
+                                    lattice_spec *spec, ffd_error *error)
 {
     ffd_refine_desc own;
     refinement of = {.lattice = lattice};
     ffd_refine_desc_init(&own, sizeof own);
     TRY(ffd_struct_take(&own, sizeof own, desc, "ffd_refine_desc", error));
     const ffd_status status = make_plans(&of, &own, error);
-    for (int a = 0; a < 3 && !status; a++)
-        size[a] = last_row(&of.plans[a])->points;
+    *spec = arrays_of(lattice);
+    for (int a = 0; a < 3 && !status; a++) {
+        const knot_row *const row = last_row(&of.plans[a]);
+        spec->size[a] = row->points;
+        spec->degree[a] = row->degree;
+        spec->list_count[a] = row->points + (size_t)row->degree + 1;
+        spec->count *= row->points;
+    }
     free_plans(&of);
     return status;
 }
