@@ -239,6 +239,7 @@ def what_cannot_be_is_refused(run):
             (["--size", "5", "--mesh", "a.obj"], USAGE, "--mesh cannot be used: the lattice does not go round a mesh"),
             (["--size", "5", "--only", "group:a"], USAGE, "--only needs --mesh"),
             (["--size", "5", "--keep-moves"], USAGE, "keep-moves"),
+            (["--size", "5", "--mesh", "-"], USAGE, "--mesh names a file"),
             (["--size", "5", "--mesh", "none.obj"], IO, "none.obj")):
         run.ffd("lattice", "refine", "l.json", "-o", "r.json", *options, code=code, lines=1, err=re.compile(what))
         check(not run.exists("r.json"), options)
