@@ -72,4 +72,8 @@ draw corner models/column.obj -l lattices/corner.json --frames 2 --color det --c
 "$ffd" lattice refine lattices/bend.json -o fine.json --mesh models/column.obj --size 6,14,6 --quiet
 draw coarse models/column.obj -l lattices/bend.json $pair --camera 2,0.4,1 --size 160x260
 draw fine models/column.obj -l fine.json $pair --camera 2,0.4,1 --size 160x260
+"$ffd" lattice set lattices/bend.json -o half.json --mesh models/column.obj --strength 0.5 --quiet
+"$ffd" lattice set lattices/bend.json -o other.json --mesh models/column.obj --mirror w --quiet
+draw half models/column.obj -l half.json $pair --camera 2,0.4,1 --size 160x260
+draw other models/column.obj -l other.json $pair --camera 2,0.4,1 --size 160x260
 python3 "$data/make_greville.py" "$ffd" "$out/greville.svg"

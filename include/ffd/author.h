@@ -39,6 +39,49 @@ FFD_API void ffd_refine_desc_init(ffd_refine_desc *desc, size_t size);
 FFD_API ffd_status ffd_lattice_refine(const ffd_lattice *lattice, const ffd_refine_desc *desc,
                                       ffd_lattice **refined, ffd_error *error);
 
+/* The following make a lattice with the same control points at rest, or the same ones placed elsewhere, and
+   other displacements: moves become offsets. Where control points or their weights would not be finite, or
+   weights not positive, they fail with FFD_E_INVALID; so they do for a box round a mesh without one
+   (ffd_lattice_fit) that has moves, weights or deformed points. The caller destroys *result, which is NULL
+   after a failure. Thread-safe. Other errors: FFD_E_ARGUMENT (a number that is not finite), FFD_E_MEMORY. */
+
+/* Multiplies all displacements D by strength: 0.5 is half the deformation, 1 the same to the bit, -1 the
+   opposite. Weights q that moved from h become (1 - strength) h + strength q. */
+FFD_API ffd_status ffd_lattice_strength(const ffd_lattice *lattice, double strength, ffd_lattice **result,
+                                        ffd_error *error);
+/* Makes (1 - t) of what a lattice does and t of what other does: D = (1 - t) D + t D_other, and so the moved
+   weights. t may be outside of 0 to 1; at both it is one of them to the bit. FFD_E_INVALID also where they
+   differ, to the bit, in size, degree, knots, rest or weights at rest. */
+FFD_API ffd_status ffd_lattice_blend(const ffd_lattice *lattice, const ffd_lattice *other, double t,
+                                     ffd_lattice **result, ffd_error *error);
+/* Makes what both do: D = D + D_other, and so the changes of weights. FFD_E_INVALID as of
+   ffd_lattice_blend. */
+FFD_API ffd_status ffd_lattice_add(const ffd_lattice *lattice, const ffd_lattice *other, ffd_lattice **result,
+                                   ffd_error *error);
+/* Makes the mirror image along direction 0 to 2 (u, v, w): what a control point does, reflected, is done by
+   the one opposite. The plane stands between the middles of the first and the last layer. Twice it is the
+   same, to the bit if the plane is perpendicular to a coordinate axis. FFD_E_INVALID also where the lattice
+   at rest is not symmetric to the plane: a control point to 1e-9 of the diagonal, a weight to 1e-12 of the
+   largest, a knot to 1e-12 of their range; or where the direction is closed. */
+FFD_API ffd_status ffd_lattice_mirror(const ffd_lattice *lattice, int direction, ffd_lattice **result,
+                                      ffd_error *error);
+/* Makes one half the mirror image of the other: that of the last layers stays if keep_last is true, else that
+   of the first. In a layer between them displacements off the plane become 0. Errors: as of
+   ffd_lattice_mirror. */
+FFD_API ffd_status ffd_lattice_symmetrize(const ffd_lattice *lattice, int direction, bool keep_last,
+                                          ffd_lattice **result, ffd_error *error);
+/* Places the lattice elsewhere by an affine map M, given row by row (the last row 0 0 0 1), with the same
+   deformation there: P becomes M P, and D its linear part times D. A box stays one if its sides stay at right
+   angles (to 1e-15), other shapes become control points. FFD_E_INVALID also if the determinant is 0. */
+FFD_API ffd_status ffd_lattice_transform(const ffd_lattice *lattice, const double matrix[16],
+                                         ffd_lattice **result, ffd_error *error);
+
+/* Makes the inverse: the deformed volume becomes the one at rest, of control points, and the volume at rest the
+   deformed one; weights change places. It is exact, and holds for places in the image of the volume. threads:
+   as of ffd_folds_find. FFD_E_INVALID also where that does not prove that the lattice has no folds. */
+FFD_API ffd_status ffd_lattice_invert(const ffd_lattice *lattice, int threads, ffd_lattice **result,
+                                      ffd_error *error);
+
 #ifdef __cplusplus
 }
 #endif

@@ -667,6 +667,60 @@ typedef struct ffd_refine_result {
 FFD_API ffd_status ffd_lattice_refine_run(const ffd_lattice_refine_desc *desc, ffd_refine_result *result,
                                           ffd_error *error);
 
+/* What `ffd lattice set` does to a lattice, one after the other. */
+typedef enum ffd_operation_kind {
+    FFD_OPERATION_STRENGTH,   /* ffd_lattice_strength by number */
+    FFD_OPERATION_BLEND,      /* ffd_lattice_blend with other by number */
+    FFD_OPERATION_ADD,        /* ffd_lattice_add of other */
+    FFD_OPERATION_MIRROR,     /* ffd_lattice_mirror along direction */
+    FFD_OPERATION_SYMMETRIZE, /* ffd_lattice_symmetrize along direction, by keep_last */
+    FFD_OPERATION_TRANSFORM,  /* ffd_lattice_transform by matrix; so are the next three: */
+    FFD_OPERATION_MOVE,       /* by place */
+    FFD_OPERATION_ROTATE,     /* by number degrees about the axis `direction` through place, right-handed */
+    FFD_OPERATION_SCALE,      /* by number, about place */
+    FFD_OPERATION_INVERT      /* ffd_lattice_invert */
+} ffd_operation_kind;
+
+typedef struct ffd_operation {
+    ffd_operation_kind kind;
+    double number;
+    int direction; /* 0 to 2: u, v, w, or the axis x, y, z */
+    bool keep_last;
+    double place[3], matrix[16];
+    ffd_lattice_source other; /* read with the settings and meshes of the job */
+} ffd_operation;
+
+/* A job of `ffd lattice set`: reads a lattice, does operations to it, and writes it. */
+typedef struct ffd_lattice_set_desc {
+    size_t struct_size; /* sizeof(ffd_lattice_set_desc) in the caller's header */
+    /* The following members are those of ffd_lattice_refine_desc. set and meshes are also for the other
+       lattices: each value is that of a placeholder of one of them. */
+    ffd_lattice_source lattice;
+    const ffd_setting *set;
+    size_t set_count;
+    const ffd_source *meshes;
+    size_t mesh_count;
+    const char *const *only;
+    size_t only_count;
+    ffd_source reading;
+    const ffd_operation *operations; /* operation_count operations, at least one */
+    size_t operation_count;
+    int threads;
+    const char *output;
+    bool force;
+    ffd_output_set *output_set;
+    ffd_log_function log;
+    void *log_user;
+    ffd_sink_function sink;
+    void *sink_user;
+} ffd_lattice_set_desc;
+
+/* Sets desc to defaults. size: sizeof(ffd_lattice_set_desc) in the caller's header. */
+FFD_API void ffd_lattice_set_desc_init(ffd_lattice_set_desc *desc, size_t size);
+/* Runs the job. The output is complete or absent. Errors: those of ffd_lattice_load, of the operations, of
+   ffd_lattice_save, and of reading a mesh; FFD_E_ARGUMENT for meshes where no lattice goes round one. */
+FFD_API ffd_status ffd_lattice_set_run(const ffd_lattice_set_desc *desc, ffd_error *error);
+
 /* Writes the figures of a result for people, as `ffd check` prints them, a line or two for each. lattice: the
    name of the lattice result->folds.witness.lattice, or NULL. *text ends with a line break and a 0 byte; the
    caller frees it with ffd_free. Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_MEMORY. */

@@ -2,17 +2,16 @@
 """ffd lattice refine: more control points or higher degrees for the same map. authoring/refine-*.json hold right answers, worked
 out in exact fractions by the basis functions' definition."""
 
-import glob
 import itertools
 import json
 import os
 import random
 import re
 
+from author import deformed_points, offsets_of, reference_cases, rest_points
 from bspline import knots as clamped_knots
 from harness import (CUBE, INVALID, IO, LIMIT, OK, USAGE, case, carried, check, equal, lattice, main, near, repetitions)
 
-CASES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "authoring")
 SEED = int(os.environ.get("FFD_SEED") or random.randrange(1 << 30))
 RANDOM = random.Random(SEED)
 print(f"seed {SEED} (FFD_SEED)")
@@ -23,20 +22,6 @@ def refine(run, *options, source="l.json", target="r.json", **more):
     return json.loads(run.text(target)) if run.exists(target) else None
 
 
-def flat(points):
-    return [list(map(float, p)) for p in points]
-
-
-def rest_points(content):
-    """The control points at rest of a file with points."""
-    return flat(content["rest"]["points"])
-
-
-def offsets_of(content):
-    count = content["size"][0] * content["size"][1] * content["size"][2]
-    return flat(content.get("deformed", {}).get("offsets", [[0, 0, 0]] * count))
-
-
 def as_list(knots, size, degree):
     """Knots that a keyword stands for, where it is "clamped"."""
     return clamped_knots(size, degree) if knots == "clamped" else knots
@@ -44,11 +29,9 @@ def as_list(knots, size, degree):
 
 @case
 def the_reference_cases(run):
-    names = sorted(glob.glob(os.path.join(CASES, "refine-*.json")))
-    equal(len(names), 6)
-    for name in names:
-        with open(name, encoding="utf-8") as file:
-            of = json.load(file)
+    names = 0
+    for name, of in reference_cases("refine"):
+        names += 1
         expect = of["expect"]
         run.write("l.json", of["lattice"])
         options = of["command"].split()[3:-2]
@@ -59,10 +42,10 @@ def the_reference_cases(run):
         equal([as_list(k, n, d) for k, n, d in zip(found["knots"], found["size"], found["degree"])],
               [as_list(k, n, d) for k, n, d in zip(expect["knots"], found["size"], found["degree"])], name)
         near(rest_points(found), expect["rest_points"], tolerance, name)
-        moved = [[p + d for p, d in zip(*both)] for both in zip(rest_points(found), offsets_of(found))]
-        near(moved, expect["deformed_points"], tolerance, name)
+        near(deformed_points(found), expect["deformed_points"], tolerance, name)
         for i in expect["unmoved"]:
             equal(offsets_of(found)[i], [0, 0, 0], (name, i))
+    equal(names, 6)
 
 
 def random_lattice(kinds, degree, size, **members):

@@ -25,6 +25,8 @@ OPTIONS = {
                     "--force", "--input-format", "--memory", "--strict", "--allow-extension"},
     "lattice refine": {"--output", "--size", "--insert", "--degree", "--set", "--mesh", "--only", "--space", "--threads", "--force", "--memory",
                        "--strict", "--report", "--report-stable"},
+    "lattice set": {"--output", "--strength", "--blend", "--add", "--mirror", "--symmetrize", "--transform", "--move", "--rotate", "--scale",
+                    "--invert", "--set", "--mesh", "--only", "--space", "--threads", "--force", "--memory", "--strict"},
     "report merge": {"--output", "--interleave", "--force"},
     "report junit": {"--output", "--force"},
 }
@@ -73,7 +75,7 @@ def help_of_each_command(run):
     for command in [*COMMANDS, "batch", "jacobian"]:
         lines = run.ffd("help", *command.split()).text.splitlines()
         check(all(len(line) < 130 for line in lines), f"{command}: a line too long")
-    for group, commands in (("lattice", ["new", "refine"]), ("report", ["merge", "junit"])):
+    for group, commands in (("lattice", ["new", "refine", "set"]), ("report", ["merge", "junit"])):
         equal(run.ffd("help", group).text, "".join(run.ffd("help", group, command).text for command in commands))
         equal(run.ffd(group, "--help").text, run.ffd("help", group).text)
 
@@ -97,7 +99,7 @@ def an_unknown_command_gets_the_nearest_one_proposed(run):
     refused(run, "DEFORM", says="DEFORM")
     for word in ("", "fit", "animate", "edit", "mesh"):
         refused(run, word, says=f'unknown command "{word}" (ffd help lists the known ones)')
-    for word in ("set", "convert"):
+    for word in ("convert",):
         refused(run, "lattice", word, says=f'unknown command "lattice {word}" (ffd help lists the known ones)')
     refused(run, "--xyz", says="unknown option --xyz (options follow a command)")
     for typed, nearest in (("repot", "report merge"), ("latice", "lattice new"), ("bach", "batch")):
@@ -107,7 +109,7 @@ def an_unknown_command_gets_the_nearest_one_proposed(run):
 @case
 def commands_of_later_versions_are_absent(run):
     for words in (["fit", "a.obj", "b.obj"],
-                  ["lattice", "convert", "l.json"], ["lattice", "set", "l.json"]):
+                  ["lattice", "convert", "l.json"]):
         refused(run, *words, says="unknown command")
 
 

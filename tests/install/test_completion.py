@@ -22,9 +22,11 @@ MESHES = {"cow.obj", "ROBOT.GLB", "a vase.ply", "folder/"}
 # Typed -> what is offered for the last word; a folder's name may end in a slash or not.
 CASES = [
     ("ffd lat", {"lattice"}),
-    ("ffd lattice ", {"new", "refine"}),
-    ("ffd help lattice ", {"new", "refine"}),
+    ("ffd lattice ", {"new", "refine", "set"}),
+    ("ffd help lattice ", {"new", "refine", "set"}),
     ("ffd lattice refine be", {"bend.json"}),
+    ("ffd lattice set bend.json --mirror ", {"u", "v", "w"}),
+    ("ffd lattice set bend.json --add be", {"bend.json"}),
     ("ffd lattice refine bend.json --mesh cow", {"cow.obj"}),
     ("ffd report ", {"junit", "merge"}),
     ("ffd report merge be", {"bend.json"}),

@@ -71,7 +71,7 @@ LAYERS = {
     "job/report": {"base", "base/file", "base/memory", "base/text", "job/figures", "json"},
     "spline": {"base", "base/memory", "base/text"},
     "lattice": {"base", "base/file", "base/memory", "base/text", "base/vector", "spline"},
-    "lattice/author": {"base", "base/file", "base/memory", "base/system", "lattice", "spline"},
+    "author": {"base", "base/file", "base/memory", "base/system", "base/vector", "lattice", "spline"},
     "lattice/file": {"base", "base/file", "base/memory", "base/text", "base/vector", "json", "lattice"},
     "lattice/tangent": {"base/memory", "base/vector", "lattice"},
     "embed/frame": {"base", "base/memory", "base/vector", "lattice", "spline"},
@@ -113,7 +113,7 @@ LAYERS = {
         "job/measure", "job/pass", "job/report", "lattice", "lattice/file", "mesh", "view",
     },
     "job/author": {
-        "base", "base/file", "base/memory", "base/system", "job", "job/chain", "job/input", "job/report", "lattice", "lattice/author",
+        "author", "base", "base/file", "base/memory", "base/system", "base/vector", "job", "job/chain", "job/input", "job/report", "lattice",
         "lattice/file", "mesh",
     },
     "batch/manifest": {

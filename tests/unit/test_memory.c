@@ -138,18 +138,19 @@ static ffd_status run_lattice_new(ffd_error *error)
 }
 
 /* A lattice in memory whose box goes round the mesh. */
+static const char box_text[] =
+    "{\"format\": \"ffd-lattice\", \"version\": 1, \"size\": [2, 3, 2], \"rest\": {\"box\": "
+    "\"mesh\"}, \"moves\": [{\"at\": [1, 1, 1], \"by\": [0.01, 0, 0]}]}";
+
 static ffd_status run_lattice_refine(ffd_error *error)
 {
-    static const char text[] =
-        "{\"format\": \"ffd-lattice\", \"version\": 1, \"size\": [2, 3, 2], \"rest\": {\"box\": "
-        "\"mesh\"}, \"moves\": [{\"at\": [1, 1, 1], \"by\": [1, 0, 0]}]}";
     const ffd_source source = {.path = input};
     ffd_refine_desc finer;
     ffd_refine_desc_init(&finer, sizeof finer);
     finer.size[0] = finer.degree[1] = 3;
     ffd_lattice_refine_desc desc;
     ffd_lattice_refine_desc_init(&desc, sizeof desc);
-    desc.lattice = (ffd_lattice_source){.path = "l.json", .text = {text, sizeof text - 1}};
+    desc.lattice = (ffd_lattice_source){.path = "l.json", .text = {box_text, sizeof box_text - 1}};
     desc.meshes = &source;
     desc.mesh_count = 1;
     desc.refine = &finer;
@@ -157,6 +158,27 @@ static ffd_status run_lattice_refine(ffd_error *error)
     desc.threads = 1;
     desc.output = array; /* any name that is not a mesh's */
     return ffd_lattice_refine_run(&desc, NULL, error);
+}
+
+static ffd_status run_lattice_set(ffd_error *error)
+{
+    const ffd_lattice_source box = {.path = "l.json", .text = {box_text, sizeof box_text - 1}};
+    const ffd_operation operations[] = {{.kind = FFD_OPERATION_STRENGTH, .number = 0.5},
+                                        {.kind = FFD_OPERATION_ADD, .other = box},
+                                        {.kind = FFD_OPERATION_MIRROR, .direction = 1},
+                                        {.kind = FFD_OPERATION_ROTATE, .number = 30},
+                                        {.kind = FFD_OPERATION_INVERT}};
+    const ffd_source source = {.path = input};
+    ffd_lattice_set_desc desc;
+    ffd_lattice_set_desc_init(&desc, sizeof desc);
+    desc.lattice = box;
+    desc.meshes = &source;
+    desc.mesh_count = 1;
+    desc.operations = operations;
+    desc.operation_count = sizeof operations / sizeof *operations;
+    desc.threads = 1;
+    desc.output = array;
+    return ffd_lattice_set_run(&desc, error);
 }
 
 static ffd_status run_info(ffd_error *error)
@@ -259,8 +281,8 @@ static const struct {
 
 static void memory_of_ours(void **state)
 {
-    static job *const jobs[] = {run_deform,      run_convert,        run_check, run_embed,
-                                run_lattice_new, run_lattice_refine, run_info,  run_compare};
+    static job *const jobs[] = {run_deform,         run_convert,     run_check, run_embed,  run_lattice_new,
+                                run_lattice_refine, run_lattice_set, run_info,  run_compare};
     for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++) {
         take_input(inputs[i].format, inputs[i].name);
         for (size_t j = 0; j < sizeof jobs / sizeof *jobs; j++)

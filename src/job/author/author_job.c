@@ -1,18 +1,36 @@
 #include "job/author/author_job.h"
 #include "base/file/mapping.h"
+#include "base/memory/memory.h"
 #include "job/chain/chain_load.h"
 #include "job/input/deform_desc.h"
 #include "job/input/shown_box.h"
 #include "job/input/source.h"
 #include "job/reads.h"
 #include "job/report/output_set.h"
-#include "lattice/file/lattice_source.h"
 #include "lattice/file/spec_text.h"
+#include <string.h>
+
+ffd_status ffd_author_take_meshes(job_memory *memory, const ffd_source *meshes, size_t count,
+                                  ffd_source **copy, ffd_error *error)
+{
+    *copy = NULL;
+    if (!meshes || count == 0)
+        return FFD_OK;
+    *copy = ffd_alloc(count, sizeof **copy);
+    if (!*copy)
+        return ffd_fail_memory(error);
+    memcpy(*copy, meshes, count * sizeof **copy);
+    for (size_t i = 0; i < count; i++)
+        TRY(ffd_in_memory_source(memory, &(*copy)[i], error));
+    return FFD_OK;
+}
 
 static ffd_status check_desc(const author_job *job, ffd_error *error)
 {
-    bool is_complete = job->lattice->path && job->output && ffd_desc_has_settings(job->set, job->set_count) &&
+    bool is_complete = job->output && ffd_desc_has_settings(job->set, job->set_count) &&
                        ffd_desc_has_texts(job->only, job->only_count);
+    for (size_t i = 0; i < job->lattice_count && is_complete; i++)
+        is_complete = job->lattices[i].path;
     for (size_t i = 0; i < job->mesh_count && is_complete; i++)
         is_complete = job->meshes && job->meshes[i].path;
     if (!is_complete)
@@ -27,7 +45,7 @@ static ffd_status check_output(const author_job *job, ffd_error *error)
 {
     if (job->sink)
         return FFD_OK;
-    bool is_input = ffd_job_reads_lattice(job->lattice, 1, job->output);
+    bool is_input = ffd_job_reads_lattice(job->lattices, job->lattice_count, job->output);
     for (size_t i = 0; i < job->mesh_count; i++)
         is_input = is_input || ffd_job_reads_mesh(&job->meshes[i], job->output);
     if (is_input)
@@ -54,12 +72,18 @@ static ffd_status measure(const author_job *job, ffd_shared_box *box, ffd_error 
 }
 
 /* Meshes are given for the box of a lattice that names none itself. */
-static ffd_status refuse_meshes(const author_job *job, const ffd_lattice *lattice, ffd_error *error)
+static ffd_status refuse_meshes(const author_job *job, const author_input *input, ffd_error *error)
 {
-    const bool names_own = ffd_lattice_get_mesh_count(lattice) > 0;
-    if (job->mesh_count == 0 || (ffd_lattice_needs_bounds(lattice) && !names_own))
+    bool names_own = false;
+    if (job->mesh_count == 0)
         return FFD_OK;
-    return ffd_fail_file(error, FFD_E_ARGUMENT, job->lattice->path,
+    for (size_t i = 0; i < input->count; i++) {
+        if (ffd_lattice_needs_bounds(input->lattices[i]) &&
+            ffd_lattice_get_mesh_count(input->lattices[i]) == 0)
+            return FFD_OK;
+        names_own = names_own || ffd_lattice_get_mesh_count(input->lattices[i]) > 0;
+    }
+    return ffd_fail_file(error, FFD_E_ARGUMENT, job->lattices[0].path,
                          "{meshes} cannot be used: the lattice does not go round %s",
                          names_own ? "other meshes than those that it names" : "a mesh");
 }
@@ -67,17 +91,20 @@ static ffd_status refuse_meshes(const author_job *job, const ffd_lattice *lattic
 static ffd_status load(const author_job *job, author_input *input, ffd_error *error)
 {
     ffd_shared_box box = {0};
-    const chain_files files = {.lattices = job->lattice,
-                               .count = 1,
+    const chain_files files = {.lattices = job->lattices,
+                               .count = job->lattice_count,
                                .set = job->set,
                                .set_count = job->set_count,
                                .mesh = job->reading,
                                .shared = job->mesh_count > 0 ? &box : NULL,
                                .log = &job->log};
     ffd_status status;
+    input->lattices = ffd_alloc_zero(job->lattice_count, sizeof *input->lattices);
+    TRY_END(input->lattices ? FFD_OK : ffd_fail_memory(error));
     TRY_END(measure(job, &box, error));
-    TRY_END(ffd_chain_load_one(&files, &input->memory, &input->lattice, &input->files, error));
-    TRY_END(refuse_meshes(job, input->lattice, error));
+    TRY_END(ffd_chain_load_lattices(&files, &input->memory, input->lattices, &input->files, error));
+    input->count = job->lattice_count;
+    TRY_END(refuse_meshes(job, input, error));
 end:
     ffd_paths_free(&box.files);
     return status;
@@ -90,13 +117,16 @@ ffd_status ffd_author_begin(const author_job *job, author_input *input, ffd_erro
     TRY(check_desc(job, error));
     TRY(check_output(job, error));
     TRY(ffd_mapping_judge(losses, load(job, input, error), error));
-    return job->sink ? FFD_OK : ffd_job_check_box(job->output, &input->files, job->lattice, error);
+    return job->sink ? FFD_OK : ffd_job_check_box(job->output, &input->files, job->lattices, error);
 }
 
 void ffd_author_end(author_input *input)
 {
-    ffd_lattice_destroy(&input->lattice);
+    for (size_t i = 0; i < input->count; i++)
+        ffd_lattice_destroy(&input->lattices[i]);
+    ffd_free(input->lattices);
     ffd_paths_free(&input->files);
+    *input = (author_input){0};
 }
 
 ffd_status ffd_author_write(const author_job *job, const ffd_lattice *made, ffd_error *error)

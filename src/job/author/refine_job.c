@@ -1,13 +1,12 @@
 /* refine_job.c - the job of `ffd lattice refine`. */
+#include "author/difference.h"
+#include "author/refine.h"
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
 #include "base/system/clock.h"
 #include "base/system/thread.h"
 #include "job/author/author_job.h"
 #include "job/chain/lattice_memory.h"
-#include "job/input/in_memory.h"
-#include "lattice/author/difference.h"
-#include "lattice/author/refine.h"
 #include "lattice/file/lattice_source.h"
 #include <inttypes.h>
 #include <string.h>
@@ -41,7 +40,7 @@ static void tell(const author_job *job, const ffd_refine_result *r)
         &job->log, FFD_LOG_INFO,
         "%s: %zu x %zu x %zu control points of degree %d, %d, %d become %zu x %zu x %zu of degree %d, "
         "%d, %d; the maps differ by at most %.2g",
-        ffd_lattice_name(job->lattice), r->size_before[0], r->size_before[1], r->size_before[2],
+        ffd_lattice_name(job->lattices), r->size_before[0], r->size_before[1], r->size_before[2],
         r->degree_before[0], r->degree_before[1], r->degree_before[2], r->size[0], r->size[1], r->size[2],
         r->degree[0], r->degree[1], r->degree[2], r->largest_difference);
 }
@@ -50,18 +49,18 @@ static void tell(const author_job *job, const ffd_refine_result *r)
 static ffd_status measure(const ffd_lattice_refine_desc *desc, const author_input *input,
                           const ffd_lattice *made, double *largest, ffd_error *error)
 {
-    const uint64_t each = ffd_lattice_difference_bytes(input->lattice, made);
+    const uint64_t each = ffd_lattice_difference_bytes(input->lattices[0], made);
     const int threads = ffd_budget_threads(&input->memory, ffd_threads_for(desc->threads, UINT64_MAX), each);
     TRY(ffd_budget_check(&input->memory, 1, each, error));
-    return ffd_lattice_difference(input->lattice, made, threads, largest, error);
+    return ffd_lattice_difference(input->lattices[0], made, threads, largest, error);
 }
 
 /* Makes the lattice and measures it. */
 static ffd_status make(const ffd_lattice_refine_desc *desc, author_input *input, ffd_lattice **made,
                        ffd_refine_result *result, ffd_error *error)
 {
-    TRY(take_memory_of(input->lattice, desc->refine, input, error));
-    TRY(ffd_lattice_refine(input->lattice, desc->refine, made, error));
+    TRY(take_memory_of(input->lattices[0], desc->refine, input, error));
+    TRY(ffd_lattice_refine(input->lattices[0], desc->refine, made, error));
     note_shape(*made, result->size, result->degree);
     return desc->measure ? measure(desc, input, *made, &result->largest_difference, error) : FFD_OK;
 }
@@ -70,11 +69,11 @@ static ffd_status refine(const author_job *job, const ffd_lattice_refine_desc *d
                          ffd_refine_result *result, ffd_error *error)
 {
     const double start = ffd_clock_seconds();
-    author_input input;
+    author_input input = {0};
     ffd_lattice *made = NULL;
     ffd_status status;
     TRY_END(ffd_author_begin(job, &input, error));
-    note_shape(input.lattice, result->size_before, result->degree_before);
+    note_shape(input.lattices[0], result->size_before, result->degree_before);
     const double read = ffd_clock_seconds();
     result->seconds.read = read - start;
     TRY_END(make(desc, &input, &made, result, error));
@@ -92,23 +91,6 @@ end:
     return status;
 }
 
-/* Registers what is in memory under paths, in a copy of the array of meshes, which the caller frees. */
-static ffd_status take_memory(job_memory *memory, ffd_lattice_refine_desc *desc, ffd_source **meshes,
-                              ffd_error *error)
-{
-    const size_t count = desc->meshes ? desc->mesh_count : 0;
-    TRY(ffd_in_memory_lattice(&desc->lattice, "the lattice", "lattice", error));
-    *meshes = ffd_alloc(count, sizeof **meshes);
-    if (!*meshes)
-        return ffd_fail_memory(error);
-    for (size_t i = 0; i < count; i++) {
-        (*meshes)[i] = desc->meshes[i];
-        TRY(ffd_in_memory_source(memory, &(*meshes)[i], error));
-    }
-    desc->meshes = count > 0 ? *meshes : NULL;
-    return ffd_in_memory_output(desc->sink, desc->output, error);
-}
-
 static ffd_status run(ffd_lattice_refine_desc *desc, job_memory *memory, ffd_refine_result *result,
                       ffd_error *error)
 {
@@ -116,11 +98,14 @@ static ffd_status run(ffd_lattice_refine_desc *desc, job_memory *memory, ffd_ref
     ffd_status status;
     TRY_END(desc->refine ? ffd_threads_check(desc->threads, error)
                          : ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete"));
-    TRY_END(take_memory(memory, desc, &meshes, error));
-    const author_job job = {.lattice = &desc->lattice,
+    TRY_END(ffd_in_memory_lattice(&desc->lattice, "the lattice", "lattice", error));
+    TRY_END(ffd_author_take_meshes(memory, desc->meshes, desc->mesh_count, &meshes, error));
+    TRY_END(ffd_in_memory_output(desc->sink, desc->output, error));
+    const author_job job = {.lattices = &desc->lattice,
+                            .lattice_count = 1,
                             .set = desc->set,
                             .set_count = desc->set_count,
-                            .meshes = desc->meshes,
+                            .meshes = meshes,
                             .mesh_count = desc->mesh_count,
                             .only = desc->only,
                             .only_count = desc->only_count,

@@ -194,22 +194,25 @@ end:
     return status;
 }
 
-ffd_status ffd_chain_load_one(const chain_files *files, memory_budget *memory, ffd_lattice **lattice,
-                              path_list *box_files, ffd_error *error)
+ffd_status ffd_chain_load_lattices(const chain_files *files, memory_budget *memory, ffd_lattice **lattices,
+                                   path_list *box_files, ffd_error *error)
 {
     bool *const used = ffd_alloc_zero(files->set_count, sizeof *used), fitted;
+    size_t loaded = 0;
     ffd_status status;
-    *lattice = NULL;
+    memset(lattices, 0, files->count * sizeof *lattices);
     TRY_END(used ? FFD_OK : ffd_fail_memory(error));
-    TRY_END(load_lattice(files, used, 0, 0, memory, lattice, error));
+    for (; loaded < files->count; loaded++) {
+        TRY_END(load_lattice(files, used, loaded, 0, memory, &lattices[loaded], error));
+        TRY_END(fit(files, NULL, lattices[loaded], box_files, &fitted, error));
+    }
     TRY_END(refuse_unused(files, used, error));
-    TRY_END(fit(files, NULL, *lattice, box_files, &fitted, error));
 end:
     ffd_free(used);
-    if (status) {
-        ffd_fail_name_file(error, files->lattices[0].path);
-        ffd_lattice_destroy(lattice);
-    }
+    if (status && loaded < files->count)
+        ffd_fail_name_file(error, files->lattices[loaded].path);
+    for (size_t i = 0; status && i < files->count; i++)
+        ffd_lattice_destroy(&lattices[i]);
     return status;
 }
 

@@ -29,11 +29,12 @@ ffd_status ffd_chain_check_count(size_t count, ffd_error *error);
 ffd_status ffd_chain_load(const chain_files *files, const chain_outside *outside, ffd_isa isa,
                           ffd_job_cache *cache, lattice_chain *chain, ffd_error *error);
 
-/* Loads a single lattice, without its search structures, and lays its box round the meshes that it names, or
-   files->shared; else one that needs the box of a mesh stays without positions. memory: the budget that it
-   counts against. box_files: gets the files of these meshes. Errors: those of ffd_chain_load. */
-ffd_status ffd_chain_load_one(const chain_files *files, memory_budget *memory, ffd_lattice **lattice,
-                              path_list *box_files, ffd_error *error);
+/* Loads the lattices by themselves, without search structures, into lattices[0 .. files->count - 1], and lays
+   their boxes round the meshes that they name, or files->shared; else one that needs the box of a mesh stays
+   without positions. memory: the budget that they count against. box_files: gets the files of these meshes.
+   After a failure all are NULL. Errors: those of ffd_chain_load. */
+ffd_status ffd_chain_load_lattices(const chain_files *files, memory_budget *memory, ffd_lattice **lattices,
+                                   path_list *box_files, ffd_error *error);
 
 /* Checks that the lattice files are valid with these values. Errors: those of ffd_chain_load, except what
    depends on the job's mesh. */

@@ -15,7 +15,7 @@ from . import _library as library
 from ._embedding import Embedding
 from ._errors import InvalidError
 from ._library import Owned, Progress, Run, call, lib
-from ._values import (Deformed, Folds, Parameter, csr, described, folds_of, parameters, parameters_of, settings, shape_of, three,
+from ._values import (Deformed, Folds, Parameter, csr, described, direction_of, folds_of, parameters, parameters_of, settings, shape_of, three,
                       vertices_of, wishes_of)
 
 REST, DEFORMED = declared.ENUMERATIONS["ffd_volume"].values()
@@ -245,6 +245,45 @@ class Lattice:
         """
         desc, _kept = wishes_of(size, degree, insert)
         return self._new(lib.ffd_lattice_refine, self._pointer, ctypes.byref(desc))
+
+    def strength(self, strength: float) -> Lattice:
+        """Returns a lattice with strength times all displacements: 0.5 is half the edit, 1 the same to the bit, -1 the opposite.
+        A weight that moved from h to q becomes (1 - strength) h + strength q."""
+        return self._new(lib.ffd_lattice_strength, self._pointer, library.real(strength, "strength"))
+
+    def blend(self, other: Lattice, t: float) -> Lattice:
+        """Returns a lattice with 1 - t of what this one does, and t of what other does, to the bit where t is 0 or 1; t may be
+        beyond these. Raises `InvalidError` if they differ in size, degree, knots, rest or weights at rest."""
+        return self._new(lib.ffd_lattice_blend, self._pointer, other._pointer, library.real(t, "t"))
+
+    def add(self, other: Lattice) -> Lattice:
+        """Returns a lattice that does what both do. Raises `InvalidError` as `blend`."""
+        return self._new(lib.ffd_lattice_add, self._pointer, other._pointer)
+
+    def mirror(self, direction: str) -> Lattice:
+        """Returns the mirror image across the middle of a direction, "u", "v" or "w": each control point does, reflected, what
+        the one opposite did. Twice is the same, to the bit across a coordinate axis. Raises `InvalidError` if the lattice at
+        rest is not symmetric, or the direction is closed."""
+        return self._new(lib.ffd_lattice_mirror, self._pointer, direction_of(direction))
+
+    def symmetrize(self, half: str) -> Lattice:
+        """Returns a lattice of which one half stays, "u+", "u-", "v+" .. "w-", and the other is its mirror image; in a layer
+        between them nothing moves off the plane. Raises `InvalidError` as `mirror`."""
+        if not isinstance(half, str) or half[1:] not in ("+", "-"):
+            raise ValueError(f"the half that stays is u+, u-, v+, v-, w+ or w-, not {half!r}")
+        return self._new(lib.ffd_lattice_symmetrize, self._pointer, direction_of(half[:1]), half[1] == "+")
+
+    def transform(self, matrix: Any) -> Lattice:
+        """Returns the lattice placed elsewhere by an affine map M, (4, 4) with a last row 0 0 0 1: what was f is M f M^-1. A box
+        stays one if its sides stay at right angles (to 1e-15), other shapes become control points. Raises `InvalidError` if
+        its determinant is 0."""
+        numbers = np.ascontiguousarray(arrays.doubles(matrix, "matrix", (4, 4)))
+        return self._new(lib.ffd_lattice_transform, self._pointer, arrays.address(numbers))
+
+    def invert(self, *, threads: int = 0) -> Lattice:
+        """Returns the exact inverse: rest and deformed volume change places. It covers the image of the volume. Raises
+        `InvalidError` where the lattice is not proven to have no folds."""
+        return self._new(lib.ffd_lattice_invert, self._pointer, library.integer(threads, "threads"))
 
     def moved(self, Q: Any = None, *, offsets: Any = None, weights: Any = None) -> Lattice:
         """Returns this lattice with other deformed control points Q or offsets from rest, (nu, nv, nw, 3), and deformed weights

@@ -118,6 +118,13 @@ def degrees_of(degree: Any) -> list[int]:
     return degrees
 
 
+def direction_of(letter: Any) -> int:
+    """The number of a direction."""
+    if letter not in ("u", "v", "w"):
+        raise ValueError(f"a direction is u, v or w, not {letter!r}")
+    return "uvw".index(letter)
+
+
 def wishes_of(size: Any, degree: Any, insert: Any) -> tuple[Any, list[np.ndarray]]:
     """Makes an ffd_refine_desc. Returns it with the arrays that must stay alive."""
     desc, kept = library.filled("ffd_refine_desc"), []

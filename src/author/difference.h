@@ -1,6 +1,6 @@
 /* difference.h - how far the maps of two lattices are apart. */
-#ifndef FFD_LATTICE_AUTHOR_DIFFERENCE_H
-#define FFD_LATTICE_AUTHOR_DIFFERENCE_H
+#ifndef FFD_AUTHOR_DIFFERENCE_H
+#define FFD_AUTHOR_DIFFERENCE_H
 
 #include "lattice/lattice.h"
 #include <stdint.h>

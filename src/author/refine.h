@@ -1,6 +1,6 @@
 /* refine.h - the memory that a refinement takes (public: ffd/author.h). */
-#ifndef FFD_LATTICE_AUTHOR_REFINE_H
-#define FFD_LATTICE_AUTHOR_REFINE_H
+#ifndef FFD_AUTHOR_REFINE_H
+#define FFD_AUTHOR_REFINE_H
 
 #include "lattice/spec.h"
 #include <ffd/author.h>

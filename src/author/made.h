@@ -1,10 +1,15 @@
 /* made.h - the parts of a lattice that is made from another one, and their way into a lattice: offsets, no
  * moves. */
-#ifndef FFD_LATTICE_AUTHOR_MADE_H
-#define FFD_LATTICE_AUTHOR_MADE_H
+#ifndef FFD_AUTHOR_MADE_H
+#define FFD_AUTHOR_MADE_H
 
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
+
+/* A box at rest: the directions of its sides in rows, and its ends along them. */
+typedef struct made_box {
+    double axes[9], min[3], max[3];
+} made_box;
 
 typedef struct made_lattice {
     const ffd_lattice *from;
@@ -12,8 +17,10 @@ typedef struct made_lattice {
     int degree[3];
     bool closed[3];
     double *knots[3]; /* size + degree + 1; closed: the size + 1 breakpoints */
-    /* 3 numbers a control point. points: NULL while the rest is the box of `from`; offsets: NULL while
-     * nothing moves. */
+    bool has_box;     /* the rest is this box, in place of that of `from` */
+    made_box box;
+    /* 3 numbers a control point. points: NULL while the rest is that of `from`; offsets: NULL while nothing
+     * moves. */
     double *points, *offsets;
     double *weights, *moved_weights; /* NULL: all 1; those at rest */
 } made_lattice;
@@ -21,6 +28,18 @@ typedef struct made_lattice {
 /* Begins with the parts of `from`, without control points: their arrays are NULL. Errors: FFD_E_INVALID where
    `from` has no positions yet, but moves, weights or control points, which need them. */
 ffd_status ffd_made_begin(const ffd_lattice *from, made_lattice *made, ffd_error *error);
+/* Begins with all of `from` but its moves: its knots and rest, and copies of its offsets and weights, which
+   may be changed: offsets has 3 numbers a control point, moved_weights one where there are weights. Errors:
+   FFD_E_MEMORY, and as above. */
+ffd_status ffd_made_begin_same(const ffd_lattice *from, made_lattice *made, ffd_error *error);
+/* Gives it weights of 1, at rest and deformed, if it has none. Errors: FFD_E_MEMORY. */
+ffd_status ffd_made_give_weights(made_lattice *made, ffd_error *error);
+/* Finds the box that `from` has at rest, or as it was laid round a mesh. Errors: FFD_E_INVALID where it was
+   not laid yet. */
+ffd_status ffd_made_find_box(const made_lattice *made, made_box *box, ffd_error *error);
+/* Replaces the rest that it keeps by copies of its control points, which may be changed. Errors:
+   FFD_E_INVALID where there are none yet, FFD_E_MEMORY. */
+ffd_status ffd_made_take_points(made_lattice *made, ffd_error *error);
 /* Frees the arrays and empties it; it can be freed again. */
 void ffd_made_free(made_lattice *made);
 

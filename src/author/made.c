@@ -1,9 +1,16 @@
-#include "lattice/author/made.h"
+#include "author/made.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "lattice/build.h"
 #include "lattice/shapes.h"
 #include <string.h>
+
+/* what: needs positions, "its moves". */
+static ffd_status fail_without_positions(const char *what, ffd_error *error)
+{
+    return ffd_fail(error, FFD_E_INVALID,
+                    "the box of the lattice is that of a mesh, and %s needs positions ({meshes})", what);
+}
 
 ffd_status ffd_made_begin(const ffd_lattice *from, made_lattice *made, ffd_error *error)
 {
@@ -17,6 +24,55 @@ ffd_status ffd_made_begin(const ffd_lattice *from, made_lattice *made, ffd_error
                         : spec->deformed_points ? "deformed points"
                                                 : "weights");
     return FFD_OK;
+}
+
+/* Copies the offsets: zeros where nothing has moved yet. */
+static ffd_status copy_offsets(made_lattice *made, ffd_error *error)
+{
+    const ffd_lattice *const from = made->from;
+    const double *const offsets = from->rest ? from->difference : from->spec->deformed_offsets;
+    made->offsets = offsets ? NULL : ffd_alloc_zero(from->count, 3 * sizeof *made->offsets);
+    if (offsets)
+        return ffd_made_copy(offsets, 3 * from->count, &made->offsets, error);
+    return made->offsets ? FFD_OK : ffd_fail_memory(error);
+}
+
+ffd_status ffd_made_begin_same(const ffd_lattice *from, made_lattice *made, ffd_error *error)
+{
+    TRY(ffd_made_begin(from, made, error));
+    for (int a = 0; a < 3; a++) {
+        const knot_vector *const knots = &from->knots[a];
+        const bool is_closed = ffd_knots_closed(knots);
+        TRY(ffd_made_set_knots(made, a, knots->degree, knots->points, is_closed,
+                               knots->t + (is_closed ? knots->degree : 0), error));
+    }
+    TRY(copy_offsets(made, error));
+    if (!from->rest_weights)
+        return FFD_OK;
+    TRY(ffd_made_copy(from->rest_weights, from->count, &made->weights, error));
+    return ffd_made_copy(from->deformed_weights, from->count, &made->moved_weights, error);
+}
+
+ffd_status ffd_made_give_weights(made_lattice *made, ffd_error *error)
+{
+    const size_t count = made->from->count;
+    if (made->weights)
+        return FFD_OK;
+    made->weights = ffd_alloc_whole(count, sizeof *made->weights);
+    made->moved_weights = ffd_alloc_whole(count, sizeof *made->moved_weights);
+    if (!made->weights || !made->moved_weights)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < count; i++)
+        made->weights[i] = made->moved_weights[i] = 1;
+    return FFD_OK;
+}
+
+ffd_status ffd_made_take_points(made_lattice *made, ffd_error *error)
+{
+    if (!made->from->rest)
+        return fail_without_positions("this", error);
+    return made->points ? FFD_OK
+                        : ffd_made_copy(made->from->rest, 3 * made->from->count, &made->points, error);
 }
 
 void ffd_made_free(made_lattice *made)
@@ -120,23 +176,54 @@ static ffd_status copy_meshes(const lattice_spec *from, lattice_spec *spec, ffd_
     return FFD_OK;
 }
 
-/* Sets the rest as a box: that of the file, or as it was laid round a mesh, or still to be laid. */
+ffd_status ffd_made_find_box(const made_lattice *made, made_box *box, ffd_error *error)
+{
+    const ffd_lattice *const from = made->from;
+    memcpy(box->axes, from->spec->box_axes, sizeof box->axes);
+    memcpy(box->min, from->spec->box_min, sizeof box->min);
+    memcpy(box->max, from->spec->box_max, sizeof box->max);
+    if (from->spec->rest != SPEC_BOX_MESH)
+        return FFD_OK;
+    return from->rest ? ffd_shape_grow_box(from->fitted.min, from->fitted.max, from->spec->margin, box->min,
+                                           box->max, error)
+                      : fail_without_positions("this", error);
+}
+
+/* Sets the rest as a box: that of the file, as it was laid round a mesh, or placed elsewhere; or still to be
+   laid. */
 static ffd_status set_box(const made_lattice *made, lattice_spec *spec, ffd_error *error)
 {
+    static const double along[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     const lattice_spec *const from = made->from->spec;
-    memcpy(spec->box_axes, from->box_axes, sizeof spec->box_axes);
+    made_box box = made->box;
     memcpy(spec->margin, from->margin, sizeof spec->margin);
-    memcpy(spec->box_min, from->box_min, sizeof spec->box_min);
-    memcpy(spec->box_max, from->box_max, sizeof spec->box_max);
-    spec->has_axes = from->has_axes;
-    spec->spacing = FFD_SPACING_GREVILLE;
-    spec->rest = made->from->rest ? SPEC_BOX : from->rest;
-    if (!made->from->rest)
-        return copy_meshes(from, spec, error);
-    if (from->rest != SPEC_BOX_MESH)
-        return FFD_OK;
-    return ffd_shape_grow_box(made->from->fitted.min, made->from->fitted.max, from->margin, spec->box_min,
-                              spec->box_max, error);
+    spec->spacing = from->spacing;
+    spec->rest = made->has_box || made->from->rest ? SPEC_BOX : from->rest;
+    if (!made->has_box && spec->rest == SPEC_BOX)
+        TRY(ffd_made_find_box(made, &box, error));
+    memcpy(spec->box_axes, spec->rest == SPEC_BOX ? box.axes : from->box_axes, sizeof spec->box_axes);
+    memcpy(spec->box_min, box.min, sizeof spec->box_min);
+    memcpy(spec->box_max, box.max, sizeof spec->box_max);
+    spec->has_axes = made->has_box ? memcmp(box.axes, along, sizeof along) != 0 : from->has_axes;
+    return spec->rest == SPEC_BOX ? FFD_OK : copy_meshes(from, spec, error);
+}
+
+/* Sets the rest as it is. */
+static ffd_status set_same(const made_lattice *made, lattice_spec *spec, ffd_error *error)
+{
+    const lattice_spec *const from = made->from->spec;
+    if (from->rest == SPEC_BOX || from->rest == SPEC_BOX_MESH)
+        return set_box(made, spec, error);
+    spec->rest = from->rest;
+    if (from->rest == SPEC_POINTS)
+        return ffd_made_copy(from->points, 3 * from->count, &spec->points, error);
+    memcpy(spec->center, from->center, sizeof spec->center);
+    memcpy(spec->radius, from->radius, sizeof spec->radius);
+    memcpy(spec->angle, from->angle, sizeof spec->angle);
+    memcpy(spec->axis, from->axis, sizeof spec->axis);
+    memcpy(spec->zero, from->zero, sizeof spec->zero);
+    spec->height = from->height;
+    return FFD_OK;
 }
 
 static bool move_anything(const made_lattice *made, size_t count)
@@ -176,7 +263,7 @@ static ffd_status fill(made_lattice *made, lattice_spec *spec, ffd_error *error)
         take(&made->moved_weights, &spec->deformed_weights);
     take(&made->weights, &spec->weights);
     if (!made->points)
-        return set_box(made, spec, error);
+        return set_same(made, spec, error);
     spec->rest = SPEC_POINTS;
     take(&made->points, &spec->points);
     return FFD_OK;

@@ -1,4 +1,4 @@
-#include "lattice/author/difference.h"
+#include "author/difference.h"
 #include "base/arithmetic.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"

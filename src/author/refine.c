@@ -1,8 +1,8 @@
 /* refine.c - ffd_lattice_refine: the same map with more control points or of higher degree. */
-#include "lattice/author/refine.h"
+#include "author/refine.h"
+#include "author/made.h"
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
-#include "lattice/author/made.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
 #include "spline/refine.h"

@@ -1,0 +1,195 @@
+#!/usr/bin/env python3
+"""ffd lattice set: operations on what a lattice does. authoring/set-*.json hold right answers in exact fractions."""
+
+import json
+import os
+import random
+import re
+
+from author import deformed_points, offsets_of, reference_cases, rest_points
+from harness import CUBE, INVALID, IO, USAGE, case, carried, check, equal, lattice, main, near, repetitions
+
+SEED = int(os.environ.get("FFD_SEED") or random.randrange(1 << 30))
+RANDOM = random.Random(SEED)
+print(f"seed {SEED} (FFD_SEED)")
+PLACES = [[RANDOM.uniform(-1.5, 1.5) for _ in range(3)] for _ in range(30)]
+
+
+def change(run, *operations, source="a.json", target="o.json"):
+    run.ffd("lattice", "set", source, *operations, "-o", target, "--force")
+    return json.loads(run.text(target))
+
+
+def random_offsets(count, most=0.2):
+    return [[RANDOM.uniform(-most, most) for _ in range(3)] for _ in range(count)]
+
+
+def write(run, name, most=0.2, **members):
+    """A lattice of 4 x 5 x 4 control points in a box, all of which are displaced."""
+    content = lattice(size=(4, 5, 4), degree=(3, 3, 3), deformed={"offsets": random_offsets(80, most)}, **members)
+    run.write(name, content)
+    return content
+
+
+@case
+def the_reference_cases(run):
+    names = 0
+    for name, of in reference_cases("set"):
+        names += 1
+        expect, tolerance = of["expect"], of["expect"]["tolerance"]
+        run.write("A", of["lattice"])
+        if "other" in of:
+            run.write("B", of["other"])
+        found = change(run, *of["command"].split()[3:-2], source="A", target="O.json")
+        equal([found["moves"], found["size"]], [[], of["lattice"]["size"]], name)
+        if "offsets" in expect:
+            near(offsets_of(found), expect["offsets"], tolerance, name)
+        if "rest_points" in expect:
+            near(rest_points(found), expect["rest_points"], tolerance, name)
+            near(deformed_points(found), expect["deformed_points"], tolerance, name)
+        ones = [1.0] * len(offsets_of(found))
+        near(found.get("weights", ones), expect.get("weights", of["lattice"].get("weights", ones)), tolerance, name)
+        if "deformed_weights" in expect:
+            near(found["deformed"].get("weights", found.get("weights", ones)), expect["deformed_weights"], tolerance, name)
+    equal(names, 5)
+
+
+@case
+def what_changes_nothing_changes_no_byte(run):
+    weights = [RANDOM.uniform(0.5, 2) for _ in range(80)]
+    for members in ({}, {"weights": weights}):
+        write(run, "a.json", **members)
+        write(run, "b.json", **members)
+        run.ffd("lattice", "set", "a.json", "--strength", "1", "-o", "same.json", "--force")
+        run.ffd("lattice", "set", "b.json", "--strength", "1", "-o", "other.json", "--force")
+        for operations, name in ((["--blend", "b.json,0"], "same.json"), (["--blend", "b.json,1"], "other.json"),
+                                 (["--mirror", "u", "--mirror", "u"], "same.json"), (["--strength", "1", "--move", "0,0,0"], "same.json"),
+                                 (["--rotate", "y,90", "--rotate", "y,-90"], "same.json"), (["--scale", "2", "--scale", "0.5"], "same.json")):
+            if "--mirror" in operations and members:
+                continue  # these weights are not symmetric
+            change(run, *operations)
+            equal(run.read("o.json"), run.read(name), operations)
+        check("deformed" not in change(run, "--strength", "0"), "no displacement is left")
+        check("deformed" not in change(run, "--blend", "a.json,0.5", "--strength", "0"), "nor here")
+
+
+@case
+def half_and_twice_the_edit(run):
+    content = write(run, "a.json", most=0.05)
+    for strength in (0.5, 2, -1):
+        change(run, "--strength", str(strength))
+        ends, moved = carried(run, PLACES, "o.json"), carried(run, PLACES, "a.json")
+        near(ends, [[p + strength * (q - p) for p, q in zip(*both)] for both in zip(PLACES, moved)], 1e-14, strength)
+    other = write(run, "b.json", most=0.05)
+    found = change(run, "--add", "b.json")
+    equal(offsets_of(found), [[x + y for x, y in zip(*both)] for both in zip(offsets_of(content), offsets_of(other))])
+    # In the order given: half of both is not half of one.
+    near(offsets_of(change(run, "--add", "b.json", "--strength", "0.5")), [[d / 2 for d in p] for p in offsets_of(found)], 1e-17)
+    near(offsets_of(change(run, "--strength", "0.5", "--add", "b.json")),
+         [[x / 2 + y for x, y in zip(*both)] for both in zip(offsets_of(content), offsets_of(other))], 1e-17)
+
+
+@case
+def the_inverse_leads_back(run):
+    for _ in range(repetitions(5)):
+        write(run, "a.json", most=0.15)
+        change(run, "--invert", target="back.json")
+        near(carried(run, carried(run, PLACES, "a.json"), "back.json"), PLACES, 1e-13)
+        # Refined and inverted, in either order, is the same map.
+        run.ffd("lattice", "refine", "a.json", "-o", "fine.json", "--size", "7", "--force")
+        change(run, "--invert", source="fine.json", target="fine-back.json")
+        near(carried(run, carried(run, PLACES, "a.json"), "fine-back.json"), PLACES, 1e-13)
+    run.write("a.json", lattice(moves=[{"at": [1, 1, 1], "by": [60, 0, 0]}]))
+    run.ffd("lattice", "set", "a.json", "--invert", "-o", "n.json", code=INVALID, lines=1,
+            err=re.compile(r"a\.json: the lattice folds at u,v,w = .*: it has no inverse there"))
+    check(not run.exists("n.json"))
+
+
+@case
+def places_elsewhere(run):
+    """The map becomes M f M^-1: what M makes of a place moves to what M makes of its end."""
+    write(run, "a.json", most=0.1)
+    ends = carried(run, PLACES, "a.json")
+    for operations, place in ((["--move", "1,-2,0.5"], lambda x, y, z: [x + 1, y - 2, z + 0.5]),
+                              (["--rotate", "z,90,1,0,0"], lambda x, y, z: [1 - y, x - 1, z]),
+                              (["--scale", "3,0,1,0"], lambda x, y, z: [3 * x, 3 * y - 2, 3 * z]),
+                              (["--transform", "1,0.5,0,2, 0,1,0,0, 0,0,-2,0, 0,0,0,1".replace(" ", "")],
+                               lambda x, y, z: [x + 0.5 * y + 2, y, -2 * z])):
+        found = change(run, *operations)
+        equal("box" in found["rest"], operations[0] != "--transform", operations)
+        near(carried(run, [place(*p) for p in PLACES], "o.json"), [place(*p) for p in ends], 1e-13, operations)
+    run.write("a.json", lattice(knots=["clamped", "closed", "clamped"], rest={"cylinder": {
+        "center": [0, 0, 0], "axis": [0, 0, 1], "radius": [0.5, 1], "height": 2}}))
+    check("points" in change(run, "--move", "1,0,0")["rest"] and "cylinder" in change(run, "--strength", "2")["rest"], "a cylinder")
+
+
+@case
+def mirror_images(run):
+    content = write(run, "a.json")
+    found = offsets_of(change(run, "--mirror", "v"))
+    for k in range(4):
+        for j in range(5):
+            for i in range(4):
+                x, y, z = offsets_of(content)[i + 4 * (4 - j + 5 * k)]
+                equal(found[i + 4 * (j + 5 * k)], [x, -y, z])
+    found = offsets_of(change(run, "--symmetrize", "v-"))
+    for k in range(4):
+        for i in range(4):
+            equal(found[i + 4 * (0 + 5 * k)], offsets_of(content)[i + 4 * (0 + 5 * k)], "the first half stays")
+            x, _, z = offsets_of(content)[i + 4 * (2 + 5 * k)]
+            equal(found[i + 4 * (2 + 5 * k)], [x, 0, z], "the middle layer")
+            x, y, z = found[i + 4 * (1 + 5 * k)]
+            equal(found[i + 4 * (3 + 5 * k)], [x, -y, z], "the other half")
+
+
+@case
+def what_cannot_be_is_refused(run):
+    write(run, "a.json")
+    run.write("finer.json", lattice(size=(5, 5, 4)))
+    run.write("other.json", lattice(size=(4, 5, 4), low=(-2, -2, -1)))
+    run.write("closed.json", lattice(size=(4, 5, 4), knots=["clamped", "closed", "clamped"], rest={"cylinder": {
+        "center": [0, 0, 0], "axis": [0, 0, 1], "radius": [0.5, 1], "height": 2}}))
+    run.write("odd.json", lattice(knots=[[0, 0, 0, 0, 0.3, 1, 1, 1, 1], "clamped", "clamped"], size=(5, 4, 4)))
+    run.write("heavy.json", lattice(size=(4, 5, 4), weights=[1.0] * 79 + [2.0], deformed={"weights": [1.5] * 80}))
+    run.write("mesh.json", lattice(rest={"box": "mesh"}, moves=[{"at": [1, 1, 1], "by": [1, 0, 0]}]))
+    run.write("a.obj", CUBE)
+    for source, operations, code, what in (
+            ("a.json", [], USAGE, "needs at least one operation"),
+            ("a.json", ["--strength", "x"], USAGE, "a number"), ("a.json", ["--strength", "nan"], USAGE, "a number"),
+            ("a.json", ["--blend", "a.json"], USAGE, "a lattice and a number"), ("a.json", ["--blend", ",1"], USAGE, "a lattice and a number"),
+            ("a.json", ["--mirror", "x"], USAGE, "u, v or w"), ("a.json", ["--symmetrize", "u"], USAGE, "the half that stays"),
+            ("a.json", ["--transform", "1,0,0"], USAGE, "16 numbers"),
+            ("a.json", ["--transform", "1,0,0,0,0,1,0,0,0,0,1,0,0,0,1,1"], USAGE, "the last row of the matrix is 0 0 1 1"),
+            ("a.json", ["--move", "1,2"], USAGE, "three numbers"), ("a.json", ["--rotate", "90"], USAGE, "an axis and degrees"),
+            ("a.json", ["--rotate", "y,90,1"], USAGE, "an axis and degrees"), ("a.json", ["--scale", ""], USAGE, "a factor"),
+            ("a.json", ["--strength", "2", "--report", "r.json"], USAGE, "report"),
+            ("a.json", ["--strength", "2", "--mesh", "a.obj"], USAGE, "--mesh cannot be used"),
+            ("a.json", ["--scale", "0"], INVALID, "determinant of the matrix is 0"),
+            ("a.json", ["--blend", "finer.json,0.5"], INVALID, "differ in size: refine one of them"),
+            ("a.json", ["--add", "other.json"], INVALID, "differ in rest"), ("a.json", ["--add", "closed.json"], INVALID, "differ in knots"),
+            ("a.json", ["--add", "heavy.json"], INVALID, "differ in weights at rest"), ("a.json", ["--add", "none.json"], IO, "none.json"),
+            ("closed.json", ["--mirror", "v"], INVALID, "direction v is closed"), ("odd.json", ["--mirror", "u"], INVALID, "the knots along u are not symmetric"),
+            ("heavy.json", ["--mirror", "u"], INVALID, "the weights at rest are not symmetric along u"),
+            ("heavy.json", ["--strength", "-9"], INVALID, "weights are positive"),
+            ("closed.json", ["--mirror", "u"], INVALID, "the first and the last layer of u have the same middle"),
+            ("mesh.json", ["--strength", "2"], INVALID, "its moves need positions \\(--mesh\\)")):
+        run.ffd("lattice", "set", source, *operations, "-o", "o.json", code=code, lines=1, err=re.compile(what))
+        check(not run.exists("o.json"), operations)
+    equal(change(run, "--strength", "2", "--mesh", "a.obj", source="mesh.json")["rest"]["box"]["max"], [1, 1, 1])
+    run.write("still.json", lattice(rest={"box": "mesh", "margin": 0.1}, deformed={"offsets": [[0.25, 0, 0]] * 64}))
+    found = change(run, "--strength", "2", "--add", "still.json", source="still.json", target="s.json")
+    equal([found["rest"]["box"], offsets_of(found)[0]], ["mesh", [0.75, 0, 0]])
+    run.ffd("lattice", "set", "still.json", "--mirror", "u", "-o", "none.json", code=INVALID, lines=1, err=re.compile("positions"))
+    for words, code in ((["-o", "a.json", "--force"], IO), (["--add", "b.json", "-o", "b.json", "--force"], IO), (["-o", "o.obj"], USAGE), ([], USAGE)):
+        write(run, "b.json")
+        run.ffd("lattice", "set", "a.json", "--strength", "2", *words, code=code, lines=1, err=lambda lines: True)
+    # A file name with a comma, and streams.
+    run.write("b,c.json", run.read("a.json"))
+    equal(offsets_of(change(run, "--blend", "b,c.json,0.25")), offsets_of(json.loads(run.text("a.json"))))
+    out = run.ffd("lattice", "set", "-", "--strength", "2", "-o", "-", stdin=run.read("a.json"), data=True).out
+    change(run, "--strength", "2")
+    equal(out, run.read("o.json"))
+    run.ffd("lattice", "set", "-", "--add", "-", "-o", "-", code=USAGE, lines=1, err=re.compile("standard input can be read only once"))
+
+
+main()
