@@ -48,7 +48,7 @@ const char *cli_author_mistake(const cli_author *author, const cli_words *words)
         return "needs one LATTICE";
     for (size_t i = 0; i < author->mesh_count; i++)
         if (strcmp(author->meshes[i].path, "-") == 0)
-            return "--mesh names a file: standard input can be the LATTICE only";
+            return "--mesh names a file, not standard input";
     if (!author->output)
         return "no output is given (-o LATTICE)";
     if (author->mesh_count == 0 && author->job.only_count > 0)
