@@ -646,14 +646,17 @@ typedef struct ffd_lattice_refine_desc {
 /* Sets desc to defaults. size: sizeof(ffd_lattice_refine_desc) in the caller's header. */
 FFD_API void ffd_lattice_refine_desc_init(ffd_lattice_refine_desc *desc, size_t size);
 
+/* How long the parts of such a job took. */
+typedef struct ffd_refine_seconds {
+    double read, refine, write; /* refine: with the measuring */
+} ffd_refine_seconds;
+
 /* What such a job has done. */
 typedef struct ffd_refine_result {
     size_t struct_size; /* sizeof(ffd_refine_result) in the caller's header, set by the caller */
     ffd_status status;
     ffd_error error; /* if status is not FFD_OK */
-    struct {
-        double read, refine, write; /* refine: with the measuring */
-    } seconds;
+    ffd_refine_seconds seconds;
     size_t size_before[3], size[3]; /* 0 where the lattice could not be read, or refined */
     int degree_before[3], degree[3];
     /* The largest difference of a coordinate of C, at rest and deformed, at 3 places of each new span in each
