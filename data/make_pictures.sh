@@ -76,4 +76,8 @@ draw fine models/column.obj -l fine.json $pair --camera 2,0.4,1 --size 160x260
 "$ffd" lattice set lattices/bend.json -o other.json --mesh models/column.obj --mirror w --quiet
 draw half models/column.obj -l half.json $pair --camera 2,0.4,1 --size 160x260
 draw other models/column.obj -l other.json $pair --camera 2,0.4,1 --size 160x260
+for seed in 2 3 4; do
+    deform models/vase.obj vase-$seed.obj -l noise.json --set SEED=$seed
+    draw noise-$seed models/vase.obj vase-$seed.obj $pair $face --size 150x200
+done
 python3 "$data/make_greville.py" "$ffd" "$out/greville.svg"

@@ -3,6 +3,9 @@
 #define FFD_AUTHOR_H
 
 #include <ffd/lattice.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -76,11 +79,18 @@ FFD_API ffd_status ffd_lattice_symmetrize(const ffd_lattice *lattice, int direct
 FFD_API ffd_status ffd_lattice_transform(const ffd_lattice *lattice, const double matrix[16],
                                          ffd_lattice **result, ffd_error *error);
 
-/* Makes the inverse: the deformed volume becomes the one at rest, of control points, and the volume at rest the
-   deformed one; weights change places. It is exact, and holds for places in the image of the volume. threads:
-   as of ffd_folds_find. FFD_E_INVALID also where that does not prove that the lattice has no folds. */
+/* Makes the inverse: the deformed volume becomes the one at rest, of control points, and the volume at rest
+   the deformed one; weights change places. It is exact, and holds for places in the image of the volume.
+   threads: as of ffd_folds_find. FFD_E_INVALID also where that does not prove that the lattice has no folds.
+ */
 FFD_API ffd_status ffd_lattice_invert(const ffd_lattice *lattice, int threads, ffd_lattice **result,
                                       ffd_error *error);
+
+/* Adds noise to all displacements: sigma[a] x, with x in [-1, 1) for axis a of each control point, as of the
+   move "jitter": SplitMix64, the same bits on every machine. sigma: world units, from 0 on; seed: at most
+   2^53 - 1. FFD_E_ARGUMENT where they are not. */
+FFD_API ffd_status ffd_lattice_jitter(const ffd_lattice *lattice, const double sigma[3], uint64_t seed,
+                                      ffd_lattice **result, ffd_error *error);
 
 #ifdef __cplusplus
 }

@@ -6,7 +6,7 @@
 bool ffd_move_has_centre(move_action action)
 {
     return action != MOVE_BY && action != MOVE_TO && action != MOVE_MATRIX && action != MOVE_PULL &&
-           action != MOVE_DRAG;
+           action != MOVE_DRAG && action != MOVE_JITTER;
 }
 
 bool ffd_move_has_extent(move_action action)
@@ -131,7 +131,8 @@ void ffd_move_act(ready_move *ready, double p[3])
     case MOVE_BEND:
         bend(ready, p);
         break;
-    case MOVE_DRAG: /* acts on all points at once (drag.h) */
+    case MOVE_DRAG:   /* acts on all points at once (drag.h) */
+    case MOVE_JITTER: /* differs from point to point (noise.h) */
         break;
     }
 }

@@ -7,6 +7,7 @@
 #include "lattice/mirror.h"
 #include "lattice/move_action.h"
 #include "lattice/move_exact.h"
+#include "lattice/noise.h"
 #include "lattice/shapes.h"
 #include "lattice/spec.h"
 #include <float.h>
@@ -77,7 +78,7 @@ static void matrix_to_world(const move_work *work, double matrix[16])
 /* Returns whether the action adds a vector to the point and to its displacement. */
 static bool adds_vector(const lattice_move *move)
 {
-    return move->action == MOVE_BY || move->action == MOVE_PULL;
+    return move->action == MOVE_BY || move->action == MOVE_PULL || move->action == MOVE_JITTER;
 }
 
 static void move_to_world(const move_work *work, lattice_move *move)
@@ -86,7 +87,7 @@ static void move_to_world(const move_work *work, lattice_move *move)
         return;
     if (move->has_about)
         to_world(work, move->about);
-    if (adds_vector(move))
+    if (adds_vector(move) && move->action != MOVE_JITTER)
         mat_apply(work->region.frame, move->vector, move->vector);
     else if (move->action == MOVE_TO)
         to_world(work, move->vector);
@@ -249,6 +250,15 @@ static ffd_status check_finite(const move_work *work, const lattice_move *move, 
                        point / size[0] % size[1], point / size[0] / size[1]);
 }
 
+/* Returns the noise of a point in world units. */
+static void jitter_of(const move_work *work, const lattice_move *move, size_t point, double by[3])
+{
+    for (int c = 0; c < 3; c++)
+        by[c] = move->vector[c] * noise_at((uint64_t)move->seed, point, c);
+    if (work->in_region)
+        mat_apply(work->region.frame, by, by);
+}
+
 /* Moves a point. For a mirrored move (plane), the action is applied to the image of the point, and the result
    is reflected back. */
 static ffd_status move_point(const move_work *work, ready_move *ready, const mirror_plane *plane,
@@ -267,7 +277,9 @@ static ffd_status move_point(const move_work *work, ready_move *ready, const mir
         return FFD_OK;
     double to[3] = {from[0], from[1], from[2]};
     ffd_move_act(ready, to);
-    if (plane && adds_vector(move))
+    if (move->action == MOVE_JITTER)
+        jitter_of(work, move, point, to);
+    else if (plane && adds_vector(move))
         ffd_mirror_vector(plane, move->vector, to);
     else if (adds_vector(move))
         memcpy(to, move->vector, sizeof to);

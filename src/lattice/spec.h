@@ -18,7 +18,8 @@ typedef enum move_action {
     MOVE_TAPER,
     MOVE_BEND,
     MOVE_PULL,
-    MOVE_DRAG
+    MOVE_DRAG,
+    MOVE_JITTER
 } move_action;
 
 /* Of the lengths and positions in moves: of the world, or fractions of the rest region's sides, or of the
@@ -60,11 +61,12 @@ typedef struct lattice_move {
     double within_min[3], within_max[3];
     bool has_about;
     double about[3];
-    double vector[3]; /* by (also of a pull), to, scale factors, or toward (unit length, perpendicular to
-                         axis) */
+    double vector[3]; /* by (also of a pull), to, scale factors, sigma of a jitter, or toward (unit length,
+                         perpendicular to axis) */
     double axis[3];   /* unit length */
     double raw_axis[3], raw_toward[3]; /* as the file has them */
     double amount;                     /* degrees, taper factor */
+    double seed;                       /* of a jitter: a whole number from 0 to NOISE_MOST_SEED */
     double matrix[16];
     double point[3], radius; /* of a pull, in the units of the file; the radius also of a drag, 0: none */
     spec_drag *drags;        /* drag_count of the spec's */

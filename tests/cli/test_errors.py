@@ -127,7 +127,7 @@ LATTICES = [
     (lattice(deformed={"pts": []}), INVALID, ':1: /deformed/pts: unknown key "pts"; the nearest known one is "points"'),
     (lattice(units="metres"), INVALID, ':1: /units: unknown word "metres"; known ones are "world", "box", "mesh"'),
     (lattice(moves=[1]), INVALID, ":1: /moves/0: must be an object, not the number 1"),
-    (lattice(moves=[{}]), INVALID, ":1: /moves/0: has no action: by, to, scale, rotate, matrix, twist, taper, bend, pull or drag"),
+    (lattice(moves=[{}]), INVALID, ":1: /moves/0: has no action: by, to, scale, rotate, matrix, twist, taper, bend, pull, drag or jitter"),
     (lattice(moves=[{"by": [1, 2]}]), INVALID, ":1: /moves/0/by: must be an array of 3 numbers, not an array of 2"),
     (lattice(moves=[{"by": [1, 2, 3], "to": [1, 2, 3]}]), INVALID,
      ':1: /moves/0: has two actions, "by" and "to"; a move has one'),

@@ -66,6 +66,8 @@ RICH = [
     {**BOX, "rest": {"box": "mesh"}, "units": "mesh", "moves": [
         {"at": ["first", ["bottom", "last"], "top"], "mirror": {"axis": "x", "at": 0.5}, "pull": {"point": [0, 0, 0], "by": [0, 1, 0], "radius": 0.5}},
         {"mirror": {"point": [0.5, 0.5, 0.5], "normal": [1, 2, 0]}, "falloff": {"center": [0, 0, 0], "radius": 2}, "by": [0.1, 0, 0]}]},
+    {**BOX, "moves": [{"jitter": {"sigma": [0, 0.5, 1], "seed": 9007199254740991}}, {"at": [1, "all", "all"], "weight": 0.5, "falloff": {
+        "center": [0, 0, 0], "radius": 1}, "jitter": {"sigma": 0.1, "seed": {"$": "SEED"}}}]},
     {**BOX, "moves": [{"within": {"min": [0, 0, 0], "max": [1, 1, 1]}, "mirror": "z", "radius": 2, "drag": [
         {"point": [0.5, 0.5, 0.5], "by": [0, 0.1, 0]}, {"point": [0, 0, 0], "by": [0, 0, 0]}]}]},
     {**BOX, "size": [2, 2, 3], "moves": [{"mirror": "y", "weight": 1, "bend": {"axis": "z", "toward": "x", "degrees": 0, "exact": True}}]},
@@ -321,6 +323,15 @@ BROKEN = {
     "mirror: at is a number": moved({"mirror": {"axis": "x", "at": [0, 0, 0]}, "by": [0, 0, 0]}),
     "mirror: a normal": moved({"mirror": {"point": [0, 0, 0]}, "by": [0, 0, 0]}),
     "mirror: a plane is not empty": moved({"mirror": {}, "by": [0, 0, 0]}),
+    "jitter: sigma": moved({"jitter": {"seed": 1}}),
+    "jitter: seed": moved({"jitter": {"sigma": 1}}),
+    "jitter: sigma from 0 on": moved({"jitter": {"sigma": -1, "seed": 1}}),
+    "jitter: one or three sigmas": moved({"jitter": {"sigma": [1, 1], "seed": 1}}),
+    "jitter: whole seeds": moved({"jitter": {"sigma": 1, "seed": 0.5}}),
+    "jitter: seeds from 0 on": moved({"jitter": {"sigma": 1, "seed": -1}}),
+    "jitter: seeds up to 2^53 - 1": moved({"jitter": {"sigma": 1, "seed": 2**53}}),
+    "jitter: no mirror": moved({"mirror": "x", "jitter": {"sigma": 1, "seed": 1}}),
+    "jitter: no other member": moved({"jitter": {"sigma": 1, "seed": 1, "about": [0, 0, 0]}}),
     "drag: a list": moved({"drag": {"point": [0, 0, 0], "by": [0, 0, 0]}}),
     "drag: not empty": moved({"drag": []}),
     "drag: point": moved({"drag": [{"by": [0, 0, 0]}]}),

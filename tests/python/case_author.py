@@ -33,6 +33,19 @@ class Author(unittest.TestCase):
                 with open(out, encoding="utf-8") as file:
                     self.assertEqual(file.read(), made.text, words)
 
+    def test_noise_is_that_of_the_move(self):
+        text = ('{"format": "ffd-lattice", "version": 1, "size": [4, 5, 4], "rest": {"box": {"min": [-1, -1, -1], "max": [1, 1, 1]}}, '
+                '"moves": [{"jitter": {"sigma": [0.1, 0, 0.3], "seed": 12345678901}}]}')
+        moved = ffd.Lattice.parse(text)
+        still = ffd.Lattice.box((-1, -1, -1), (1, 1, 1), size=(4, 5, 4))
+        self.assertTrue((still.jitter([0.1, 0, 0.3], 12345678901).offsets == moved.offsets).all())
+        self.assertTrue((still.jitter(0.1, 7).offsets == 0.1 * still.jitter(1, 7).offsets).all())
+        self.assertIn('"jitter"', moved.text)
+        self.assertTrue((ffd.Lattice.parse(moved.text).offsets == moved.offsets).all())
+        for sigma, seed in ((-1, 1), ([1, 1], 1), (1, -1), (1, 2**53)):
+            with self.assertRaises(ValueError):
+                still.jitter(sigma, seed)
+
     def test_wrong_values(self):
         lattice = self.lattice()
         for call in (lambda: lattice.mirror("x"), lambda: lattice.symmetrize("u"), lambda: lattice.symmetrize("x+"),

@@ -399,8 +399,8 @@ static const refusal bad_moves[] = {
     {BOX ",\"moves\":{}}", FFD_E_INVALID, "f.json:1: /moves: must be an array of moves, not an object"},
     {MOVE("7"), FFD_E_INVALID, "f.json:1: /moves/0: must be an object, not the number 7"},
     {MOVE("{}"), FFD_E_INVALID,
-     "f.json:1: /moves/0: has no action: by, to, scale, rotate, matrix, twist, taper, bend, pull or "
-     "drag"},
+     "f.json:1: /moves/0: has no action: by, to, scale, rotate, matrix, twist, taper, bend, pull, "
+     "drag or jitter"},
     {MOVE("{\"at\":[0,0,0],\"by\":[0,0,0],\"to\":[0,0,0]}"), FFD_E_INVALID,
      "f.json:1: /moves/0: has two actions, \"by\" and \"to\"; a move has one"},
     {MOVE("{\"by\":[0,0,1]},{\"att\":[0,0,0],\"by\":[0,0,0]}"), FFD_E_INVALID,

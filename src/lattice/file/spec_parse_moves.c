@@ -1,9 +1,11 @@
 #include "lattice/file/spec_parse_moves.h"
+#include "base/arithmetic.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
 #include "base/vector/direction.h"
 #include "lattice/drag.h"
 #include "lattice/file/spec_values.h"
+#include "lattice/noise.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -227,6 +229,28 @@ static ffd_status read_drag(json_cursor cursor, lattice_move *move)
     return FFD_OK;
 }
 
+/* Noise is not its own mirror image. */
+static ffd_status read_jitter(json_cursor cursor, lattice_move *move)
+{
+    static const char *const keys[] = {"sigma", "seed", SPEC_NOTES};
+    json_cursor sigma, seed;
+    TRY(ffd_spec_read_object(cursor, keys, COUNT_OF(keys)));
+    TRY(ffd_json_require(cursor, "sigma", &sigma));
+    TRY(ffd_json_require(cursor, "seed", &seed));
+    TRY(read_factor(sigma, move->vector));
+    for (int c = 0; c < 3; c++)
+        if (!(move->vector[c] >= 0))
+            return ffd_cursor_fail(sigma, "sigma %s is less than 0", ffd_number_text(move->vector[c]).text);
+    TRY(ffd_json_read_double(seed, &move->seed));
+    if (!(move->seed >= 0 && move->seed <= (double)NOISE_MOST_SEED) || floor_of(move->seed) != move->seed)
+        return ffd_cursor_fail(seed, "seed %s is not a whole number from 0 to 9007199254740991",
+                               ffd_number_text(move->seed).text);
+    return move->mirror.kind == MIRROR_NONE
+               ? FFD_OK
+               : ffd_cursor_fail(cursor, "noise has no mirror image: make the lattice symmetric afterwards "
+                                         "(ffd lattice set --symmetrize)");
+}
+
 /* form: of an action that is an object, for who writes a number or an array. */
 static const struct action_reader {
     const char *key;
@@ -244,6 +268,7 @@ static const struct action_reader {
     {"bend", MOVE_BEND, read_bend, "{\"axis\": \"y\", \"toward\": \"x\", \"degrees\": %s}"},
     {"pull", MOVE_PULL, read_pull, "{\"point\": [x, y, z], \"by\": %s, \"radius\": r}"},
     {"drag", MOVE_DRAG, read_drag, NULL},
+    {"jitter", MOVE_JITTER, read_jitter, "{\"sigma\": %s, \"seed\": 1}"},
 };
 
 /* Refuses a number or an array in place of an object; shows where it belongs. */
@@ -289,7 +314,7 @@ static ffd_status read_action(json_cursor cursor, lattice_move *move)
     }
     if (!chosen)
         return ffd_cursor_fail(
-            cursor, "has no action: by, to, scale, rotate, matrix, twist, taper, bend, pull or drag");
+            cursor, "has no action: by, to, scale, rotate, matrix, twist, taper, bend, pull, drag or jitter");
     move->action = chosen->action;
     TRY(check_form(action, chosen));
     return chosen->read(action, move);
@@ -427,9 +452,9 @@ static ffd_status read_reach(json_cursor cursor, lattice_move *move)
 
 static ffd_status read_move(json_cursor cursor, const lattice_spec *spec, lattice_move *move)
 {
-    static const char *const keys[] = {"at",   "within", "weight", "falloff", "mirror",  "by",
-                                       "to",   "scale",  "rotate", "matrix",  "twist",   "taper",
-                                       "bend", "pull",   "drag",   "radius",  SPEC_NOTES};
+    static const char *const keys[] = {"at",   "within", "weight", "falloff", "mirror", "by",
+                                       "to",   "scale",  "rotate", "matrix",  "twist",  "taper",
+                                       "bend", "pull",   "drag",   "jitter",  "radius", SPEC_NOTES};
     const json_cursor exact = ffd_cursor_member(cursor, "exact");
     if (ffd_cursor_exists(exact)) /* a suggestion of the most similar key would mislead */
         return ffd_cursor_fail(exact, "unknown key \"exact\" of a move; it is one of \"bend\"");

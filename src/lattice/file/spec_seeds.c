@@ -62,7 +62,8 @@ static const char *what_selects(const lattice_spec *spec, const spec_seed *seed)
         size_t first, size;
         const char *what;
     } ranges[] = {{offsetof(lattice_move, within_min), 6 * sizeof(double), "not a number that moves points"},
-                  {offsetof(lattice_move, mirror), sizeof(move_mirror), "the plane of a mirror"}};
+                  {offsetof(lattice_move, mirror), sizeof(move_mirror), "the plane of a mirror"},
+                  {offsetof(lattice_move, seed), sizeof(double), "the seed of a jitter"}};
     if (seed->is_dragged)
         return seed->offset < offsetof(spec_drag, by) ? "the place of a drag" : NULL;
     for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++)

@@ -263,6 +263,12 @@ static void write_action(json_text *json, const lattice_move *move)
     case MOVE_DRAG:
         write_drag(json, move);
         break;
+    case MOVE_JITTER:
+        ffd_json_object(json, "jitter", true);
+        ffd_json_vector(json, "sigma", move->vector, 3);
+        ffd_json_count(json, "seed", (uint64_t)move->seed);
+        ffd_json_end(json, '}');
+        break;
     }
 }
 

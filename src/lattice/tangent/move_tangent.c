@@ -1,6 +1,7 @@
 #include "lattice/tangent/move_tangent.h"
 #include "base/vector/trig.h"
 #include "base/vector/vec.h"
+#include "lattice/noise.h"
 
 #define RADIANS (3.14159265358979323846 / 180)
 
@@ -305,6 +306,7 @@ static dual3 act(const dual_move *move, dual3 p, const dual *part, const dual *h
     case MOVE_BEND:
         return move->length.v > 0 ? bend(move, p, part ? *part : fraction(move, p), half) : p;
     case MOVE_DRAG:
+    case MOVE_JITTER:
         break;
     }
     return out;
@@ -371,10 +373,22 @@ static dual weight_at(const dual_move *move, size_t point)
     return weight;
 }
 
+/* A point with its noise added, which is linear in sigma. */
+static dual3 jitter(const dual_move *move, size_t point, dual3 p)
+{
+    const move_step *const step = move->step;
+    dual3 by;
+    for (int c = 0; c < 3; c++)
+        by.c[c] = dual_mul(move->vector.c[c], dual_of(noise_at((uint64_t)step->move->seed, point, c)));
+    return dual3_add(p, step->inverse ? apply(step->region->frame, by) : by);
+}
+
 void ffd_dual_move_point(const dual_move *move, size_t point, const dual *part, const dual *half,
                          double derivative[3])
 {
-    const dual3 p = seen(move, point, derivative), to = act(move, p, part, half);
+    const dual3 p = seen(move, point, derivative);
+    const dual3 to =
+        move->step->move->action == MOVE_JITTER ? jitter(move, point, p) : act(move, p, part, half);
     const dual weight = weight_at(move, point);
     const dual3 moved = dual3_add(p, dual3_scale(dual3_sub(to, p), weight));
     for (int c = 0; c < 3; c++)

@@ -280,6 +280,15 @@ class Lattice:
         numbers = np.ascontiguousarray(arrays.doubles(matrix, "matrix", (4, 4)))
         return self._new(lib.ffd_lattice_transform, self._pointer, arrays.address(numbers))
 
+    def jitter(self, sigma: Any, seed: int) -> Lattice:
+        """Returns a lattice with noise added to its displacements: sigma x, with x in [-1, 1) for each axis of each control
+        point, the same bits on every machine, as of the move "jitter".
+
+        sigma: one for all axes, or three, world units, from 0 on; seed: 0 to 2**53 - 1
+        """
+        numbers = np.array([library.real(value, "sigma") for value in three(sigma, "sigma")], np.float64)
+        return self._new(lib.ffd_lattice_jitter, self._pointer, arrays.address(numbers), library.integer(seed, "seed", most=2**53))
+
     def invert(self, *, threads: int = 0) -> Lattice:
         """Returns the exact inverse: rest and deformed volume change places. It covers the image of the volume. Raises
         `InvalidError` where the lattice is not proven to have no folds."""
