@@ -155,6 +155,15 @@ static ffd_status allocate(comparison *of, int threads, ffd_error *error)
     return FFD_OK;
 }
 
+uint64_t ffd_lattice_difference_bytes(const ffd_lattice *a, const ffd_lattice *b)
+{
+    const ffd_lattice *const both[] = {a, b};
+    uint64_t numbers = 0;
+    for (int s = 0; s < 2; s++)
+        numbers += WIDTH * ((uint64_t)both[s]->size[0] * both[s]->size[1] + both[s]->size[0]);
+    return numbers * sizeof(double);
+}
+
 ffd_status ffd_lattice_difference(const ffd_lattice *a, const ffd_lattice *b, int threads, double *largest,
                                   ffd_error *error)
 {

@@ -28,18 +28,38 @@ static const knot_row *last_row(const refine_plan *plan)
     return &plan->rows[plan->count - 1];
 }
 
+static ffd_status refuse_count(ffd_error *error)
+{
+    return ffd_fail(error, FFD_E_LIMIT, "the lattice would have more than %zu control points",
+                    FFD_MAX_CONTROL_POINTS);
+}
+
+/* Refuses sizes that are too large together before any memory is taken for one of them. */
+static ffd_status check_sizes(const ffd_lattice *lattice, const size_t size[3], ffd_error *error)
+{
+    size_t count = 1;
+    for (int a = 0; a < 3; a++) {
+        const size_t least = size[a] > lattice->size[a] ? size[a] : lattice->size[a];
+        TRY(ffd_refine_check_count(least, "uvw"[a], FFD_MAX_CONTROL_POINTS, error));
+        if (least > FFD_MAX_CONTROL_POINTS / count)
+            return refuse_count(error);
+        count *= least;
+    }
+    return FFD_OK;
+}
+
 static ffd_status make_plans(refinement *of, const ffd_refine_desc *desc, ffd_error *error)
 {
     bool changes = false;
     size_t count = 1;
+    TRY(check_sizes(of->lattice, desc->size, error));
     for (int a = 0; a < 3; a++) {
         const refine_wish wish = {desc->degree[a], desc->size[a], desc->insert[a], desc->insert_count[a]};
         TRY(ffd_refine_plan(&of->lattice->knots[a], &wish, "uvw"[a], FFD_MAX_CONTROL_POINTS, &of -> plans[a],
                             error));
         changes = changes || of->plans[a].count > 1;
         if (last_row(&of->plans[a])->points > FFD_MAX_CONTROL_POINTS / count)
-            return ffd_fail(error, FFD_E_LIMIT, "the lattice would have more than %zu control points",
-                            FFD_MAX_CONTROL_POINTS);
+            return refuse_count(error);
         count *= last_row(&of->plans[a])->points;
     }
     return changes ? FFD_OK
@@ -240,16 +260,34 @@ static void free_plans(refinement *of)
         ffd_refine_plan_free(&of->plans[a]);
 }
 
-ffd_status ffd_lattice_refined_size(const ffd_lattice *lattice, const ffd_refine_desc *desc, size_t size[3],
-                                    ffd_error *error)
+/* Points and offsets count where they may be written. */
+static lattice_spec arrays_of(const ffd_lattice *lattice)
+{
+    const made_lattice made = {.from = lattice};
+    return (lattice_spec){.count = 1,
+                          .points = ffd_made_is_box(&made) ? NULL : lattice->rest,
+                          .weights = lattice->rest_weights,
+                          .deformed_weights = lattice->deformed_weights,
+                          .deformed_offsets =
+                              lattice->rest ? lattice->difference : lattice->spec->deformed_offsets};
+}
+
+ffd_status ffd_lattice_refined_spec(const ffd_lattice *lattice, const ffd_refine_desc *desc,
+                                    lattice_spec *spec, ffd_error *error)
 {
     ffd_refine_desc own;
     refinement of = {.lattice = lattice};
     ffd_refine_desc_init(&own, sizeof own);
     TRY(ffd_struct_take(&own, sizeof own, desc, "ffd_refine_desc", error));
     const ffd_status status = make_plans(&of, &own, error);
-    for (int a = 0; a < 3 && !status; a++)
-        size[a] = last_row(&of.plans[a])->points;
+    *spec = arrays_of(lattice);
+    for (int a = 0; a < 3 && !status; a++) {
+        const knot_row *const row = last_row(&of.plans[a]);
+        spec->size[a] = row->points;
+        spec->degree[a] = row->degree;
+        spec->list_count[a] = row->points + (size_t)row->degree + 1;
+        spec->count *= row->points;
+    }
     free_plans(&of);
     return status;
 }

@@ -1,12 +1,15 @@
-/* refine.h - what a refinement takes (public: ffd/author.h). */
+/* refine.h - the memory that a refinement takes (public: ffd/author.h). */
 #ifndef FFD_AUTHOR_REFINE_H
 #define FFD_AUTHOR_REFINE_H
 
+#include "lattice/spec.h"
 #include <ffd/author.h>
 
-/* Finds the size of the lattice that ffd_lattice_refine would make. Errors: FFD_E_ARGUMENT, FFD_E_LIMIT and
-   FFD_E_MEMORY, as there. */
-ffd_status ffd_lattice_refined_size(const ffd_lattice *lattice, const ffd_refine_desc *desc, size_t size[3],
-                                    ffd_error *error);
+/* Describes the lattice that ffd_lattice_refine would make as far as its memory depends on it
+   (ffd_spec_point_bytes, ffd_spec_knot_bytes): sizes, degrees, and the arrays that it has, in whose place
+   those of `lattice` stand. Not to be freed. Errors: FFD_E_ARGUMENT, FFD_E_LIMIT and FFD_E_MEMORY, as
+   there. */
+ffd_status ffd_lattice_refined_spec(const ffd_lattice *lattice, const ffd_refine_desc *desc,
+                                    lattice_spec *spec, ffd_error *error);
 
 #endif

@@ -44,13 +44,11 @@ const cli_option cli_author_options[] = {
 
 const char *cli_author_mistake(const cli_author *author, const cli_words *words)
 {
-    size_t streams = words->count == 1 && strcmp(words->words[0], "-") == 0;
-    for (size_t i = 0; i < author->mesh_count; i++)
-        streams += strcmp(author->meshes[i].path, "-") == 0;
     if (words->count != 1)
         return "needs one LATTICE";
-    if (streams > 1)
-        return "standard input can be read only once";
+    for (size_t i = 0; i < author->mesh_count; i++)
+        if (strcmp(author->meshes[i].path, "-") == 0)
+            return "--mesh names a file, not standard input";
     if (!author->output)
         return "no output is given (-o LATTICE)";
     if (author->mesh_count == 0 && author->job.only_count > 0)

@@ -2,6 +2,7 @@
 #include "cli/command.h"
 #include "cli/member.h"
 #include "cli/three.h"
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,7 +30,7 @@ static bool set_size(void *context, const cli_option *option, const char *value)
     long count = 0;
     bool right = cli_split_three(value, part);
     for (int a = 0; right && a < 3; a++) {
-        right = cli_parse_count(part[a], 2, 1000000, &count);
+        right = cli_parse_count(part[a], 2, LONG_MAX, &count);
         s->desc.size[a] = (size_t)count;
     }
     if (!right)

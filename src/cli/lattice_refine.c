@@ -2,6 +2,7 @@
 #include "cli/author.h"
 #include "cli/three.h"
 #include <ffd/author.h>
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,7 +24,7 @@ static bool set_size(void *context, const cli_option *option, const char *value)
     long count = 0;
     bool right = cli_split_three(value, part);
     for (int a = 0; right && a < 3; a++) {
-        right = cli_parse_count(part[a], 2, 100000000, &count);
+        right = cli_parse_count(part[a], 2, LONG_MAX, &count);
         s->refine.size[a] = (size_t)count;
     }
     if (!right)

@@ -5,17 +5,15 @@
 
 bool cli_split_three(const char *value, char part[3][CLI_PART])
 {
+    const bool is_one = !strchr(value, ',');
     for (int a = 0; a < 3; a++) {
         const size_t length = strcspn(value, ",");
         if (length == 0 || length >= CLI_PART)
             return false;
         memcpy(part[a], value, length);
         part[a][length] = 0;
-        if (a == 0 && !value[length]) {
-            strcpy(part[1], part[0]);
-            strcpy(part[2], part[0]);
-            return true;
-        }
+        if (is_one)
+            continue;
         value += length;
         if (a < 2 ? *value != ',' : *value != 0)
             return false;

@@ -84,7 +84,7 @@ static ffd_status add_meshes(const ffd_lattice_new_desc *desc, bool all, place_l
     return FFD_OK;
 }
 
-/* Invalid sizes are left to ffd_lattice_create. */
+/* Invalid sizes and degrees are left to ffd_lattice_create. */
 static ffd_status check_memory(const ffd_lattice_new_desc *desc, ffd_error *error)
 {
     lattice_spec spec = {.count = 1};
@@ -92,6 +92,9 @@ static ffd_status check_memory(const ffd_lattice_new_desc *desc, ffd_error *erro
     for (int a = 0; a < 3; a++) {
         spec.size[a] = desc->lattice->size[a];
         if (spec.size[a] < 1 || spec.size[a] > FFD_MAX_CONTROL_POINTS / spec.count)
+            return FFD_OK;
+        spec.degree[a] = desc->lattice->degree[a] ? desc->lattice->degree[a] : 3;
+        if (spec.degree[a] < 0 || spec.degree[a] > FFD_MAX_DEGREE)
             return FFD_OK;
         spec.count *= spec.size[a];
     }

@@ -204,7 +204,7 @@ static bool is_clamped(const knot_row *row)
     return row->closed || (row->t[0] >= row->t[d] && row->t[n + d] <= row->t[n]);
 }
 
-static ffd_status check_limit(size_t points, char direction, size_t most, ffd_error *error)
+ffd_status ffd_refine_check_count(size_t points, char direction, size_t most, ffd_error *error)
 {
     return points <= most
                ? FFD_OK
@@ -220,8 +220,8 @@ static ffd_status elevate(const refine_wish *wish, char direction, size_t most, 
         TRY(clamp_row(&plan->rows[plan->count - 2], &plan->rows[plan->count - 1], error));
     }
     const knot_row *const row = &plan->rows[plan->count - 1];
-    TRY(check_limit(row->points + count_spans(row) * (size_t)(wish->degree - row->degree), direction, most,
-                    error));
+    TRY(ffd_refine_check_count(row->points + count_spans(row) * (size_t)(wish->degree - row->degree),
+                               direction, most, error));
     while (plan->rows[plan->count - 1].degree < wish->degree) {
         plan->count++;
         TRY(elevate_row(&plan->rows[plan->count - 2], &plan->rows[plan->count - 1], error));
@@ -234,7 +234,7 @@ static ffd_status check_wish(const knot_row *last, const refine_wish *wish, char
 {
     const size_t points =
         wish->insert_count > SIZE_MAX - last->points ? SIZE_MAX : last->points + wish->insert_count;
-    TRY(check_limit(points > wish->points ? points : wish->points, direction, most, error));
+    TRY(ffd_refine_check_count(points > wish->points ? points : wish->points, direction, most, error));
     if (wish->points > 0 && wish->points < points)
         return ffd_fail(
             error, FFD_E_ARGUMENT, "{size} %zu along %c is less than the %zu control points that are there%s",

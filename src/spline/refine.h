@@ -32,6 +32,10 @@ typedef struct refine_plan {
     size_t count;
 } refine_plan;
 
+/* Refuses more than `most` control points of a direction: 'u', 'v' or 'w', for the message. Errors:
+   FFD_E_LIMIT. */
+ffd_status ffd_refine_check_count(size_t points, char direction, size_t most, ffd_error *error);
+
 /* Makes the plan. direction: 'u', 'v' or 'w', for messages. *plan is empty after a failure. Errors:
    FFD_E_ARGUMENT for a knot outside of the domain, too many equal ones, a degree or a number of control
    points that is less than now, or a degree above MAX_DEGREE; FFD_E_LIMIT for more than `most` control

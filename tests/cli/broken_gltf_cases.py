@@ -7,7 +7,7 @@ import copy
 import json
 import struct
 
-from gltf_asset import CODES, FLOAT, SHORT, SIZES, UBYTE, USHORT, GltfAsset
+from gltf_asset import CODES, FLOAT, SHORT, SIZES, UBYTE, UINT, USHORT, GltfAsset
 from harness import IO, INVALID, OK, UNSUPPORTED, pad
 
 CORNERS = [(x, y, z) for z in (-1.0, 1.0) for y in (-1.0, 1.0) for x in (-1.0, 1.0)]
@@ -158,6 +158,7 @@ CASES = [
     ("EMPTY_ENTITY", FORMAL, "no animations", ".glb", changed("animations", [])),
     ("EMPTY_ENTITY", FORMAL, "no children", ".glb", changed("nodes/0/children", [])),
     ("EMPTY_ENTITY", FORMAL, "no attributes", ".glb", changed("meshes/0/primitives/0/attributes", {})),
+    ("EMPTY_ENTITY", FORMAL, "a morph target of nothing", ".glb", made(lambda m: m.morph().set("meshes/0/primitives/0/targets/0", {}))),
     ("INVALID_INDEX", INVALID, "a negative mesh", ".glb", changed("nodes/0/mesh", -1)),
     ("INVALID_INDEX", INVALID, "a negative accessor", ".glb", changed("meshes/0/primitives/0/attributes/POSITION", -1)),
     ("INVALID_JSON", INVALID, "an end too early", ".gltf", lambda: Model().gltf()[:-1]),
@@ -264,6 +265,12 @@ CASES = [
      made(lambda m: m.primitive["attributes"].update(TEXCOORD_0=m.add([(0, 0)] * 8, "VEC2", SHORT)))),
     ("MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT", FORMAL, "colours of 2 numbers", ".glb",
      made(lambda m: m.primitive["attributes"].update(COLOR_0=m.add([(0, 0)] * 8, "VEC2")))),
+    ("MESH_PRIMITIVE_INVALID_ATTRIBUTE", FORMAL, "weights in a morph target", ".glb",
+     made(lambda m: m.skin().morph(WEIGHTS_0=m.add([(0, 0, 0)] * 8)))),
+    ("MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT", FORMAL, "colours with a sign", ".glb",
+     made(lambda m: m.primitive["attributes"].update(COLOR_0=m.add([(0, 0, 0, 0)] * 8, "VEC4", SHORT, normalized=True)))),
+    ("MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_UNSIGNED_INT", FORMAL, "an attribute of one's own in 32 bits", ".glb",
+     made(lambda m: m.primitive["attributes"].update(_ID=m.add(range(8), "SCALAR", UINT)))),
     ("MESH_PRIMITIVE_INDEXED_SEMANTIC_CONTINUITY", FORMAL, "texture coordinates 1 without 0", ".glb",
      made(lambda m: m.primitive["attributes"].update(TEXCOORD_1=m.add([(0, 0)] * 8, "VEC2")))),
     ("MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH", PLAIN, "joints without weights", ".glb",

@@ -8,7 +8,7 @@ a warning, and the exit code of what is not valid with --strict.
 import json
 import sys
 
-from broken_gltf_cases import CASES, FORMAL, PLAIN, Model
+from broken_gltf_cases import CASES, FORMAL, PLAIN, SHORT, Model
 from harness import INVALID, OK, case, check, equal, lattice, main
 
 TABLE = sys.argv.pop() if len(sys.argv) > 1 and sys.argv[1].endswith(".tsv") else None
@@ -78,6 +78,18 @@ def what_is_in_extras_and_unknown_extensions_is_theirs(run):
     start(run)
     model = Model().set("extensionsUsed", ["ACME_x"]).set("nodes/0/extensions", {"ACME_x": {"list": []}})
     run.write("m.glb", model.set("nodes/0/extras", {"extensions": {"ACME_z": {}}, "list": []}).glb())
+    run.ffd("deform", "m.glb", "o.glb", "-l", "l.json", "--strict")
+
+
+@case
+def what_gltf_allows_is_not_refused(run):
+    """Changes of colours and texture coordinates have a sign; arrays of no name of glTF are of any length."""
+    start(run)
+    model = Model().set("comments", []).set("nodes/0/words", [])
+    model.primitive["attributes"].update(COLOR_0=model.add([(0.5, 0.5, 0.5)] * 8), TEXCOORD_0=model.add([(0, 0)] * 8, "VEC2"))
+    model.morph(COLOR_0=model.add([(-9, 0, 0, 0)] * 8, "VEC4", SHORT, normalized=True),
+                TEXCOORD_0=model.add([(-9, 9)] * 8, "VEC2", SHORT, normalized=True))
+    run.write("m.glb", model.glb())
     run.ffd("deform", "m.glb", "o.glb", "-l", "l.json", "--strict")
 
 

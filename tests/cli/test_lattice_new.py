@@ -2,6 +2,7 @@
 """ffd lattice new: a lattice file round a mesh, which deform then takes."""
 import json
 import math
+import re
 
 from harness import (CUBE, CUBE_CORNERS, INVALID, IO, LIMIT, USAGE, case, check, equal, glb, gltf_json, main, near,
                      npy, obj_of, obj_vertices)
@@ -119,6 +120,9 @@ def combinations_that_make_no_sense(run):
 def too_many_points(run):
     run.write("a.obj", CUBE)
     run.ffd("lattice", "new", "a.obj", "-o", "n.json", "--size", "1000000,1000000,1000000", code=LIMIT)
+    run.ffd("lattice", "new", "a.obj", "-o", "n.json", "--size", "200000000,4,4", code=LIMIT, err=re.compile("more than 67108864 control points"))
+    # The Bezier pieces of degree 14 take 1,800 bytes a knot.
+    run.ffd("lattice", "new", "a.obj", "-o", "n.json", "--size", "50000,2,2", "--degree", "14,1,1", code=LIMIT, err=re.compile("needs .* MB of memory"))
 
 
 @case

@@ -180,6 +180,24 @@ def the_report(run):
 
 
 @case
+def measuring_takes_memory(run):
+    """The sums of whole layers of control points: 63 MB a thread here. As many threads as fit measure, to the same number."""
+    run.write("l.json", lattice(size=(2, 2, 2), degree=(1, 1, 1), moves=[{"at": [1, 1, 1], "by": [0.5, 0, 0]}]))
+    size = ["--size", "700,700,2"]
+    run.ffd("lattice", "refine", "l.json", "-o", "r.json", *size, "--memory", "120M")
+    run.remove("r.json")
+    run.ffd("lattice", "refine", "l.json", "-o", "r.json", *size, "--memory", "120M", "-v", code=LIMIT,
+            err="l.json: needs more than the 120 MB of memory allowed (--memory raises this)")
+    check(not run.exists("r.json"), "an output")
+    reports = set()
+    for threads in ("1", "8"):
+        run.ffd("lattice", "refine", "l.json", "-o", "r.json", "--force", *size, "--memory", "180M", "--threads", threads,
+                "--report", "r_report.json", "--report-stable")
+        reports.add(run.text("r_report.json"))
+    equal(len(reports), 1)
+
+
+@case
 def what_cannot_be_is_refused(run):
     run.write("l.json", lattice(moves=[{"at": [1, 1, 1], "by": [0.5, 0, 0]}]))
     run.write("closed.json", lattice(knots=["clamped", "closed", "clamped"], rest={"cylinder": {
@@ -197,10 +215,14 @@ def what_cannot_be_is_refused(run):
             (["--insert", "x:0.5"], USAGE, "u, v or w"), (["--insert", "u:"], USAGE, "u, v or w"), (["--insert", "u:0.5,"], USAGE, "u, v or w"),
             (["--insert", "u0.5"], USAGE, "u, v or w"), (["--insert", ""], USAGE, "u, v or w"), (["--insert", "u:nan"], USAGE, "u, v or w"),
             (["--size", "500"], LIMIT, "more than 67108864 control points"),
+            (["--size", "200000000,4,4"], LIMIT, "--size: 200000000 control points along u are more than 67108864"),
             (["--size", "400"], LIMIT, "needs .* MB of memory"),
+            # The Bezier pieces of degree 14 take 1,800 bytes a knot.
+            (["--size", "40000,15,4", "--degree", "14,3,3", "--memory", "300M"], LIMIT, "40000 by 15 by 4 control points needs .* MB of memory"),
             (["--size", "5", "--mesh", "a.obj"], USAGE, "--mesh cannot be used: the lattice does not go round a mesh"),
             (["--size", "5", "--only", "group:a"], USAGE, "--only needs --mesh"),
             (["--size", "5", "--keep-moves"], USAGE, "keep-moves"),
+            (["--size", "5", "--mesh", "-"], USAGE, "--mesh names a file"),
             (["--size", "5", "--mesh", "none.obj"], IO, "none.obj")):
         run.ffd("lattice", "refine", "l.json", "-o", "r.json", *options, code=code, lines=1, err=re.compile(what))
         check(not run.exists("r.json"), options)

@@ -10,6 +10,8 @@
 #include "../support/draw.h"
 #include "../support/lattice_text.h"
 #include "../support/repetitions.h"
+#include "base/memory/memory.h"
+#include "lattice/lattice.h"
 #include <ffd/author.h>
 #include <float.h>
 #include <math.h>
@@ -336,6 +338,12 @@ static void wishes_that_cannot_be_met_are_refused(void **state)
     desc.size[1] = (size_t)1 << 40;
     assert_refused(lattice, &desc, FFD_E_LIMIT,
                    "size: 1099511627776 control points along v are more than 67108864");
+    desc.size[0] = FFD_MAX_CONTROL_POINTS / 16; /* too many with the others: said before memory is taken */
+    desc.size[1] = 0;
+    ffd_alloc_fail_after(0);
+    assert_refused(lattice, &desc, FFD_E_LIMIT, "the lattice would have more than 67108864 control points");
+    ffd_alloc_fail_after(-1);
+    desc.size[0] = 0;
     desc.size[1] = 0;
     desc.degree[2] = 2;
     assert_refused(lattice, &desc, FFD_E_ARGUMENT, "degree 2 along w is not between the 3 that it is and 14");

@@ -25,14 +25,12 @@ static void note_shape(const ffd_lattice *lattice, size_t size[3], int degree[3]
     }
 }
 
-/* Takes the memory of the refined lattice, before any of it is used. Its degrees change little. */
+/* Takes the memory of the refined lattice, before any of it is used. */
 static ffd_status take_memory_of(const ffd_lattice *from, const ffd_refine_desc *refine, author_input *input,
                                  ffd_error *error)
 {
-    lattice_spec spec = {.count = 1, .weights = from->rest_weights};
-    TRY(ffd_lattice_refined_size(from, refine, spec.size, error));
-    for (int a = 0; a < 3; a++)
-        spec.count *= spec.size[a];
+    lattice_spec spec;
+    TRY(ffd_lattice_refined_spec(from, refine, &spec, error));
     return ffd_lattice_memory_take(&input->memory, &spec, 0, error);
 }
 
@@ -47,6 +45,16 @@ static void tell(const author_job *job, const ffd_refine_result *r)
         r->degree[0], r->degree[1], r->degree[2], r->largest_difference);
 }
 
+/* Measures how far the maps differ, by as many threads as the memory that is left allows. */
+static ffd_status measure(const ffd_lattice_refine_desc *desc, const author_input *input,
+                          const ffd_lattice *made, double *largest, ffd_error *error)
+{
+    const uint64_t each = ffd_lattice_difference_bytes(input->lattices[0], made);
+    const int threads = ffd_budget_threads(&input->memory, ffd_threads_for(desc->threads, UINT64_MAX), each);
+    TRY(ffd_budget_check(&input->memory, 1, each, error));
+    return ffd_lattice_difference(input->lattices[0], made, threads, largest, error);
+}
+
 /* Makes the lattice and measures it. */
 static ffd_status make(const ffd_lattice_refine_desc *desc, author_input *input, ffd_lattice **made,
                        ffd_refine_result *result, ffd_error *error)
@@ -54,9 +62,7 @@ static ffd_status make(const ffd_lattice_refine_desc *desc, author_input *input,
     TRY(take_memory_of(input->lattices[0], desc->refine, input, error));
     TRY(ffd_lattice_refine(input->lattices[0], desc->refine, made, error));
     note_shape(*made, result->size, result->degree);
-    return desc->measure ? ffd_lattice_difference(input->lattices[0], *made, desc->threads,
-                                                  &result->largest_difference, error)
-                         : FFD_OK;
+    return desc->measure ? measure(desc, input, *made, &result->largest_difference, error) : FFD_OK;
 }
 
 static ffd_status refine(const author_job *job, const ffd_lattice_refine_desc *desc,

@@ -33,22 +33,39 @@ enum {
     OTHERS = 512
 };
 
-/* The formats of an attribute: glTF 2.0, 3.7.2.1, and KHR_mesh_quantization. */
+typedef struct attribute_format {
+    int least, most; /* numbers of a vertex; 0: there is no such attribute */
+    int types;
+} attribute_format;
+
+/* The formats of an attribute of a primitive and of its morph targets: glTF 2.0, 3.7.2.1 and 3.7.2.2, and
+   KHR_mesh_quantization. */
 typedef struct attribute_rule {
     const char *name; /* up to the number of the set, if it has sets */
     bool has_sets;
-    int least, most;       /* numbers of a vertex */
-    int types, more_types; /* more_types: with KHR_mesh_quantization */
+    attribute_format own, target;
+    int more_types; /* with KHR_mesh_quantization */
 } attribute_rule;
 
+#define FRACTIONS (FLOATS | UNORM8 | UNORM16)
+#define SIGNED_FRACTIONS (NORM8 | NORM16)
+
 static const attribute_rule rules[] = {
-    {"POSITION", false, 3, 3, FLOATS, U8 | U16 | UNORM8 | UNORM16 | I8 | I16 | NORM8 | NORM16},
-    {"NORMAL", false, 3, 3, FLOATS, NORM8 | NORM16},
-    {"TANGENT", false, 4, 4, FLOATS, NORM8 | NORM16},
-    {"TEXCOORD_", true, 2, 2, FLOATS | UNORM8 | UNORM16, U8 | U16 | I8 | I16 | NORM8 | NORM16},
-    {"COLOR_", true, 3, 4, FLOATS | UNORM8 | UNORM16, 0},
-    {"JOINTS_", true, 4, 4, U8 | U16, 0},
-    {"WEIGHTS_", true, 4, 4, FLOATS | UNORM8 | UNORM16, 0},
+    {"POSITION",
+     false,
+     {3, 3, FLOATS},
+     {3, 3, FLOATS},
+     U8 | U16 | UNORM8 | UNORM16 | I8 | I16 | SIGNED_FRACTIONS},
+    {"NORMAL", false, {3, 3, FLOATS}, {3, 3, FLOATS}, SIGNED_FRACTIONS},
+    {"TANGENT", false, {4, 4, FLOATS}, {3, 3, FLOATS}, SIGNED_FRACTIONS},
+    {"TEXCOORD_",
+     true,
+     {2, 2, FRACTIONS},
+     {2, 2, FRACTIONS | SIGNED_FRACTIONS},
+     U8 | U16 | I8 | I16 | SIGNED_FRACTIONS},
+    {"COLOR_", true, {3, 4, FRACTIONS}, {3, 4, FRACTIONS | SIGNED_FRACTIONS}, 0},
+    {"JOINTS_", true, {4, 4, U8 | U16}, {0, 0, 0}, 0},
+    {"WEIGHTS_", true, {4, 4, FRACTIONS}, {0, 0, 0}, 0},
 };
 
 static int type_of(const gltf_accessor *accessor)
@@ -120,15 +137,15 @@ static ffd_status check_format(const attribute_check *check, uint32_t value, con
                                const attribute_rule *rule, bool is_target, int a, ffd_error *error)
 {
     const gltf_accessor *const accessor = &check->document->model.accessors[a];
-    const bool is_offset_of_tangent = is_target && rule->least == rule->most && rule->least == 4;
-    const int least = is_offset_of_tangent ? 3 : rule->least, most = is_offset_of_tangent ? 3 : rule->most;
+    const attribute_format *const allowed = is_target ? &rule->target : &rule->own;
     const int type = type_of(accessor);
     char format[64];
-    if (accessor->columns == 1 && accessor->rows >= least && accessor->rows <= most &&
-        (rule->types | (check->is_quantized ? rule->more_types : 0)) & type)
+    if (accessor->columns == 1 && accessor->rows >= allowed->least && accessor->rows <= allowed->most &&
+        (allowed->types | (check->is_quantized ? rule->more_types : 0)) & type)
         return FFD_OK;
     describe_format(accessor, format, sizeof format);
-    return refuse(check->document, value, error, "%s is %s, which glTF does not have for it%s", name, format,
+    return refuse(check->document, value, error, "%s is %s, which glTF does not have for it%s%s", name,
+                  format, is_target ? " in a morph target" : "",
                   rule->more_types & type && !check->is_quantized
                       ? " without KHR_mesh_quantization in extensionsUsed"
                       : "");
@@ -218,6 +235,8 @@ static ffd_status check_attribute(const attribute_check *check, uint32_t attribu
         return FFD_OK;
     if (rule)
         TRY(check_format(check, value, name, rule, is_target, (int)number, error));
+    else if (d->model.accessors[(int)number].component == GLTF_U32)
+        TRY(refuse(d, value, error, "no vertex attribute has numbers of component type %d", GLTF_U32));
     if (rule && !is_target)
         TRY(check_set(check, attributes, value, rule, set, error));
     return check_view(check, value, (int)number, error);
@@ -265,8 +284,11 @@ static ffd_status check_primitive(const attribute_check *check, const gltf_primi
                    "a primitive has at least one attribute, this one has none"));
     TRY(check_list(check, attributes, JSON_NONE, error));
     for (uint32_t t = ffd_json_tree_first(&d->tree, targets); t != JSON_NONE;
-         t = ffd_json_tree_after(&d->tree, t))
+         t = ffd_json_tree_after(&d->tree, t)) {
+        if (ffd_json_tree_count(&d->tree, t) == 0)
+            TRY(refuse(d, t, error, "a morph target has at least one attribute, this one has none"));
         TRY(check_list(check, t, attributes, error));
+    }
     return check_indices(check, primitive, error);
 }
 
@@ -332,6 +354,21 @@ static ffd_status check_undeclared(const gltf_document *d, const intern_table *u
     return status;
 }
 
+/* Whether a value has the name of an array of glTF. Others may be of any length. */
+static bool is_named_array(const json_tree *tree, uint32_t value)
+{
+    static const char *const names[] = {
+        "accessors",      "animations", "baseColorFactor",    "buffers",     "bufferViews", "cameras",
+        "channels",       "children",   "emissiveFactor",     "images",      "joints",      "materials",
+        "extensionsUsed", "matrix",     "extensionsRequired", "max",         "meshes",      "min",
+        "nodes",          "primitives", "rotation",           "samplers",    "scale",       "scenes",
+        "skins",          "targets",    "textures",           "translation", "weights"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (ffd_json_tree_key_is(tree, value, names[i]))
+            return true;
+    return false;
+}
+
 /* Looks at every value, except those in extras, which may be anything, for extensions and, outside of them,
    for arrays of nothing. */
 static ffd_status check_values(const gltf_document *d, const intern_table *used, ffd_error *error)
@@ -347,7 +384,7 @@ static ffd_status check_values(const gltf_document *d, const intern_table *used,
         } else if (value->kind == JSON_OBJECT && ffd_json_tree_key_is(tree, v, "extensions")) {
             TRY(check_undeclared(d, used, v, error));
             end = value->next > end ? value->next : end;
-        } else if (value->kind == JSON_ARRAY && value->count == 0 && v >= end) {
+        } else if (value->kind == JSON_ARRAY && value->count == 0 && v >= end && is_named_array(tree, v)) {
             TRY(refuse(d, v, error, "an array has at least one element, this one has none"));
         }
     }
