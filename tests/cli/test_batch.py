@@ -76,7 +76,9 @@ def json_that_is_no_json_lines_is_one_error(run):
     start(run)
     jobs = [job(i) for i in range(3)]
     for name, text, found in (("a.json", json.dumps(jobs), "is a JSON array"), ("b.json", "\ufeff\n [\n" + lines_of(jobs) + "]", "is a JSON array"),
-                              ("c.json", json.dumps(jobs[0], indent=1), "is JSON over several lines"), ("d.json", "{\r\n\r\n}", "is JSON over several lines"),
+                              ("c.json", json.dumps(jobs[0], indent=1), "is JSON over several lines"),
+                              ("e.json", json.dumps(jobs[0]).replace(", ", ",\n", 1), "is JSON over several lines"),
+                              ("f.json", json.dumps(lattice()), "is a lattice"), ("g.json", json.dumps(lattice(), indent=1), "is JSON over several lines"), ("d.json", "{\r\n\r\n}", "is JSON over several lines"),
                               ("e.csv", "in,lattice,out\na.obj,l.json,o.obj\n" * 9, r"is no JSON \(--csv reads a table\)")):
         run.write(name, text)
         run.ffd("batch", name, code=INVALID, err=re.compile(rf"^{name}:[12]: {found}: a manifest has one job a line \(JSON Lines\)$"))

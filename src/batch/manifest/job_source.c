@@ -308,13 +308,24 @@ static ffd_status find_next(job_source *source, line_state *state, bool *valid, 
     return FFD_OK;
 }
 
+/* Whether an object goes on in the next line: a job that is cut off seldom ends so. */
+static bool is_open(const char *object)
+{
+    const char *last = object + strlen(object);
+    while (last > object && strchr(" \t\r", last[-1]))
+        last--;
+    return last > object && strchr("{[,", last[-1]);
+}
+
 /* Returns what a manifest is by its first line, if it is no JSON Lines; NULL: it may be. */
 static const char *other_manifest(const job_source *source)
 {
     const char *const line = source->reader.line.data, *const begin = line + strspn(line, " \t");
     if (*begin == '[')
         return "is a JSON array";
-    if (*begin == '{' && !begin[1 + strspn(begin + 1, " \t\r")])
+    if (*begin == '{' && strstr(begin, "\"format\"") && strstr(begin, "\"ffd-lattice\""))
+        return "is a lattice";
+    if (*begin == '{' && is_open(begin))
         return "is JSON over several lines";
     const char *const ending = strrchr(source->frame.name, '.');
     const bool is_table = ending && (strcmp(ending, ".csv") == 0 || strcmp(ending, ".tsv") == 0);

@@ -57,7 +57,8 @@ static ffd_status fail_outside(json_cursor cursor, const spec_parameter *paramet
     return ffd_cursor_fail(cursor, "%s is %s than the %s of \"%.60s\", %s%s%.60s",
                            ffd_number_text(number).text, low ? "less" : "greater", low ? "min" : "max",
                            parameter->name, ffd_number_text(low ? parameter->min : parameter->max).text,
-                           parameter->unit ? " " : "", parameter->unit ? parameter->unit : "");
+                           parameter->unit && *parameter->unit ? " " : "",
+                           parameter->unit ? parameter->unit : "");
 }
 
 ffd_status ffd_spec_check_bounds(json_cursor cursor, const spec_parameter *parameter, const json_tree *value)
