@@ -14,11 +14,14 @@ double ffd_part_tolerance(const mesh_document *document, const mesh_rounding *ro
                                                                                         : PART_TOLERANCE;
 }
 
-/* Returns what the results are rounded to here; ROUNDED_EACH: nothing that is judged. */
+/* Returns what the results are rounded to here; ROUNDED_EACH: nothing that is judged. A conversion does not
+   keep to steps. */
 static rounding_kind kind_of(const pass_tile *tile)
 {
     const rounding_kind kind = ffd_rounding_kind(&tile->part->rounding);
-    return tile->pass->write ? kind : ROUNDED_EACH;
+    if (!tile->pass->write)
+        return ROUNDED_EACH;
+    return kind == ROUNDED_TO_STEPS && tile->pass->is_converted ? ROUNDED_TO_FLOATS : kind;
 }
 
 /* Returns the error of a displacement that is rounded to the steps on which its point stands. */
@@ -70,7 +73,8 @@ void ffd_tile_rounding_at_rest(const pass_tile *tile)
 {
     part_rounding *const rounding = &tile->totals->rounding;
     /* Steps are as coarse afterwards as they are at rest. */
-    if (kind_of(tile) != ROUNDED_TO_FLOATS && kind_of(tile) != ROUNDED_TO_DOUBLES)
+    if ((kind_of(tile) != ROUNDED_TO_FLOATS && kind_of(tile) != ROUNDED_TO_DOUBLES) ||
+        ffd_rounding_kind(&tile->part->rounding) == ROUNDED_TO_STEPS)
         return;
     const ffd_bounds box = bounds_of(tile, &tile->totals->before);
     rounding->before = larger_of(rounding->before, coarsest(&tile->part->rounding, &box, false));
