@@ -133,7 +133,7 @@ static bool allocate(page_mesh *mesh, size_t triangles, size_t points)
     mesh->flipped = scene->flipped ? ffd_alloc(triangles, 1) : NULL;
     mesh->texcoord_width = !has_textures(scene) ? 0 : scene->glow_texcoords ? 4 : 2;
     const size_t texcoords = 3 * mesh->texcoord_width;
-    mesh->texcoords = texcoords ? ffd_alloc_zero(triangles, texcoords * sizeof *mesh->texcoords) : NULL;
+    mesh->texcoords = texcoords ? ffd_alloc_sparse(triangles, texcoords * sizeof *mesh->texcoords) : NULL;
     mesh->parts = ffd_alloc_zero(mesh->part_count, sizeof *mesh->parts);
     mesh->segments = ffd_alloc(scene->segment_count, 2 * sizeof *mesh->segments);
     mesh->points = ffd_alloc(points, sizeof *mesh->points);

@@ -9,10 +9,15 @@
 /* Coordinates beyond are drawn at 0: a picture of a texture that is repeated so often is noise. */
 #define FARTHEST 1e6
 
-/* Lists of wedges by hash, which end in VIEW_NONE. */
+/* Nearly all vertices have few wedges. */
+#define NEAR_WEDGES 8
+
+/* Lists of wedges, which end in VIEW_NONE: of each vertex up to NEAR_WEDGES, and by hash the others, which
+   most meshes have none of. */
 typedef struct wedge_table {
-    size_t lists;
     uint32_t *first, *next;
+    size_t far_lists;
+    uint32_t *far; /* first wedge + 1; 0: none. Pages that are not used take no memory */
 } wedge_table;
 
 static float fit(float x)
@@ -20,27 +25,49 @@ static float fit(float x)
     return fabsf(x) <= (float)FARTHEST ? x : 0;
 }
 
+static bool is_wedge(const page_texcoords *t, uint32_t at, uint32_t vertex, const float *uv)
+{
+    return t->vertices[at] == vertex && memcmp(t->values + t->width * at, uv, t->width * sizeof *uv) == 0;
+}
+
+static uint32_t add(page_texcoords *t, uint32_t vertex, const float *uv)
+{
+    const uint32_t at = (uint32_t)t->count++;
+    memcpy(t->values + t->width * at, uv, t->width * sizeof *uv);
+    t->vertices[at] = vertex;
+    return at;
+}
+
+static uint32_t find_far(page_texcoords *t, wedge_table *table, uint32_t vertex, const float *uv)
+{
+    uint32_t *const first = &table->far[ffd_page_corner_list(vertex, uv, t->width, table->far_lists)];
+    for (uint32_t at = *first - 1; at != VIEW_NONE; at = table->next[at])
+        if (is_wedge(t, at, vertex, uv))
+            return at;
+    const uint32_t made = add(t, vertex, uv);
+    table->next[made] = *first - 1;
+    *first = made + 1;
+    return made;
+}
+
 /* Returns the wedge of a vertex with these coordinates, which is added if it is new. */
 static uint32_t find(page_texcoords *t, wedge_table *table, uint32_t vertex, const float *uv)
 {
-    uint32_t *const first = &table->first[ffd_page_corner_list(vertex, uv, t->width, table->lists)];
-    uint32_t at = *first;
-    while (at != VIEW_NONE &&
-           (t->vertices[at] != vertex || memcmp(t->values + t->width * at, uv, t->width * sizeof *uv) != 0))
-        at = table->next[at];
-    if (at != VIEW_NONE)
-        return at;
-    at = (uint32_t)t->count++;
-    memcpy(t->values + t->width * at, uv, t->width * sizeof *uv);
-    t->vertices[at] = vertex;
-    table->next[at] = *first;
-    return *first = at;
+    int seen = 0;
+    for (uint32_t at = table->first[vertex]; at != VIEW_NONE; at = table->next[at], seen++)
+        if (is_wedge(t, at, vertex, uv))
+            return at;
+    if (seen == NEAR_WEDGES)
+        return find_far(t, table, vertex, uv);
+    const uint32_t made = add(t, vertex, uv);
+    table->next[made] = table->first[vertex];
+    return table->first[vertex] = made;
 }
 
 static void collect(const page_mesh *mesh, wedge_table *table, page_texcoords *t)
 {
-    for (size_t i = 0; i < table->lists; i++)
-        table->first[i] = VIEW_NONE;
+    for (size_t v = 0; v < mesh->vertex_count; v++)
+        table->first[v] = VIEW_NONE;
     for (size_t i = 0; i < t->corner_count; i++) {
         float uv[4];
         for (size_t a = 0; a < t->width; a++)
@@ -52,12 +79,12 @@ static void collect(const page_mesh *mesh, wedge_table *table, page_texcoords *t
 static void measure(page_texcoords *t)
 {
     double high[4] = {0};
-    for (size_t i = 0; i < t->width * t->count; i++) {
-        const size_t a = i % t->width;
-        const double x = t->values[i];
-        t->low[a] = i < t->width ? x : lesser_of(t->low[a], x);
-        high[a] = i < t->width ? x : larger_of(high[a], x);
-    }
+    for (size_t i = 0; i < t->count; i++)
+        for (size_t a = 0; a < t->width; a++) {
+            const double x = t->values[t->width * i + a];
+            t->low[a] = i == 0 ? x : lesser_of(t->low[a], x);
+            high[a] = i == 0 ? x : larger_of(high[a], x);
+        }
     for (size_t a = 0; a < t->width; a++)
         t->step[a] = (high[a] - t->low[a]) / STEPS;
 }
@@ -69,19 +96,21 @@ ffd_status ffd_page_texcoords_make(const page_mesh *mesh, page_texcoords *t, ffd
         return FFD_OK;
     t->width = mesh->texcoord_width;
     t->corner_count = 3 * mesh->triangle_count;
-    t->corners = ffd_alloc(t->corner_count, sizeof *t->corners);
+    t->corners = ffd_alloc_whole(t->corner_count, sizeof *t->corners);
     t->vertices = ffd_alloc(t->corner_count, sizeof *t->vertices);
     t->values = ffd_alloc(t->corner_count, t->width * sizeof *t->values);
-    wedge_table table = {.lists = ffd_page_corner_lists(t->corner_count)};
-    table.first = ffd_alloc(table.lists, sizeof *table.first);
+    wedge_table table = {.far_lists = ffd_page_corner_lists(t->corner_count)};
+    table.first = ffd_alloc(mesh->vertex_count, sizeof *table.first);
     table.next = ffd_alloc(t->corner_count, sizeof *table.next);
-    const bool made = t->corners && t->vertices && t->values && table.first && table.next;
+    table.far = ffd_alloc_sparse(table.far_lists, sizeof *table.far);
+    const bool made = t->corners && t->vertices && t->values && table.first && table.next && table.far;
     if (made) {
         collect(mesh, &table, t);
         measure(t);
     }
     ffd_free(table.first);
     ffd_free(table.next);
+    ffd_free(table.far);
     return made ? FFD_OK : ffd_fail_memory(error);
 }
 

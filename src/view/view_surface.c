@@ -102,8 +102,8 @@ ffd_status ffd_view_surface_make(const view_scene *scene, bool textured, memory_
     count_triangles(scene, s);
     s->triangles = ffd_alloc(count, 3 * sizeof *s->triangles);
     s->materials = ffd_alloc(count, sizeof *s->materials);
-    s->texcoords = has_texcoords ? ffd_alloc(count, 6 * sizeof *s->texcoords) : NULL;
-    s->glow_texcoords = has_glow ? ffd_alloc(count, 6 * sizeof *s->glow_texcoords) : NULL;
+    s->texcoords = has_texcoords ? ffd_alloc_whole(count, 6 * sizeof *s->texcoords) : NULL;
+    s->glow_texcoords = has_glow ? ffd_alloc_whole(count, 6 * sizeof *s->glow_texcoords) : NULL;
     if (!s->triangles || !s->materials || (has_texcoords && !s->texcoords) ||
         (has_glow && !s->glow_texcoords))
         return ffd_fail_memory(error);

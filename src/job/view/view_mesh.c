@@ -81,7 +81,8 @@ static ffd_status make_arrays(mesh_taker *t)
         return FFD_E_LIMIT;
     scene->triangle_count = count;
     scene->triangles = ffd_alloc(count, 3 * sizeof *scene->triangles);
-    scene->texcoords = t->model->texcoord_count ? ffd_alloc_zero(count, 6 * sizeof *scene->texcoords) : NULL;
+    scene->texcoords =
+        t->model->texcoord_count ? ffd_alloc_sparse(count, 6 * sizeof *scene->texcoords) : NULL;
     scene->segments = ffd_alloc(ends, 2 * sizeof *scene->segments);
     scene->points = ffd_alloc(points, sizeof *scene->points);
     scene->segment_materials = ffd_alloc(ends, sizeof *scene->segment_materials);
