@@ -76,6 +76,9 @@ draw fine models/column.obj -l fine.json $pair --camera 2,0.4,1 --size 160x260
 "$ffd" lattice set lattices/bend.json -o other.json --mesh models/column.obj --mirror w --quiet
 draw half models/column.obj -l half.json $pair --camera 2,0.4,1 --size 160x260
 draw other models/column.obj -l other.json $pair --camera 2,0.4,1 --size 160x260
+"$ffd" lattice set lean.json -o joined.json --seam C1:v- --quiet
+draw leaning models/column.obj -l lean.json $pair --camera 1,0.4,2 --size 160x260
+draw joined models/column.obj -l joined.json $pair --camera 1,0.4,2 --size 160x260
 for seed in 2 3 4; do
     deform models/vase.obj vase-$seed.obj -l noise.json --set SEED=$seed
     draw noise-$seed models/vase.obj vase-$seed.obj $pair $face --size 150x200

@@ -79,6 +79,19 @@ FFD_API ffd_status ffd_lattice_symmetrize(const ffd_lattice *lattice, int direct
 FFD_API ffd_status ffd_lattice_transform(const ffd_lattice *lattice, const double matrix[16],
                                          ffd_lattice **result, ffd_error *error);
 
+/* For ffd_lattice_seal: the faces of all directions that are not closed. */
+#define FFD_FACES_ALL 64u
+
+/* Holds faces still, so that what is deformed joins what is not with continuity C^k: on these faces the
+   displacement and its derivatives up to the k-th are 0 (for Bezier volumes: Sederberg and Parry, Free-form
+   deformation of solid geometric models, 1986). The directions of the faces are clamped first
+   (ffd_lattice_refine), then the displacements of the k + 1 outermost layers at each become 0, and their
+   weights those at rest. faces: bit 2 a + side, with a 0 to 2 for u, v, w and side 0 for the first layers, 1
+   for the last, or FFD_FACES_ALL. FFD_E_ARGUMENT for no faces, a face of a closed direction, or a k that is
+   not 0 to degree - 1 of the directions of the faces. */
+FFD_API ffd_status ffd_lattice_seal(const ffd_lattice *lattice, int k, unsigned faces, ffd_lattice **result,
+                                    ffd_error *error);
+
 /* Makes the inverse: the deformed volume becomes the one at rest, of control points, and the volume at rest
    the deformed one; weights change places. It is exact, and holds for places in the image of the volume.
    threads: as of ffd_folds_find. FFD_E_INVALID also where that does not prove that the lattice has no folds.

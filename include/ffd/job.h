@@ -681,7 +681,8 @@ typedef enum ffd_operation_kind {
     FFD_OPERATION_MOVE,       /* by place */
     FFD_OPERATION_ROTATE,     /* by number degrees about the axis `direction` through place, right-handed */
     FFD_OPERATION_SCALE,      /* by number, about place */
-    FFD_OPERATION_INVERT      /* ffd_lattice_invert */
+    FFD_OPERATION_INVERT,     /* ffd_lattice_invert */
+    FFD_OPERATION_SEAL        /* ffd_lattice_seal with continuity and faces */
 } ffd_operation_kind;
 
 typedef struct ffd_operation {
@@ -690,6 +691,8 @@ typedef struct ffd_operation {
     int direction; /* 0 to 2: u, v, w, or the axis x, y, z */
     bool keep_last;
     double place[3], matrix[16];
+    int continuity; /* 1: C1 */
+    unsigned faces;
     ffd_lattice_source other; /* read with the settings and meshes of the job */
 } ffd_operation;
 

@@ -54,7 +54,10 @@ static ffd_status make_plans(refinement *of, const ffd_refine_desc *desc, ffd_er
     size_t count = 1;
     TRY(check_sizes(of->lattice, desc->size, error));
     for (int a = 0; a < 3; a++) {
-        const refine_wish wish = {desc->degree[a], desc->size[a], desc->insert[a], desc->insert_count[a]};
+        const refine_wish wish = {.degree = desc->degree[a],
+                                  .points = desc->size[a],
+                                  .insert = desc->insert[a],
+                                  .insert_count = desc->insert_count[a]};
         TRY(ffd_refine_plan(&of->lattice->knots[a], &wish, "uvw"[a], FFD_MAX_CONTROL_POINTS, &of -> plans[a],
                             error));
         changes = changes || of->plans[a].count > 1;
@@ -254,10 +257,12 @@ static ffd_status refine(refinement *of, ffd_error *error)
     return refine_plain(of, from->rest ? from->difference : from->spec->deformed_offsets, error);
 }
 
-static void free_plans(refinement *of)
+static void free_refinement(refinement *of)
 {
-    for (int a = 0; a < 3; a++)
+    for (int a = 0; a < 3; a++) {
         ffd_refine_plan_free(&of->plans[a]);
+        ffd_free(of->copied[a]);
+    }
 }
 
 /* Points and offsets count where they may be written. */
@@ -288,7 +293,26 @@ ffd_status ffd_lattice_refined_spec(const ffd_lattice *lattice, const ffd_refine
         spec->list_count[a] = row->points + (size_t)row->degree + 1;
         spec->count *= row->points;
     }
-    free_plans(&of);
+    free_refinement(&of);
+    return status;
+}
+
+ffd_status ffd_made_begin_clamped(const ffd_lattice *lattice, const bool directions[3], made_lattice *made,
+                                  ffd_error *error)
+{
+    refinement of = {.lattice = lattice, .to = made};
+    bool changes = false;
+    ffd_status status;
+    TRY_END(ffd_made_begin(lattice, made, error));
+    for (int a = 0; a < 3; a++) {
+        const refine_wish wish = {.clamped = directions[a]};
+        TRY_END(ffd_refine_plan(&lattice->knots[a], &wish, "uvw"[a], FFD_MAX_CONTROL_POINTS, &of.plans[a],
+                                error));
+        changes = changes || of.plans[a].count > 1;
+    }
+    TRY_END(changes ? refine(&of, error) : ffd_made_begin_same(lattice, made, error));
+end:
+    free_refinement(&of);
     return status;
 }
 
@@ -307,9 +331,7 @@ ffd_status ffd_lattice_refine(const ffd_lattice *lattice, const ffd_refine_desc 
     TRY_END(refine(&of, error));
     TRY_END(ffd_made_finish(&made, refined, error));
 end:
-    free_plans(&of);
-    for (int a = 0; a < 3; a++)
-        ffd_free(of.copied[a]);
+    free_refinement(&of);
     ffd_made_free(&made);
     return status;
 }

@@ -191,6 +191,39 @@ static bool add_invert(void *context, const cli_option *option, const char *valu
     return add(context, FFD_OPERATION_INVERT);
 }
 
+/* Parses faces with commas between them, or "all". Returns 0 if they are none. */
+static unsigned parse_faces(const char *text)
+{
+    unsigned faces = 0;
+    if (strcmp(text, "all") == 0)
+        return FFD_FACES_ALL;
+    for (;; text++) {
+        const int direction = index_of("uvw", text[0]), side = direction < 0 ? -1 : index_of("-+", text[1]);
+        if (side < 0)
+            return 0;
+        faces |= 1u << (2 * direction + side);
+        text += 2;
+        if (!*text)
+            return faces;
+        if (*text != ',')
+            return 0;
+    }
+}
+
+static bool add_seam(void *context, const cli_option *option, const char *value)
+{
+    const int continuity = value[0] == 'C' ? index_of("012", value[1]) : -1;
+    const unsigned faces = continuity >= 0 && value[2] == ':' ? parse_faces(value + 3) : 0;
+    if (!faces)
+        return wrong(option, value, "C0, C1 or C2 and faces, like C1:u-,v+ or C2:all");
+    ffd_operation *const of = add(context, FFD_OPERATION_SEAL);
+    if (of) {
+        of->continuity = continuity;
+        of->faces = faces;
+    }
+    return of;
+}
+
 static const cli_option options[] = {
     {"strength", 0, "S", "S times all displacements: 0.5 half the edit, -1 the opposite", add_strength, 0,
      NULL},
@@ -206,6 +239,9 @@ static const cli_option options[] = {
      add_rotate, 0, NULL},
     {"scale", 0, "S[,X,Y,Z]", "the lattice scaled about the origin or a place", add_scale, 0, NULL},
     {"invert", 0, NULL, "the exact inverse: what was deformed is put back", add_invert, 0, NULL},
+    {"seam", 0, "Ck:FACES",
+     "hold faces so that what is deformed joins what is not with C0, C1 or C2; u-,v+,.. or all", add_seam, 0,
+     NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 
@@ -270,6 +306,8 @@ static const cli_example examples[] = {
     {"half the edit", "ffd lattice set bend.json --mesh cow.obj -o half.json --strength 0.5"},
     {"one half mirrored to the other, then turned about a place",
      "ffd lattice set bend.json --mesh cow.obj -o turned.json --symmetrize u+ --rotate y,90,1,0,0"},
+    {"end the edit smoothly at the first and the last layers of u",
+     "ffd lattice set bend.json --mesh cow.obj -o smooth.json --seam C1:u-,u+"},
     {"the way back: deform a mesh by bend.json, then by this one",
      "ffd lattice set bend.json --mesh cow.obj -o back.json --invert"},
     {NULL, NULL},
@@ -277,11 +315,11 @@ static const cli_example examples[] = {
 
 const cli_command cli_lattice_set = {
     "lattice set",
-    "change what a lattice does: strength, blends, mirror images, places, the inverse",
+    "change what a lattice does: strength, blends, mirror images, places, seams, the inverse",
     "usage: ffd lattice set LATTICE OPERATION... -o LATTICE [options]\n"
     "       operations, in the order given: --strength, --blend, --add, --mirror, --symmetrize, "
     "--transform,\n"
-    "       --move, --rotate, --scale, --invert\n",
+    "       --move, --rotate, --scale, --invert, --seam\n",
     {.first = options, .base = cli_author_options},
     run,
     "LATTICE",

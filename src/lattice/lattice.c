@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "base/text/number.h"
 #include "base/vector/vec.h"
+#include "lattice/spec.h"
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -179,6 +180,18 @@ static void mark_moved(ffd_lattice *lattice)
     for (size_t i = 0; i < lattice->count && lattice->weights_moved; i++)
         if (lattice->rest_weights[i] != lattice->deformed_weights[i])
             lattice->moved[i] = POINT_MOVED;
+}
+
+bool ffd_lattice_is_still(const ffd_lattice *lattice)
+{
+    const double *const offsets = lattice->rest ? NULL : lattice->spec->deformed_offsets;
+    for (size_t i = 0; lattice->rest && i < lattice->count; i++)
+        if (lattice->moved[i] & POINT_MOVED)
+            return false;
+    for (size_t i = 0; offsets && i < 3 * lattice->count; i++)
+        if (offsets[i] != 0)
+            return false;
+    return true;
 }
 
 static bool weight_moved(const ffd_lattice *lattice, size_t point)

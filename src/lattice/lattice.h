@@ -88,6 +88,8 @@ ffd_status ffd_lattice_make_difference(ffd_lattice *lattice, ffd_error *error);
    not finite, weights that are not positive, and magnitudes whose differences, or products with weights,
    overflow; FFD_E_MEMORY. */
 ffd_status ffd_lattice_finish_moved(ffd_lattice *lattice, ffd_error *error);
+/* Whether no control point is moved. Of a box that is not laid round a mesh yet only offsets count. */
+bool ffd_lattice_is_still(const ffd_lattice *lattice);
 
 /* The basis functions that are not 0 at one u,v,w: d+1 in each direction. */
 typedef struct lattice_basis {

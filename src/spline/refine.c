@@ -63,7 +63,8 @@ static int compare_numbers(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Clamps both ends of an open row: the domain's ends degree + 1 times, the knots beyond them are left out. */
+/* Clamps both ends of a row that is not closed: the domain's ends degree + 1 times, the knots beyond them are
+ * left out. */
 static ffd_status clamp_row(const knot_row *from, knot_row *to, ffd_error *error)
 {
     const double first = domain_first(from), last = domain_last(from);
@@ -212,13 +213,17 @@ ffd_status ffd_refine_check_count(size_t points, char direction, size_t most, ff
                           direction, most);
 }
 
+static ffd_status clamp(refine_plan *plan, ffd_error *error)
+{
+    if (is_clamped(&plan->rows[plan->count - 1]))
+        return FFD_OK;
+    plan->count++;
+    return clamp_row(&plan->rows[plan->count - 2], &plan->rows[plan->count - 1], error);
+}
+
 static ffd_status elevate(const refine_wish *wish, char direction, size_t most, refine_plan *plan,
                           ffd_error *error)
 {
-    if (!is_clamped(&plan->rows[plan->count - 1])) {
-        plan->count++;
-        TRY(clamp_row(&plan->rows[plan->count - 2], &plan->rows[plan->count - 1], error));
-    }
     const knot_row *const row = &plan->rows[plan->count - 1];
     TRY(ffd_refine_check_count(row->points + count_spans(row) * (size_t)(wish->degree - row->degree),
                                direction, most, error));
@@ -252,6 +257,8 @@ ffd_status ffd_refine_plan(const knot_vector *knots, const refine_wish *wish, ch
                          "{degree} %d along %c is not between the %d that it is and %d%s", wish->degree,
                          direction, knots->degree, MAX_DEGREE, ffd_degree_hint(wish->degree)));
     TRY_END(first_row(knots, &plan->rows[0], error));
+    if (wish->clamped || wish->degree > knots->degree)
+        TRY_END(clamp(plan, error));
     if (wish->degree > knots->degree)
         TRY_END(elevate(wish, direction, most, plan, error));
     TRY_END(check_wish(&plan->rows[plan->count - 1], wish, direction, most, error));

@@ -16,6 +16,7 @@ typedef struct knot_row {
 
 /* What is wanted of a direction. */
 typedef struct refine_wish {
+    bool clamped;         /* both ends, unless the direction is closed */
     int degree;           /* 0: as it is */
     size_t points;        /* at least so many, by halving the longest spans; 0: as they are */
     const double *insert; /* insert_count knots, in any order, closed: modulo the period */

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""ffd lattice set: operations on what a lattice does. authoring/set-*.json hold right answers in exact fractions."""
+"""ffd lattice set: operations on what a lattice does. authoring/set-*.json and seam-*.json hold right answers in exact fractions."""
 
 import json
 import os
@@ -124,6 +124,49 @@ def places_elsewhere(run):
 
 
 @case
+def held_faces_join_smoothly(run):
+    """Towards a face held at Ck the displacement falls like the (k+1)-th power of the distance at least."""
+    size = 8
+    for knots in ([0, 0, 0, 0, 0.2, 0.4, 0.5, 0.8, 1, 1, 1, 1], list(range(12)), [-0.4, -0.3, -0.1, 0, 0.1, 0.3, 0.35, 0.8, 1, 1, 1.2, 1.5]):
+        run.write("a.json", lattice(size=(size, 4, 4), knots=[knots, "clamped", "clamped"], deformed={"offsets": random_offsets(size * 16, 0.05)}))
+        for k in (0, 1, 2):
+            change(run, "--seam", f"C{k}:u-,u+")
+            for end in (-2, 2):
+                places = [[end * (1 - share), 0.3, -0.2] for share in (0.02, 0.01)]
+                far, close = (max(abs(q - p) for p, q in zip(*both)) for both in zip(places, carried(run, places, "o.json")))
+                check(0 < close and far > 0.9 * 2 ** (k + 1) * close, (knots, k, end, far, close))
+
+
+@case
+def what_a_seam_keeps(run):
+    """Control points of other layers keep their bits where nothing is clamped; held ones have no offset, and their weights at rest."""
+    content = write(run, "a.json", weights=[RANDOM.uniform(0.5, 2) for _ in range(80)])
+    content["deformed"]["weights"] = [RANDOM.uniform(0.5, 2) for _ in range(80)]
+    run.write("a.json", content)
+    for seam, held in (("C1:u+", lambda i, j, k: i >= 2), ("C0:v-,w+", lambda i, j, k: j == 0 or k == 3),
+                       ("C0:all", lambda i, j, k: i in (0, 3) or j in (0, 4) or k in (0, 3))):
+        found = change(run, "--seam", seam)
+        equal([found["knots"], found["rest"]["box"]["max"]], [["clamped"] * 3, [2, 2, 2]])
+        for point in range(80):
+            still = held(point % 4, point // 4 % 5, point // 20)
+            equal(offsets_of(found)[point], [0, 0, 0] if still else offsets_of(content)[point], (seam, point))
+            equal(found["deformed"]["weights"][point], (content if still else content["deformed"])["weights"][point], (seam, point))
+    run.write("closed.json", lattice(size=(4, 5, 4), knots=["clamped", "closed", "clamped"], rest={"cylinder": {
+        "center": [0, 0, 0], "axis": [0, 0, 1], "radius": [0.5, 1], "height": 2}}, deformed={"offsets": random_offsets(80)}))
+    found = change(run, "--seam", "C0:all", source="closed.json")
+    equal([any(offsets_of(found)[p]) for p in range(80)], [p % 4 in (1, 2) and p // 20 in (1, 2) for p in range(80)])
+    write(run, "a.json")
+    run.ffd("lattice", "set", "a.json", "--seam", "C1:u-,u+", "-o", "n.json", lines=1,
+            err=re.compile("a\\.json: faces held at C1 leave nothing that moves of 4 x 5 x 4 control points"))
+    check("deformed" not in json.loads(run.text("n.json")), "nothing moves")
+    run.ffd("lattice", "set", "n.json", "--seam", "C1:u-,u+", "-o", "m.json")
+    # A box that is not laid round a mesh yet.
+    run.write("still.json", lattice(rest={"box": "mesh"}, knots=["open", "clamped", "clamped"], deformed={"offsets": [[0.25, 0, 0]] * 64}))
+    found = change(run, "--seam", "C1:u-", source="still.json")
+    equal([found["rest"]["box"], sum(any(p) for p in offsets_of(found))], ["mesh", (found["size"][0] - 2) * 16])
+
+
+@case
 def mirror_images(run):
     content = write(run, "a.json")
     found = offsets_of(change(run, "--mirror", "v"))
@@ -150,6 +193,7 @@ def what_cannot_be_is_refused(run):
     run.write("closed.json", lattice(size=(4, 5, 4), knots=["clamped", "closed", "clamped"], rest={"cylinder": {
         "center": [0, 0, 0], "axis": [0, 0, 1], "radius": [0.5, 1], "height": 2}}))
     run.write("odd.json", lattice(knots=[[0, 0, 0, 0, 0.3, 1, 1, 1, 1], "clamped", "clamped"], size=(5, 4, 4)))
+    run.write("low.json", lattice(degree=(3, 1, 3)))
     run.write("heavy.json", lattice(size=(4, 5, 4), weights=[1.0] * 79 + [2.0], deformed={"weights": [1.5] * 80}))
     run.write("mesh.json", lattice(rest={"box": "mesh"}, moves=[{"at": [1, 1, 1], "by": [1, 0, 0]}]))
     run.write("a.obj", CUBE)
@@ -162,6 +206,11 @@ def what_cannot_be_is_refused(run):
             ("a.json", ["--transform", "1,0,0,0,0,1,0,0,0,0,1,0,0,0,1,1"], USAGE, "the last row of the matrix is 0 0 1 1"),
             ("a.json", ["--move", "1,2"], USAGE, "three numbers"), ("a.json", ["--rotate", "90"], USAGE, "an axis and degrees"),
             ("a.json", ["--rotate", "y,90,1"], USAGE, "an axis and degrees"), ("a.json", ["--scale", ""], USAGE, "a factor"),
+            ("a.json", ["--seam", "C1"], USAGE, "C0, C1 or C2 and faces"), ("a.json", ["--seam", "C3:all"], USAGE, "C0, C1 or C2 and faces"),
+            ("a.json", ["--seam", "C1:u"], USAGE, "C0, C1 or C2 and faces"), ("a.json", ["--seam", "C1:u-,"], USAGE, "C0, C1 or C2 and faces"),
+            ("a.json", ["--seam", "1:all"], USAGE, "C0, C1 or C2 and faces"), ("closed.json", ["--seam", "C0:v+"], USAGE, "direction v is closed: it has no faces"),
+            ("a.json", ["--seam", "C1:w-,x+"], USAGE, "C0, C1 or C2 and faces"),
+            ("low.json", ["--seam", "C1:u+,v-"], USAGE, "C1 needs degree 2 along v, which has degree 1"),
             ("a.json", ["--strength", "2", "--report", "r.json"], USAGE, "report"),
             ("a.json", ["--strength", "2", "--mesh", "a.obj"], USAGE, "--mesh cannot be used"),
             ("a.json", ["--scale", "0"], INVALID, "determinant of the matrix is 0"),

@@ -27,6 +27,7 @@ class Author(unittest.TestCase):
             for words, made in ((["set", "--strength", "0.3"], first.strength(0.3)), (["set", "--blend", f"{b},0.25"], first.blend(second, 0.25)),
                                 (["set", "--add", b], first.add(second)), (["set", "--mirror", "v"], first.mirror("v")),
                                 (["set", "--symmetrize", "v-"], first.symmetrize("v-")), (["set", "--symmetrize", "u+"], first.symmetrize("u+")),
+                                (["set", "--seam", "C1:u-,w+"], first.seal("C1", ["u-", "w+"])), (["set", "--seam", "C0:all"], first.seal("C0")),
                                 (["set", "--transform", matrix], first.transform(TURN)), (["set", "--invert"], first.invert(threads=1)),
                                 (["refine", "--size", "6", "--insert", "u:0.3"], first.refine(6, insert={"u": [0.3]}))):
                 support.program("lattice", *words, a, "-o", out, "--force")
@@ -49,6 +50,7 @@ class Author(unittest.TestCase):
     def test_wrong_values(self):
         lattice = self.lattice()
         for call in (lambda: lattice.mirror("x"), lambda: lattice.symmetrize("u"), lambda: lattice.symmetrize("x+"),
+                     lambda: lattice.seal("C"), lambda: lattice.seal("C1", "x+"), lambda: lattice.seal("C1", []), lambda: lattice.seal("C3"),
                      lambda: lattice.transform(np.eye(3)), lambda: lattice.strength(float("nan"))):
             with self.assertRaises((ValueError, ffd.ArgumentError)):
                 call()

@@ -113,8 +113,8 @@ LAYERS = {
         "job/measure", "job/pass", "job/report", "lattice", "lattice/file", "mesh", "view",
     },
     "job/author": {
-        "author", "base", "base/file", "base/memory", "base/system", "base/vector", "job", "job/chain", "job/input", "job/report", "lattice",
-        "lattice/file", "mesh",
+        "author", "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "job", "job/chain", "job/input", "job/report",
+        "lattice", "lattice/file", "mesh",
     },
     "batch/manifest": {
         "base", "base/file", "base/memory", "base/system", "base/text", "io", "job/input", "json", "mesh",

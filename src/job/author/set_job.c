@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
 #include "base/system/thread.h"
+#include "base/text/words.h"
 #include "base/vector/trig.h"
 #include "job/author/author_job.h"
 #include "job/chain/lattice_memory.h"
@@ -54,9 +55,22 @@ static ffd_status place(const ffd_operation *of, const ffd_lattice *from, ffd_la
     return ffd_lattice_transform(from, matrix, to, error);
 }
 
+static ffd_status seal(const author_job *job, const ffd_operation *of, const ffd_lattice *from,
+                       ffd_lattice **to, ffd_error *error)
+{
+    char name[100];
+    TRY(ffd_lattice_seal(from, of->continuity, of->faces, to, error));
+    ffd_name_shown(job->lattices[0].path, name, sizeof name);
+    if (!ffd_lattice_is_still(from) && ffd_lattice_is_still(*to))
+        ffd_log_line(&job->log, FFD_LOG_WARNING,
+                     "%s: faces held at C%d leave nothing that moves of %zu x %zu x %zu control points", name,
+                     of->continuity, (*to)->size[0], (*to)->size[1], (*to)->size[2]);
+    return FFD_OK;
+}
+
 /* other: the next of the lattices that operations need. */
-static ffd_status operate(const ffd_operation *of, const ffd_lattice *from, const ffd_lattice *other,
-                          int threads, ffd_lattice **to, ffd_error *error)
+static ffd_status operate(const author_job *job, const ffd_operation *of, const ffd_lattice *from,
+                          const ffd_lattice *other, int threads, ffd_lattice **to, ffd_error *error)
 {
     switch (of->kind) {
     case FFD_OPERATION_STRENGTH:
@@ -77,12 +91,15 @@ static ffd_status operate(const ffd_operation *of, const ffd_lattice *from, cons
         return place(of, from, to, error);
     case FFD_OPERATION_INVERT:
         return ffd_lattice_invert(from, threads, to, error);
+    case FFD_OPERATION_SEAL:
+        return seal(job, of, from, to, error);
     }
     return ffd_fail(error, FFD_E_ARGUMENT, "there is no operation %d", (int)of->kind);
 }
 
 /* Replaces the first lattice of the input by what the operations make of it. */
-static ffd_status operate_all(const ffd_lattice_set_desc *desc, author_input *input, ffd_error *error)
+static ffd_status operate_all(const author_job *job, const ffd_lattice_set_desc *desc, author_input *input,
+                              ffd_error *error)
 {
     size_t other = 0;
     TRY(input->lattices[0]->spec ? ffd_lattice_memory_take(&input->memory, input->lattices[0]->spec, 0, error)
@@ -91,7 +108,7 @@ static ffd_status operate_all(const ffd_lattice_set_desc *desc, author_input *in
         const ffd_operation *const of = &desc->operations[i];
         ffd_lattice *made;
         other += has_other(of);
-        TRY(operate(of, input->lattices[0], input->lattices[other], desc->threads, &made, error));
+        TRY(operate(job, of, input->lattices[0], input->lattices[other], desc->threads, &made, error));
         ffd_lattice_destroy(&input->lattices[0]);
         input->lattices[0] = made;
     }
@@ -103,7 +120,7 @@ static ffd_status set(const author_job *job, const ffd_lattice_set_desc *desc, f
     author_input input = {0};
     ffd_status status;
     TRY_END(ffd_author_begin(job, &input, error));
-    TRY_END(operate_all(desc, &input, error));
+    TRY_END(operate_all(job, desc, &input, error));
     TRY_END(ffd_author_write(job, input.lattices[0], error));
 end:
     if (status && status != FFD_E_ARGUMENT)

@@ -6,21 +6,13 @@
 #include "lattice/lattice.h"
 #include <math.h>
 
-static bool is_still(const ffd_lattice *lattice)
-{
-    for (size_t i = 0; i < lattice->count; i++)
-        if (lattice->moved[i] & POINT_MOVED)
-            return false;
-    return true;
-}
-
 ffd_status ffd_seams_find(lattice_chain *chain, ffd_error *error)
 {
     size_t capacity = 0;
     for (size_t l = 0; l < chain->count; l++) {
         chain_link *const link = &chain->links[l];
         link->is_convex = link->locator->method != METHOD_GENERAL;
-        link->is_still = is_still(link->lattice);
+        link->is_still = ffd_lattice_is_still(link->lattice);
         link->opens_axis = !link->is_convex && ffd_lattice_opens_axis(link->lattice);
         for (int a = 0; a < 3; a++) {
             if (!ffd_locator_has_seam(link->locator, a) || !ffd_lattice_opens_seam(link->lattice, a))

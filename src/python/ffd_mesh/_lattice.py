@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import json
 import os
+import re
 from typing import Any, Mapping
 
 import numpy as np
@@ -15,7 +16,7 @@ from . import _library as library
 from ._embedding import Embedding
 from ._errors import InvalidError
 from ._library import Owned, Progress, Run, call, lib
-from ._values import (Deformed, Folds, Parameter, csr, described, direction_of, folds_of, parameters, parameters_of, settings, shape_of, three,
+from ._values import (Deformed, Folds, Parameter, csr, described, direction_of, faces_of, folds_of, parameters, parameters_of, settings, shape_of, three,
                       vertices_of, wishes_of)
 
 REST, DEFORMED = declared.ENUMERATIONS["ffd_volume"].values()
@@ -288,6 +289,19 @@ class Lattice:
         """
         numbers = np.array([library.real(value, "sigma") for value in three(sigma, "sigma")], np.float64)
         return self._new(lib.ffd_lattice_jitter, self._pointer, arrays.address(numbers), library.integer(seed, "seed", most=2**53))
+
+    def seal(self, continuity: str, faces: Any = "all") -> Lattice:
+        """Returns a lattice with faces held still, so that what is deformed joins what is not with that continuity.
+
+        continuity: "C0", "C1", "C2" ..: the displacement and so many of its derivatives are 0 on the faces; less than the degree
+        faces: of "u-", "u+", "v-" .. "w+", a list or one text with commas; "all": those of all directions that are not closed
+        The directions of the faces are clamped (`refine`), and the displacements of the outermost layers become 0. For Bezier
+        volumes: Sederberg and Parry, Free-form deformation of solid geometric models, 1986. Raises `ValueError` for
+        another word, `ArgumentError` for a face of a closed direction, and a degree that is too low.
+        """
+        if not isinstance(continuity, str) or not re.fullmatch("C[0-9]{1,2}", continuity):
+            raise ValueError(f"the continuity is C0, C1, C2 .., not {continuity!r}")
+        return self._new(lib.ffd_lattice_seal, self._pointer, int(continuity[1:]), faces_of(faces))
 
     def invert(self, *, threads: int = 0) -> Lattice:
         """Returns the exact inverse: rest and deformed volume change places. It covers the image of the volume. Raises

@@ -125,6 +125,25 @@ def direction_of(letter: Any) -> int:
     return "uvw".index(letter)
 
 
+FACES = ("u-", "u+", "v-", "v+", "w-", "w+")
+
+
+def faces_of(faces: Any) -> int:
+    """The bits of faces of a volume."""
+    if isinstance(faces, str):
+        if faces == "all":
+            return 1 << len(FACES)
+        faces = faces.split(",")
+    bits = 0
+    for face in faces:
+        if face not in FACES:
+            raise ValueError(f"a face is {', '.join(FACES)}, not {face!r}")
+        bits |= 1 << FACES.index(face)
+    if not bits:
+        raise ValueError("there is no face to hold")
+    return bits
+
+
 def wishes_of(size: Any, degree: Any, insert: Any) -> tuple[Any, list[np.ndarray]]:
     """Makes an ffd_refine_desc. Returns it with the arrays that must stay alive."""
     desc, kept = library.filled("ffd_refine_desc"), []
