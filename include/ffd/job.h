@@ -670,6 +670,50 @@ typedef struct ffd_refine_result {
 FFD_API ffd_status ffd_lattice_refine_run(const ffd_lattice_refine_desc *desc, ffd_refine_result *result,
                                           ffd_error *error);
 
+/* Which states of a lattice are written. */
+typedef enum ffd_lattice_part {
+    FFD_PART_DEFAULT, /* both, if the format holds both; else the rest of a lattice that moves nothing */
+    FFD_PART_BOTH,
+    FFD_PART_REST,    /* nothing is moved */
+    FFD_PART_DEFORMED /* the deformed control points, and weights, as rest */
+} ffd_lattice_part;
+
+/* A job of `ffd lattice convert`: reads a lattice of one format, by the ending of its name, and writes it in
+   another: .json, .csv or .npy (data/schema/lattice.md 12). Moves
+   become offsets. */
+typedef struct ffd_lattice_convert_desc {
+    size_t struct_size; /* sizeof(ffd_lattice_convert_desc) in the caller's header */
+    /* The following members are those of ffd_lattice_refine_desc. A text of lattice is the content of a file
+       of its format. set and meshes are for .json alone. */
+    ffd_lattice_source lattice;
+    const ffd_setting *set;
+    size_t set_count;
+    const ffd_source *meshes;
+    size_t mesh_count;
+    const char *const *only;
+    size_t only_count;
+    ffd_source reading;
+    size_t size[3]; /* of an array (n, 3): control points along u, v and w; 0 (default): not given */
+    int degree[3];  /* of a format that has none; 0 (default): min(3, size - 1) */
+    ffd_lattice_part part;
+    const char *output; /* its ending chooses the format; "-": standard output, JSON */
+    bool force;
+    ffd_output_set *output_set;
+    ffd_log_function log; /* receives warnings of what the format cannot hold; may be NULL */
+    void *log_user;
+    ffd_sink_function sink;
+    void *sink_user;
+} ffd_lattice_convert_desc;
+
+/* Sets desc to defaults. size: sizeof(ffd_lattice_convert_desc) in the caller's header. */
+FFD_API void ffd_lattice_convert_desc_init(ffd_lattice_convert_desc *desc, size_t size);
+
+/* Runs the job. The output is complete or absent. Errors: those of ffd_lattice_load, ffd_lattice_save and of
+   reading a mesh; FFD_E_INVALID for a file that is not what its ending says; FFD_E_ARGUMENT for an ending
+   that is none of these, size or degree for a format that has its own, a part that the format cannot hold,
+   and settings or meshes that the lattice has no use for. */
+FFD_API ffd_status ffd_lattice_convert_run(const ffd_lattice_convert_desc *desc, ffd_error *error);
+
 /* What `ffd lattice set` does to a lattice, one after the other. */
 typedef enum ffd_operation_kind {
     FFD_OPERATION_STRENGTH,   /* ffd_lattice_strength by number */

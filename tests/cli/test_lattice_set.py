@@ -90,6 +90,23 @@ def half_and_twice_the_edit(run):
 
 
 @case
+def weights_change_as_displacements_do(run):
+    rest = [1 + 0.1 * min(i % 4, 3 - i % 4) + 0.05 * (i // 4) for i in range(80)]  # symmetric along u
+    moved = {}
+    for name in ("a.json", "b.json"):
+        content = write(run, name, most=0.02, weights=rest)
+        content["deformed"]["weights"] = moved[name] = [h * RANDOM.uniform(0.98, 1.02) for h in rest]
+        run.write(name, content)
+    found = change(run, "--add", "b.json")
+    equal(found["weights"], rest)
+    near(found["deformed"]["weights"], [p + (q - h) for p, q, h in zip(moved["a.json"], moved["b.json"], rest)], 1e-15)
+    near(change(run, "--strength", "0.5")["deformed"]["weights"], [(h + q) / 2 for h, q in zip(rest, moved["a.json"])], 1e-15)
+    equal(change(run, "--mirror", "u")["deformed"]["weights"], [moved["a.json"][i - i % 4 + 3 - i % 4] for i in range(80)])
+    found = change(run, "--invert")
+    equal([found["weights"], found["deformed"]["weights"]], [moved["a.json"], rest])
+
+
+@case
 def the_inverse_leads_back(run):
     for _ in range(repetitions(5)):
         write(run, "a.json", most=0.15)

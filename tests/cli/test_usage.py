@@ -75,7 +75,7 @@ def help_of_each_command(run):
     for command in [*COMMANDS, "batch", "jacobian"]:
         lines = run.ffd("help", *command.split()).text.splitlines()
         check(all(len(line) < 130 for line in lines), f"{command}: a line too long")
-    for group, commands in (("lattice", ["new", "refine", "set"]), ("report", ["merge", "junit"])):
+    for group, commands in (("lattice", ["convert", "new", "refine", "set"]), ("report", ["merge", "junit"])):
         equal(run.ffd("help", group).text, "".join(run.ffd("help", group, command).text for command in commands))
         equal(run.ffd(group, "--help").text, run.ffd("help", group).text)
 

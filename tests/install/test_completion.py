@@ -22,8 +22,8 @@ MESHES = {"cow.obj", "ROBOT.GLB", "a vase.ply", "folder/"}
 # Typed -> what is offered for the last word; a folder's name may end in a slash or not.
 CASES = [
     ("ffd lat", {"lattice"}),
-    ("ffd lattice ", {"new", "refine", "set"}),
-    ("ffd help lattice ", {"new", "refine", "set"}),
+    ("ffd lattice ", {"convert", "new", "refine", "set"}),
+    ("ffd help lattice ", {"convert", "new", "refine", "set"}),
     ("ffd lattice refine be", {"bend.json"}),
     ("ffd lattice set bend.json --mirror ", {"u", "v", "w"}),
     ("ffd lattice set bend.json --add be", {"bend.json"}),

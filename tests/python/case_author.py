@@ -34,6 +34,36 @@ class Author(unittest.TestCase):
                 with open(out, encoding="utf-8") as file:
                     self.assertEqual(file.read(), made.text, words)
 
+    def test_tables_and_arrays(self):
+        first = self.lattice()
+        with tempfile.TemporaryDirectory() as folder:
+            a, b, c, table, array = (os.path.join(folder, name) for name in ("a.json", "b.json", "c.json", "t.csv", "p.npy"))
+            first.save(a)
+            first.save(table)
+            support.program("lattice", "convert", a, "-o", b.replace("b.json", "b.csv"))
+            with open(table, "rb") as own, open(b.replace("b.json", "b.csv"), "rb") as programs:
+                self.assertEqual(own.read(), programs.read())
+            self.assertEqual(ffd.convert_lattice(table, c), [])
+            for loaded in (ffd.Lattice.load(table), ffd.Lattice.load(c)):
+                self.assertTrue((loaded.offsets == first.offsets).all() and (loaded.rest == first.rest).all())
+            first.save(array, part="deformed")
+            self.assertTrue((np.load(array) == first.deformed).all())
+            self.assertTrue((ffd.Lattice.load(array).rest == first.deformed).all())
+            np.save(array, np.asfortranarray(first.rest))
+            self.assertTrue((ffd.Lattice.load(array, degree=2).rest == first.rest).all())
+            np.save(array, first.rest.transpose(2, 1, 0, 3).reshape(-1, 3).astype(">f8"))
+            self.assertTrue((ffd.Lattice.load(array, size=(4, 5, 4)).rest == first.rest).all())
+            first.refine(degree=4).save(b, part="rest")
+            with self.assertLogs("ffd_mesh", "WARNING") as said:
+                self.assertEqual(len(ffd.convert_lattice(b, array, force=True)), 1)
+            self.assertIn("not the knots of u, knots of v, knots of w", said.output[0])
+            for call, error in ((lambda: first.save(array), ffd.ExistsError), (lambda: first.save(array, force=True), ffd.ArgumentError),
+                                (lambda: ffd.Lattice.load(array, size=3), ffd.ArgumentError), (lambda: ffd.Lattice.load(a, size=3), ValueError),
+                                (lambda: ffd.convert_lattice(a, "x.txt"), ffd.ArgumentError), (lambda: first.save(b, part="all"), ValueError),
+                                (lambda: ffd.Lattice.load(table, {"A": 1}), ffd.ArgumentError)):
+                with self.assertRaises(error):
+                    call()
+
     def test_noise_is_that_of_the_move(self):
         text = ('{"format": "ffd-lattice", "version": 1, "size": [4, 5, 4], "rest": {"box": {"min": [-1, -1, -1], "max": [1, 1, 1]}}, '
                 '"moves": [{"jitter": {"sigma": [0.1, 0, 0.3], "seed": 12345678901}}]}')

@@ -73,6 +73,7 @@ LAYERS = {
     "lattice": {"base", "base/file", "base/memory", "base/text", "base/vector", "spline"},
     "author": {"base", "base/file", "base/memory", "base/system", "base/vector", "lattice", "spline"},
     "lattice/file": {"base", "base/file", "base/memory", "base/text", "base/vector", "json", "lattice"},
+    "lattice/table": {"base", "base/file", "base/memory", "base/text", "io/npy", "lattice"},
     "lattice/tangent": {"base/memory", "base/vector", "lattice"},
     "embed/frame": {"base", "base/memory", "base/vector", "lattice", "spline"},
     "embed/boundary": {"base", "base/memory", "base/vector", "embed/frame", "lattice", "spline"},
@@ -114,7 +115,7 @@ LAYERS = {
     },
     "job/author": {
         "author", "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "job", "job/chain", "job/input", "job/report",
-        "lattice", "lattice/file", "mesh",
+        "lattice", "lattice/file", "lattice/table", "mesh",
     },
     "batch/manifest": {
         "base", "base/file", "base/memory", "base/system", "base/text", "io", "job/input", "json", "mesh",

@@ -53,6 +53,9 @@ bool ffd_npy_starts(const unsigned char *data, size_t size, const char *descr, s
 typedef struct npy_header {
     char descr[8];
     char shape[200];
+    uint64_t sizes[NPY_DIMENSIONS];
+    size_t dimensions;
+    bool is_fortran;
     uint64_t count;
     size_t values; /* offset of the first value */
 } npy_header;
@@ -76,6 +79,9 @@ static bool read_shape(const char *text, npy_header *header)
         if (end == c || *c == '-' || (size > 0 && header->count > UINT64_MAX / size))
             return false;
         header->count *= size;
+        if (header->dimensions < NPY_DIMENSIONS)
+            header->sizes[header->dimensions] = size;
+        header->dimensions++;
         c = end + strspn(end, ", L");
     }
     const size_t length = strcspn(text, ")");
@@ -100,7 +106,10 @@ static bool read_header(const file_input *file, npy_header *header)
     header->values = prefix + length;
     const char *const descr = find_value(text, "descr"), *const order = find_value(text, "fortran_order");
     const char *const shape = find_value(text, "shape");
-    if (!descr || *descr != '\'' || !order || strncmp(order, "False", 5) != 0 || !shape || *shape != '(')
+    if (!descr || *descr != '\'' || !order || !shape || *shape != '(')
+        return false;
+    header->is_fortran = strncmp(order, "True", 4) == 0;
+    if (!header->is_fortran && strncmp(order, "False", 5) != 0)
         return false;
     snprintf(header->descr, sizeof header->descr, "%.*s", (int)strcspn(descr + 1, "'"), descr + 1);
     return read_shape(shape, header);
@@ -129,28 +138,96 @@ static bool is_little_endian(void)
     return first == 1;
 }
 
+/* Returns the bytes of a number; 0 for a type that is none of floating point. */
+static size_t number_size(const npy_header *header)
+{
+    const char *const type = header->descr + 1;
+    return !header->descr[0] || !strchr("<>=|", header->descr[0]) ? 0
+           : strcmp(type, "f8") == 0                              ? 8
+           : strcmp(type, "f4") == 0                              ? 4
+                                                                  : 0;
+}
+
+static ffd_status refuse_type(const char *path, const npy_header *header, ffd_error *error)
+{
+    return ffd_fail_file(error, FFD_E_INVALID, path, "has numbers of type %s, not float32 or float64",
+                         header->descr);
+}
+
+/* Reads count numbers in the order of the file, which has so many. */
+static ffd_status take_values(const file_input *file, const npy_header *header, size_t count, double **values,
+                              ffd_error *error)
+{
+    const size_t size = number_size(header);
+    *values = ffd_alloc(count, sizeof **values);
+    if (!*values)
+        return ffd_fail_memory(error);
+    const bool little = header->descr[0] == '<' || (header->descr[0] != '>' && is_little_endian());
+    for (size_t i = 0; i < count; i++)
+        (*values)[i] = number_at(file->data + header->values + i * size, size, little != is_little_endian());
+    return FFD_OK;
+}
+
 static ffd_status read_values(const char *path, const file_input *file, size_t count, double **values,
                               ffd_error *error)
 {
     npy_header header = {.descr = ""};
-    if (!read_header(file, &header))
+    if (!read_header(file, &header) || header.is_fortran)
         return ffd_fail_file(error, FFD_E_INVALID, path, "is not a NumPy array file (.npy) in C order");
-    const size_t size = strcmp(header.descr + 1, "f8") == 0 ? 8 : strcmp(header.descr + 1, "f4") == 0 ? 4 : 0;
-    if (!header.descr[0] || size == 0 || !strchr("<>=|", header.descr[0]))
-        return ffd_fail_file(error, FFD_E_INVALID, path, "has numbers of type %s, not float32 or float64",
-                             header.descr);
+    const size_t size = number_size(&header);
+    if (size == 0)
+        return refuse_type(path, &header, error);
     if (header.count != count)
         return ffd_fail_file(error, FFD_E_INVALID, path, "has the shape %s, and %zu numbers are needed",
                              header.shape, count);
     if ((file->size - header.values) / size < count)
         return ffd_fail_file(error, FFD_E_INVALID, path, "ends early: %zu numbers are needed", count);
-    *values = ffd_alloc(count, sizeof **values);
-    if (!*values)
+    return take_values(file, &header, count, values, error);
+}
+
+/* Puts numbers whose first index is the fastest in C order. */
+static ffd_status transpose(npy_array *array, size_t count, ffd_error *error)
+{
+    double *const values = ffd_alloc(count, sizeof *values);
+    size_t index[NPY_DIMENSIONS] = {0};
+    if (!values)
         return ffd_fail_memory(error);
-    const bool little = header.descr[0] == '<' || (header.descr[0] != '>' && is_little_endian());
-    for (size_t i = 0; i < count; i++)
-        (*values)[i] = number_at(file->data + header.values + i * size, size, little != is_little_endian());
+    for (size_t from = 0; from < count; from++) {
+        size_t to = 0, d = 0;
+        for (size_t k = 0; k < array->dimensions; k++)
+            to = to * (size_t)array->shape[k] + index[k];
+        values[to] = array->values[from];
+        while (d < array->dimensions && ++index[d] == array->shape[d])
+            index[d++] = 0;
+    }
+    ffd_free(array->values);
+    array->values = values;
     return FFD_OK;
+}
+
+ffd_status ffd_npy_read_array(const file_input *file, const char *name, uint64_t most, npy_array *array,
+                              ffd_error *error)
+{
+    npy_header header = {.descr = ""};
+    *array = (npy_array){0};
+    if (!read_header(file, &header))
+        return ffd_fail_file(error, FFD_E_INVALID, name, "is not a NumPy array file (.npy)");
+    const size_t size = number_size(&header);
+    if (size == 0)
+        return refuse_type(name, &header, error);
+    array->dimensions = header.dimensions;
+    memcpy(array->shape, header.sizes, sizeof array->shape);
+    snprintf(array->text, sizeof array->text, "%s", header.shape);
+    if (header.count > most)
+        return ffd_fail_file(error, FFD_E_LIMIT, name, "has the shape %s: more than %" PRIu64 " numbers",
+                             header.shape, most);
+    const size_t count = (size_t)header.count, bytes = file->size - header.values;
+    if (bytes / size < count || bytes > count * size)
+        return ffd_fail_file(error, FFD_E_INVALID, name,
+                             "has %zu bytes of numbers, but the shape %s needs %zu", bytes, header.shape,
+                             count * size);
+    TRY(take_values(file, &header, count, &array->values, error));
+    return header.is_fortran && header.dimensions <= NPY_DIMENSIONS ? transpose(array, count, error) : FFD_OK;
 }
 
 ffd_status ffd_npy_read(const char *path, ffd_bytes bytes, size_t count, double **values, ffd_error *error)

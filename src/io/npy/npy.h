@@ -32,4 +32,18 @@ bool ffd_npy_starts(const unsigned char *data, size_t size, const char *descr, s
    ffd_free. Errors: FFD_E_INVALID for another file, type, order or size, FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_npy_read(const char *path, ffd_bytes bytes, size_t count, double **values, ffd_error *error);
 
+#define NPY_DIMENSIONS 4
+
+typedef struct npy_array {
+    size_t dimensions; /* those above NPY_DIMENSIONS count, but their sizes are not in shape */
+    uint64_t shape[NPY_DIMENSIONS];
+    char text[200]; /* the shape as the file has it, shortened */
+    double *values; /* in C order; freed by the caller with ffd_free */
+} npy_array;
+
+/* Reads an array of float32 or float64 in C or Fortran order. name: for messages. Errors: FFD_E_INVALID, also
+   where the file has more bytes than the array; FFD_E_LIMIT for more than `most` numbers; FFD_E_MEMORY. */
+ffd_status ffd_npy_read_array(const file_input *file, const char *name, uint64_t most, npy_array *array,
+                              ffd_error *error);
+
 #endif

@@ -110,12 +110,17 @@ end:
     return status;
 }
 
+ffd_status ffd_author_check(const author_job *job, ffd_error *error)
+{
+    TRY(check_desc(job, error));
+    return check_output(job, error);
+}
+
 ffd_status ffd_author_begin(const author_job *job, author_input *input, ffd_error *error)
 {
     const unsigned losses = ffd_mapping_losses();
     *input = (author_input){.memory = ffd_budget_make(job->reading->memory)};
-    TRY(check_desc(job, error));
-    TRY(check_output(job, error));
+    TRY(ffd_author_check(job, error));
     TRY(ffd_mapping_judge(losses, load(job, input, error), error));
     return job->sink ? FFD_OK : ffd_job_check_box(job->output, &input->files, job->lattices, error);
 }
@@ -129,12 +134,18 @@ void ffd_author_end(author_input *input)
     *input = (author_input){0};
 }
 
+ffd_status ffd_author_output(const author_job *job, file_output **output, ffd_error *error)
+{
+    TRY(ffd_output_create(output, error));
+    ffd_output_record(*output, ffd_output_set_list(job->output_set));
+    ffd_output_redirect(*output, job->sink, job->sink_user);
+    return FFD_OK;
+}
+
 ffd_status ffd_author_write(const author_job *job, const ffd_lattice *made, ffd_error *error)
 {
     file_output *output;
-    TRY(ffd_output_create(&output, error));
-    ffd_output_record(output, ffd_output_set_list(job->output_set));
-    ffd_output_redirect(output, job->sink, job->sink_user);
+    TRY(ffd_author_output(job, &output, error));
     const ffd_status status = ffd_lattice_write(made, output, job->output, job->force, error);
     ffd_output_destroy(&output);
     return status;

@@ -2,6 +2,7 @@
 #ifndef FFD_JOB_AUTHOR_AUTHOR_JOB_H
 #define FFD_JOB_AUTHOR_AUTHOR_JOB_H
 
+#include "base/file/output.h"
 #include "base/file/path_list.h"
 #include "job/input/in_memory.h"
 #include "lattice/lattice.h"
@@ -40,12 +41,16 @@ typedef struct author_input {
    there are none. */
 ffd_status ffd_author_take_meshes(job_memory *memory, const ffd_source *meshes, size_t count,
                                   ffd_source **copy, ffd_error *error);
+/* Checks the description and the output. Errors: those of ffd_lattice_refine_run before it reads. */
+ffd_status ffd_author_check(const author_job *job, ffd_error *error);
 /* Checks the output, reads the lattices, and lays their boxes round the meshes. Errors: those of
    ffd_lattice_refine_run up to the refinement. Call ffd_author_end in every case. */
 ffd_status ffd_author_begin(const author_job *job, author_input *input, ffd_error *error);
 /* Frees the lattices and the list. */
 void ffd_author_end(author_input *input);
-/* Writes the lattice that was made. */
+/* Makes the output of a job, which the caller begins, commits and destroys. Errors: FFD_E_MEMORY. */
+ffd_status ffd_author_output(const author_job *job, file_output **output, ffd_error *error);
+/* Writes the lattice that was made, as JSON. */
 ffd_status ffd_author_write(const author_job *job, const ffd_lattice *made, ffd_error *error);
 
 #endif

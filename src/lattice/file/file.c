@@ -3,6 +3,7 @@
 #include "base/file/output.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/text/text_scan.h"
 #include "lattice/build.h"
 #include "lattice/copy.h"
 #include "lattice/file/lattice_source.h"
@@ -54,6 +55,19 @@ ffd_status ffd_lattice_load(const char *path, ffd_lattice **lattice, ffd_error *
 }
 
 /* Reads the file. *size is its size. */
+/* A lattice file is JSON whatever its name. Who gives a table or an array is told what makes one of it. */
+static ffd_status refuse_table(const char *path, const file_input *input, ffd_error *error)
+{
+    text_scan scan;
+    ffd_text_begin(&scan, input->data, input->size, false);
+    const bool is_table = ffd_path_has_ending(path, ".csv"), is_array = ffd_path_has_ending(path, ".npy");
+    if ((!is_table && !is_array) || (ffd_text_find(&scan) && *scan.at == '{'))
+        return FFD_OK;
+    return ffd_fail_file(error, FFD_E_INVALID, path,
+                         "is not JSON: of %s `ffd lattice convert` makes a lattice file",
+                         is_table ? "a table" : "an array");
+}
+
 static ffd_status load_file(const char *path, const spec_settings *settings, lattice_spec **spec,
                             size_t *size, ffd_error *error)
 {
@@ -61,7 +75,9 @@ static ffd_status load_file(const char *path, const spec_settings *settings, lat
     const unsigned losses = ffd_mapping_losses();
     TRY(ffd_file_load(path, &input, error));
     *size = input.size;
-    ffd_status status = ffd_spec_parse((const char *)input.data, input.size, path, settings, spec, error);
+    ffd_status status = refuse_table(path, &input, error);
+    if (!status)
+        status = ffd_spec_parse((const char *)input.data, input.size, path, settings, spec, error);
     ffd_file_unload(&input);
     return ffd_mapping_judge(losses, status, error);
 }

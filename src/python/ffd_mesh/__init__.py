@@ -11,6 +11,7 @@ printed.
 """
 
 from ._batch import batch
+from ._convert import convert_lattice
 from ._embed import EmbeddedBytes, embed_bytes, embed_file
 from ._embedding import Embedding, Status
 from ._errors import (ArgumentError, Cancelled, EmbeddingError, Error, ExistsError, FileError, GateError, InvalidError,
@@ -33,7 +34,7 @@ __all__ = [
     "ArgumentError", "Cancelled", "Csr", "Deformed", "DeformedBytes", "EmbeddedBytes", "Embedding", "EmbeddingError", "Error",
     "ExistsError", "FileError", "Folds", "GateError", "InvalidError", "JacobianBytes", "Lattice", "LimitError",
     "OutOfMemoryError", "Parameter", "Positions", "Result", "Status", "UnsupportedError", "ViewBytes", "batch", "check_bytes",
-    "check_file", "compare_bytes", "compare_files", "compare_folders", "deform_bytes", "deform_file", "deform_mesh", "embed_bytes", "embed_file",
+    "check_file", "compare_bytes", "compare_files", "compare_folders", "convert_lattice", "deform_bytes", "deform_file", "deform_mesh", "embed_bytes", "embed_file",
     "info", "info_bytes", "jacobian_bytes", "jacobian_file", "parameters", "positions_bytes", "positions_file", "schema",
     "view_bytes", "view_file",
 ]

@@ -13,6 +13,7 @@ import numpy as np
 from . import _arrays as arrays
 from . import _declarations as declared
 from . import _library as library
+from ._convert import convert, is_table
 from ._embedding import Embedding
 from ._errors import InvalidError
 from ._library import Owned, Progress, Run, call, lib
@@ -77,11 +78,19 @@ class Lattice:
         return cls._new(lib.ffd_lattice_create, ctypes.byref(desc), arrays.address(xyz), len(xyz))
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str], values: Mapping[str, Any] | None = None) -> Lattice:
-        """Loads a lattice file (data/schema/lattice.md), which is read twice: not a pipe.
+    def load(cls, path: str | os.PathLike[str], values: Mapping[str, Any] | None = None, *, size: Any = None,
+             degree: Any = None) -> Lattice:
+        """Loads a lattice file (data/schema/lattice.md), which is read twice: not a pipe; or a table or an array (.csv, .npy).
 
         values: for the placeholders of its moves, by name
+        size, degree: of an array (n, 3), and of a file that tells no degree, as `convert_lattice` takes them
         """
+        if is_table(path):
+            taken: list[Any] = []
+            convert(path, "lattice.json", values=values, size=size, degree=degree, taken=taken)
+            return cls.parse(taken[-1][1], os.fspath(path))
+        if size is not None or degree is not None:
+            raise ValueError("size and degree are for tables and arrays (.csv, .npy)")
         if os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):
             raise ValueError(f"{os.fspath(path)} is not a file that can be read twice; Lattice.parse takes what was read")
         made, count = settings(values)
@@ -206,8 +215,16 @@ class Lattice:
         call(lib.ffd_lattice_text, self._pointer, ctypes.byref(data), ctypes.byref(size))
         return library.take_bytes(data, size.value).decode()
 
-    def save(self, path: str | os.PathLike[str], *, force: bool = False) -> None:
-        """Writes a lattice file, completely or not at all. force: replace an existing file."""
+    def save(self, path: str | os.PathLike[str], *, force: bool = False, part: str | None = None) -> None:
+        """Writes a lattice file, a table (.csv) or an array (.npy), completely or not at all.
+
+        force: replace an existing file
+        part: "rest", "deformed" or "both", as of `convert_lattice`; with it moves become offsets. What an array cannot hold
+              is logged, as "ffd_mesh"
+        """
+        if is_table(path) or part is not None:
+            convert(None, path, pointer=self._pointer, part=part, force=force)
+            return
         call(lib.ffd_lattice_save, self._pointer, library.path(path), bool(force))
 
     # -- modified copies
