@@ -457,7 +457,7 @@ if [ -n "$all" ]; then
     # fuzz targets, which go through the same parts of the library. The validator in node judges files, not memory.
     # Tests repeat themselves less there (tests/support/repetitions.h, repetitions() of tests/cli/harness.py). clang,
     # for gcc needs minutes to build this. The fuzz targets come from the same build.
-    fuzzed='lattice manifest report clip obj gltf glb ply off stl png jpeg webp'
+    fuzzed='lattice table manifest report clip obj gltf glb ply off stl png jpeg webp'
     if build_stage asan; then
         ahead clang
         suites asan asan --no-suite oracle --no-suite rules --no-suite bench --no-suite node --no-suite slow \

@@ -120,7 +120,7 @@ static const cli_example examples[] = {
     {"a table for a spreadsheet or a script", "ffd lattice convert bend.json --mesh cow.obj -o bend.csv"},
     {"the deformed control points for NumPy",
      "ffd lattice convert bend.json --mesh cow.obj -o bend.npy --part deformed"},
-    {"a lattice of an array", "ffd lattice convert points.npy -o lattice.json --size 4,6,4"},
+    {"a lattice file of an array", "ffd lattice convert bend.npy -o bent.json"},
     {NULL, NULL},
 };
 

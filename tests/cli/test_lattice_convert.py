@@ -70,6 +70,11 @@ def a_table_holds_all_of_a_lattice(run):
         convert(run, "b.json", "b.csv")
         equal(run.read("b.csv"), run.read("a.csv"))
         same(convert(run, "b.csv", "c.json"), back)
+        for part, moved in (("rest", 0), ("deformed", 1)):
+            found = convert(run, "a.csv", "part.json", "--part", part)
+            check("deformed" not in found, "nothing moves")
+            near(rest_points(found), [[p + moved * d for p, d in zip(*both)] for both in zip(rest_points(back), offsets_of(back))], 1e-15 * 4)
+            equal(found.get("weights"), moved and back.get("deformed", {}).get("weights") or back.get("weights"))
         # In any order, with other line ends, blanks and an end mark.
         lines = run.text("a.csv").splitlines()
         head = next(i for i, line in enumerate(lines) if line.startswith("i,"))

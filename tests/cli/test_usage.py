@@ -6,7 +6,8 @@ import subprocess
 
 from harness import CUBE, LIMIT, SECONDS, USAGE, case, check, equal, lattice, main
 
-COMMANDS = ["deform", "check", "embed", "compare", "info", "view", "lattice new", "report merge", "report junit"]
+COMMANDS = ["deform", "check", "embed", "compare", "info", "view", "lattice new", "lattice refine", "lattice set", "lattice convert", "report merge",
+            "report junit"]
 OPTIONS = {
     "deform": {"--lattice", "--set", "--shared-box", "--out-dir", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--rig", "--only", "--space", "--embedding", "--as-morph", "--fail-on",
                "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict", "--allow-extension",
@@ -26,7 +27,8 @@ OPTIONS = {
     "lattice refine": {"--output", "--size", "--insert", "--degree", "--set", "--mesh", "--only", "--space", "--threads", "--force", "--memory",
                        "--strict", "--report", "--report-stable"},
     "lattice set": {"--output", "--strength", "--blend", "--add", "--mirror", "--symmetrize", "--transform", "--move", "--rotate", "--scale",
-                    "--invert", "--set", "--mesh", "--only", "--space", "--threads", "--force", "--memory", "--strict"},
+                    "--invert", "--seam", "--set", "--mesh", "--only", "--space", "--threads", "--force", "--memory", "--strict"},
+    "lattice convert": {"--output", "--part", "--size", "--degree", "--set", "--mesh", "--only", "--space", "--threads", "--force", "--memory", "--strict"},
     "report merge": {"--output", "--interleave", "--force"},
     "report junit": {"--output", "--force"},
 }
@@ -75,7 +77,7 @@ def help_of_each_command(run):
     for command in [*COMMANDS, "batch", "jacobian"]:
         lines = run.ffd("help", *command.split()).text.splitlines()
         check(all(len(line) < 130 for line in lines), f"{command}: a line too long")
-    for group, commands in (("lattice", ["convert", "new", "refine", "set"]), ("report", ["merge", "junit"])):
+    for group, commands in (("lattice", ["new", "refine", "set", "convert"]), ("report", ["merge", "junit"])):
         equal(run.ffd("help", group).text, "".join(run.ffd("help", group, command).text for command in commands))
         equal(run.ffd(group, "--help").text, run.ffd("help", group).text)
 
@@ -99,7 +101,7 @@ def an_unknown_command_gets_the_nearest_one_proposed(run):
     refused(run, "DEFORM", says="DEFORM")
     for word in ("", "fit", "animate", "edit", "mesh"):
         refused(run, word, says=f'unknown command "{word}" (ffd help lists the known ones)')
-    for word in ("convert",):
+    for word in ("weave", ""):
         refused(run, "lattice", word, says=f'unknown command "lattice {word}" (ffd help lists the known ones)')
     refused(run, "--xyz", says="unknown option --xyz (options follow a command)")
     for typed, nearest in (("repot", "report merge"), ("latice", "lattice new"), ("bach", "batch")):
@@ -109,7 +111,7 @@ def an_unknown_command_gets_the_nearest_one_proposed(run):
 @case
 def commands_of_later_versions_are_absent(run):
     for words in (["fit", "a.obj", "b.obj"],
-                  ["lattice", "convert", "l.json"]):
+                  ["animate", "a.glb", "-l", "l.json"]):
         refused(run, *words, says="unknown command")
 
 
