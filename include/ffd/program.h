@@ -65,6 +65,20 @@ FFD_API ffd_status ffd_output_path(const char *folder, const char *input, const 
    Errors: FFD_E_IO, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_check_output_folder(const char *folder, ffd_error *error);
 
+/* How far a call has come, on standard error: a bar that is redrawn ten times a second on a terminal, else a
+   line every ten seconds. For one thread. */
+typedef struct ffd_bar ffd_bar;
+
+/* Starts the clock. what: the word in front ("fit"), which must stay until the bar is destroyed. The caller
+   destroys it with ffd_bar_destroy. Returns NULL if memory runs out; the other functions then do nothing. */
+FFD_API ffd_bar *ffd_bar_create(const char *what);
+/* A callback of progress, with the bar as its user. Returns true. */
+FFD_API bool ffd_bar_show(void *bar, double done);
+/* Removes what is on the terminal: before anything else is written there. bar may be NULL. */
+FFD_API void ffd_bar_clear(ffd_bar *bar);
+/* Clears and frees the bar; sets *bar to NULL. bar and *bar may be NULL. */
+FFD_API void ffd_bar_destroy(ffd_bar **bar);
+
 /* Does the work of this process if ffd_batch_run has started it (ffd/batch.h), and sets *exit_code. Returns
    false otherwise. The program `ffd` calls it with the arguments of main, after ffd_cleanup_on_signals. */
 FFD_API bool ffd_worker_main(int argc, char **argv, int *exit_code);

@@ -3,16 +3,15 @@
 #ifndef FFD_BATCH_PROGRESS_H
 #define FFD_BATCH_PROGRESS_H
 
+#include "base/system/progress_bar.h"
 #include <ffd/batch.h>
 #include <stdbool.h>
 #include <stdint.h>
 
 typedef struct batch_progress {
     const ffd_batch_desc *desc;
-    bool bar;   /* standard error is a terminal */
-    bool drawn; /* a bar is on the screen */
     bool draws; /* pictures are counted, not jobs */
-    double begin, last;
+    progress_bar bar;
 } batch_progress;
 
 /* Starts the clock. */

@@ -3,6 +3,7 @@
 #include "base/system/deadline.h"
 #include "base/system/processors.h"
 #include <pthread.h>
+#include <sched.h>
 #include <stdatomic.h>
 
 typedef struct worker_thread {
@@ -120,6 +121,11 @@ void ffd_parallel_tiles(size_t count, size_t tile_size, int threads, tile_functi
     work.share = share_of(work.tiling.tiles, threads);
     atomic_init(&work.next, 0);
     start_workers(take_tiles, &work, workers_for(work.tiling.tiles, threads));
+}
+
+void ffd_thread_yield(void)
+{
+    sched_yield();
 }
 
 /* A tile that is being processed or waits to be finished. */

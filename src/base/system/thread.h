@@ -13,7 +13,8 @@ typedef void (*tile_function)(void *context, size_t tile, size_t begin, size_t e
 
 /* Calls function once for every tile of tile_size items (the last may be smaller). Tiles do not depend on the
    number of threads, and a callback must write only to its own items, so results do not depend on it either.
-   Uses fewer threads if some cannot be started. */
+   Uses fewer threads if some cannot be started. Threads take tiles in ascending order, and each ends one
+   before its next, so that a callback may wait for tiles before its own. */
 void ffd_parallel_tiles(size_t count, size_t tile_size, int threads, tile_function function, void *context);
 
 /* The same, and then calls `finish` for each tile with the same arguments: one tile at a time, in ascending
@@ -24,6 +25,9 @@ bool ffd_parallel_in_order(size_t count, size_t tile_size, int threads, tile_fun
                            tile_function finish, void *context);
 /* Returns the number of values of `worker` in ffd_parallel_in_order. */
 int ffd_ordered_slots(int threads);
+
+/* Lets other threads go on, while this one waits for what they do. */
+void ffd_thread_yield(void);
 
 /* Checks a number of threads that a caller wants; 0: that of the processors. Errors: FFD_E_ARGUMENT (it is
    negative). */
