@@ -88,6 +88,13 @@ ffd_status ffd_fail_at(ffd_error *error, ffd_status status, const char *file, si
     return status;
 }
 
+ffd_status ffd_fail_as(ffd_status status, const ffd_error *own, ffd_error *error)
+{
+    if (status && error)
+        *error = *own;
+    return status;
+}
+
 ffd_status ffd_fail_memory(ffd_error *error)
 {
     return ffd_fail(error, FFD_E_MEMORY, "out of memory");
@@ -124,6 +131,7 @@ int ffd_status_exit_code(ffd_status status)
     case FFD_OK:
         return 0;
     case FFD_E_GATE:
+    case FFD_E_UNMET:
     case FFD_E_CANCELLED:
         return 1;
     case FFD_E_ARGUMENT:
@@ -149,6 +157,7 @@ ffd_status ffd_status_known(ffd_status status)
     switch (status) {
     case FFD_OK:
     case FFD_E_GATE:
+    case FFD_E_UNMET:
     case FFD_E_ARGUMENT:
     case FFD_E_IO:
     case FFD_E_EXISTS:

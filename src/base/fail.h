@@ -50,6 +50,9 @@ ffd_status ffd_fail_at(ffd_error *error, ffd_status status, const char *file, si
                        const char *pointer, const char *format, ...) FFD_PRINTF(6, 7);
 /* "out of memory", FFD_E_MEMORY. */
 ffd_status ffd_fail_memory(ffd_error *error);
+/* Hands over a failure that is kept in a record of one's own, because it may be none. Returns status; nothing
+   is written if it is FFD_OK. */
+ffd_status ffd_fail_as(ffd_status status, const ffd_error *own, ffd_error *error);
 /* Returns the status that a callback of the user's has returned, or FFD_E_IO if it is not an ffd_status. */
 ffd_status ffd_status_known(ffd_status status);
 /* Sets the file of an error that does not have one. */

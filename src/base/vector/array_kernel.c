@@ -24,6 +24,39 @@ static uint32_t read_u32(const unsigned char *restrict from, size_t count, uint3
     return largest;
 }
 
+static void span(const uint32_t *numbers, size_t count, uint32_t *least, uint32_t *greatest)
+{
+    uint32_t low = numbers[0], high = low;
+    for (size_t i = 1; i < count; i++) {
+        low = numbers[i] < low ? numbers[i] : low;
+        high = numbers[i] > high ? numbers[i] : high;
+    }
+    *least = low;
+    *greatest = high;
+}
+
+/* The greater one of `largest` and the size of a number, unless that is infinite or NaN. */
+static inline double enlarge(double largest, double number)
+{
+    const double size = fabs(number);
+    const bool is_more = (size > largest) & (size <= DBL_MAX);
+    return is_more ? size : largest;
+}
+
+static double magnitude(const double *numbers, size_t count)
+{
+    double largest[GROUP] = {0};
+    size_t i = 0;
+    for (; i + GROUP <= count; i += GROUP)
+        for (size_t k = 0; k < GROUP; k++)
+            largest[k] = enlarge(largest[k], numbers[i + k]);
+    for (; i < count; i++)
+        largest[0] = enlarge(largest[0], numbers[i]);
+    for (size_t k = 1; k < GROUP; k++)
+        largest[0] = larger_of(largest[0], largest[k]);
+    return largest[0];
+}
+
 static void round_to_floats(const double *restrict from, size_t count, float *restrict to)
 {
     for (size_t i = 0; i < count; i++)
@@ -159,5 +192,5 @@ static size_t displace(const double *vectors, size_t count, double largest, doub
     return unfit;
 }
 
-const array_kernel FFD_ARRAY_KERNEL = {read_floats, read_u32,     round_to_floats, add,
-                                       widen,       widen_floats, displace};
+const array_kernel FFD_ARRAY_KERNEL = {read_floats, read_u32, span,         magnitude, round_to_floats,
+                                       add,         widen,    widen_floats, displace};

@@ -13,6 +13,10 @@ typedef struct array_kernel {
     void (*read_floats)(const unsigned char *from, size_t count, double *to);
     /* The same for unsigned 32-bit integers. Returns the largest; 0 if count is 0. */
     uint32_t (*read_u32)(const unsigned char *from, size_t count, uint32_t *to);
+    /* Finds the least and the greatest of count numbers, at least one. */
+    void (*span)(const uint32_t *numbers, size_t count, uint32_t *least, uint32_t *greatest);
+    /* Returns the greatest magnitude of the finite ones among count numbers; 0 if there are none. */
+    double (*magnitude)(const double *numbers, size_t count);
     /* Rounds to the nearest float. */
     void (*round)(const double *from, size_t count, float *to);
     /* to[i] += terms[i]; to[i] keeps its bits if terms[i] is 0. */

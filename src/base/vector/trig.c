@@ -101,6 +101,18 @@ void ffd_sincos_degrees(double degrees, double *sine, double *cosine)
     }
 }
 
+void ffd_axis_rotation(int axis, double degrees, double rotation[9])
+{
+    const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+    double sine, cosine;
+    ffd_sincos_degrees(degrees, &sine, &cosine);
+    for (int i = 0; i < 9; i++)
+        rotation[i] = i == 4 * axis ? 1 : 0;
+    rotation[4 * a] = rotation[4 * b] = cosine;
+    rotation[3 * a + b] = -sine;
+    rotation[3 * b + a] = sine;
+}
+
 /* atan(k/8) */
 static const double ARC_OF_EIGHTHS[] = {0,
                                         0x1.fd5ba9aac2f6ep-4,
