@@ -148,6 +148,23 @@ static bool add_morphs(job_maker *maker)
     return true;
 }
 
+/* Returns a source of weights in which the file that it may name is resolved; NULL if memory ran out. */
+static const char *keep_weight(job_maker *maker, const char *text)
+{
+    const char *const file = ffd_weight_file(text);
+    const char *const path = file ? keep_file(maker, file) : text;
+    if (!path || !file || file == text)
+        return path;
+    byte_buffer whole = {0};
+    ffd_buffer_format(&whole, "1-%s", path);
+    char *const inverted = ffd_buffer_finish(&whole);
+    if (!inverted)
+        ffd_fail_memory(&maker->job->error);
+    const bool kept = inverted && !ffd_paths_add(&maker->job->paths, inverted, &maker->job->error);
+    ffd_free(inverted);
+    return kept ? maker->job->paths.paths[maker->job->paths.count - 1] : NULL;
+}
+
 /* Sets a member to what an option of the job says. text: NULL if it has no value. */
 static bool read_member(job_maker *maker, const ffd_member *member, const char *text)
 {
@@ -158,7 +175,10 @@ static bool read_member(job_maker *maker, const ffd_member *member, const char *
         ffd_spelling()(member->name, NULL, name, sizeof name);
         return refuse(maker, "%s takes no value: true or false is wanted", name);
     }
-    const char *const value = text && member->traits & FFD_MEMBER_IS_PATH ? keep_file(maker, text) : text;
+    const bool is_weight = text && member->kind == FFD_MEMBER_WEIGHT;
+    const char *const value = is_weight                                     ? keep_weight(maker, text)
+                              : text && member->traits & FFD_MEMBER_IS_PATH ? keep_file(maker, text)
+                                                                            : text;
     if (text && !value)
         return false;
     const ffd_status status = ffd_member_read(member, &maker->job->desc, value, &error);

@@ -2,8 +2,8 @@
 #ifndef FFD_BATCH_MANIFEST_JOB_ROWS_H
 #define FFD_BATCH_MANIFEST_JOB_ROWS_H
 
-#include "batch/manifest/csv.h"
 #include "batch/manifest/job_description.h"
+#include "io/csv/csv.h"
 #include <ffd/job.h>
 #include <stdint.h>
 

@@ -2,8 +2,8 @@
 #ifndef FFD_BATCH_MANIFEST_TABLE_H
 #define FFD_BATCH_MANIFEST_TABLE_H
 
-#include "batch/manifest/csv.h"
 #include "batch/manifest/lines.h"
+#include "io/csv/csv.h"
 #include "mesh/flaws.h"
 #include <stdint.h>
 

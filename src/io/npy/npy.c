@@ -154,17 +154,32 @@ static ffd_status refuse_type(const char *path, const npy_header *header, ffd_er
                          header->descr);
 }
 
-/* Reads count numbers in the order of the file, which has so many. */
+/* Copies count numbers in the order of the file, which has so many. */
+static void copy_values(const file_input *file, const npy_header *header, size_t count, double *values)
+{
+    const size_t size = number_size(header);
+    const unsigned char *const from = file->data + header->values;
+    const bool little = header->descr[0] == '<' || (header->descr[0] != '>' && is_little_endian());
+    const bool swapped = little != is_little_endian();
+    if (!swapped && size == sizeof *values)
+        memcpy(values, from, count * sizeof *values);
+    for (size_t i = 0; i < count && !swapped && size == sizeof(float); i++) {
+        float narrow;
+        memcpy(&narrow, from + i * sizeof narrow, sizeof narrow);
+        values[i] = narrow;
+    }
+    for (size_t i = 0; i < count && swapped; i++)
+        values[i] = number_at(from + i * size, size, true);
+}
+
+/* Reads count numbers, which the file has. */
 static ffd_status take_values(const file_input *file, const npy_header *header, size_t count, double **values,
                               ffd_error *error)
 {
-    const size_t size = number_size(header);
     *values = ffd_alloc(count, sizeof **values);
     if (!*values)
         return ffd_fail_memory(error);
-    const bool little = header->descr[0] == '<' || (header->descr[0] != '>' && is_little_endian());
-    for (size_t i = 0; i < count; i++)
-        (*values)[i] = number_at(file->data + header->values + i * size, size, little != is_little_endian());
+    copy_values(file, header, count, *values);
     return FFD_OK;
 }
 
@@ -236,6 +251,59 @@ ffd_status ffd_npy_read(const char *path, ffd_bytes bytes, size_t count, double 
     *values = NULL;
     TRY(ffd_file_take(path, bytes, &file, error));
     ffd_status status = read_values(path, &file, count, values, error);
+    ffd_file_unload(&file);
+    return status;
+}
+
+ffd_status ffd_npy_view(const file_input *file, const char *name, npy_view *view, ffd_error *error)
+{
+    npy_header header = {.descr = ""};
+    if (!read_header(file, &header) || !header.descr[0] || !header.descr[1])
+        return ffd_fail_file(error, FFD_E_INVALID, name, "is not a NumPy array file (.npy)");
+    *view = (npy_view){.kind = header.descr[1],
+                       .size = strtoull(header.descr + 2, NULL, 10),
+                       .is_big_endian = header.descr[0] == '>',
+                       .is_fortran = header.is_fortran,
+                       .dimensions = header.dimensions,
+                       .count = header.count,
+                       .values = file->data + header.values};
+    memcpy(view->shape, header.sizes, sizeof view->shape);
+    const size_t bytes = file->size - header.values;
+    if (view->size == 0 || view->count > bytes / view->size || view->count * view->size != bytes)
+        return ffd_fail_file(error, FFD_E_INVALID, name,
+                             "has %zu bytes, which are not those of an array %s of %s", bytes, header.shape,
+                             header.descr);
+    return FFD_OK;
+}
+
+/* Reads a column from a loaded file. */
+static ffd_status read_column(const char *path, const file_input *file, size_t count, double *values,
+                              ffd_error *error)
+{
+    npy_header header = {.descr = ""};
+    if (!read_header(file, &header))
+        return ffd_fail_file(error, FFD_E_INVALID, path, "is not a NumPy array file (.npy)");
+    const size_t size = number_size(&header), bytes = file->size - header.values;
+    if (size == 0)
+        return refuse_type(path, &header, error);
+    const bool is_column = header.dimensions == 1 || (header.dimensions == 2 && header.sizes[1] == 1);
+    if (!is_column || header.sizes[0] != count)
+        return ffd_fail_file(error, FFD_E_INVALID, path, "has the shape %s, and (%zu,) or (%zu, 1) is needed",
+                             header.shape, count, count);
+    if (bytes / size < count || bytes > count * size)
+        return ffd_fail_file(error, FFD_E_INVALID, path,
+                             "has %zu bytes of numbers, but the shape %s needs %zu", bytes, header.shape,
+                             count * size);
+    copy_values(file, &header, count, values);
+    return FFD_OK;
+}
+
+ffd_status ffd_npy_read_column(const char *path, ffd_bytes bytes, size_t count, double *values,
+                               ffd_error *error)
+{
+    file_input file;
+    TRY(ffd_file_take(path, bytes, &file, error));
+    const ffd_status status = read_column(path, &file, count, values, error);
     ffd_file_unload(&file);
     return status;
 }

@@ -32,6 +32,11 @@ bool ffd_npy_starts(const unsigned char *data, size_t size, const char *descr, s
    ffd_free. Errors: FFD_E_INVALID for another file, type, order or size, FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_npy_read(const char *path, ffd_bytes bytes, size_t count, double **values, ffd_error *error);
 
+/* Reads likewise an array of the shape (count) or (count, 1), into values. Errors: FFD_E_INVALID for another
+   file, type, shape or size, FFD_E_IO, FFD_E_MEMORY. */
+ffd_status ffd_npy_read_column(const char *path, ffd_bytes bytes, size_t count, double *values,
+                               ffd_error *error);
+
 #define NPY_DIMENSIONS 4
 
 typedef struct npy_array {
@@ -45,5 +50,19 @@ typedef struct npy_array {
    where the file has more bytes than the array; FFD_E_LIMIT for more than `most` numbers; FFD_E_MEMORY. */
 ffd_status ffd_npy_read_array(const file_input *file, const char *name, uint64_t most, npy_array *array,
                               ffd_error *error);
+
+/* An array of any type, where it is. */
+typedef struct npy_view {
+    char kind;   /* 'f', 'i', 'u', 'S' (bytes) or another letter of NumPy */
+    size_t size; /* of an element, in bytes */
+    bool is_big_endian, is_fortran;
+    size_t dimensions; /* as of npy_array */
+    uint64_t shape[NPY_DIMENSIONS], count;
+    const unsigned char *values; /* count elements, in the file */
+} npy_view;
+
+/* Finds an array in a file that must outlive the view. Errors: FFD_E_INVALID, also where the file has more or
+   fewer bytes than the array. */
+ffd_status ffd_npy_view(const file_input *file, const char *name, npy_view *view, ffd_error *error);
 
 #endif

@@ -1,4 +1,5 @@
 #include "io/npy/zip_stored.h"
+#include "base/crc.h"
 #include "base/little_endian.h"
 #include <stdio.h>
 #include <string.h>
@@ -15,21 +16,6 @@ enum {
 #define FLAG_DESCRIPTOR 8
 #define DATE_1980 0x21 /* 1 January 1980: the bytes of an archive do not depend on the time */
 #define FULL_32 UINT32_MAX
-
-/* CRC-32 of ISO 3309 with ZIP's polynomial, reflected. */
-static uint32_t crc_of(uint32_t crc, const unsigned char *bytes, size_t size)
-{
-    static const uint32_t nibbles[16] = {
-        0x00000000, 0x1db71064, 0x3b6e20c8, 0x26d930ac, 0x76dc4190, 0x6b6b51f4, 0x4db26158, 0x5005713c,
-        0xedb88320, 0xf00f9344, 0xd6d6a3e8, 0xcb61b38c, 0x9b64c2b0, 0x86d3d2d4, 0xa00ae278, 0xbdbdf21c};
-    crc = ~crc;
-    for (size_t i = 0; i < size; i++) {
-        crc ^= bytes[i];
-        crc = crc >> 4 ^ nibbles[crc & 15];
-        crc = crc >> 4 ^ nibbles[crc & 15];
-    }
-    return ~crc;
-}
 
 /* A record under construction. */
 typedef struct record {
@@ -102,7 +88,7 @@ ffd_status ffd_zip_member(zip_writer *zip, const char *name, uint64_t size, ffd_
 ffd_status ffd_zip_write(zip_writer *zip, const void *bytes, size_t size, ffd_error *error)
 {
     zip_member *const member = &zip->members[zip->count - 1];
-    member->crc = crc_of(member->crc, bytes, size);
+    member->crc = ffd_crc(member->crc, bytes, size);
     zip->offset += size;
     return ffd_output_write(zip->output, bytes, size, error);
 }

@@ -340,7 +340,7 @@ static bool is_moved(const glb_plan *plan, const glb_primitive *primitive, size_
 }
 
 /* A mesh has a target if any of its primitives moves; then all its primitives have it. If nothing moves at
-   all, every mesh has it. */
+   all, every mesh has it, unless the model drops it. */
 static void mark_morph(glb_plan *plan, size_t morph)
 {
     const size_t morphs = plan->model->morph_count;
@@ -350,7 +350,7 @@ static void mark_morph(glb_plan *plan, size_t morph)
         *moved = *moved || is_moved(plan, &plan->primitives[i], morph);
         any = any || *moved;
     }
-    for (size_t m = 0; m < plan->meshes.count && !any; m++)
+    for (size_t m = 0; m < plan->meshes.count && !any && !plan->model->drops_still; m++)
         plan->morphed[m * morphs + morph] = true;
 }
 

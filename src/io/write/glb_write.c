@@ -249,6 +249,20 @@ static void log_origins(const gltf_writer *w, const mesh_log *log)
             far, count, texts[0], texts[1], texts[2]);
 }
 
+static void note_animation(const gltf_writer *w, mesh_animated *animated)
+{
+    const size_t morphs = w->model->morph_count;
+    if (!animated)
+        return;
+    animated->bytes = w->sizes[VIEW_POSITION_OFFSETS] + w->sizes[VIEW_NORMAL_OFFSETS] + w->sizes[VIEW_CLIPS];
+    for (size_t m = 0; m < w->plan.meshes.count; m++) {
+        size_t count = 0;
+        for (size_t k = 0; k < morphs; k++)
+            count += w->plan.morphed[m * morphs + k];
+        animated->targets = count > animated->targets ? count : animated->targets;
+    }
+}
+
 static ffd_status write(const mesh_model *model, const mesh_save_options *options, file_output *output,
                         const mesh_log *log, bool binary, ffd_error *error)
 {
@@ -262,6 +276,7 @@ static ffd_status write(const mesh_model *model, const mesh_save_options *option
         TRY_END(ffd_output_begin(output, options->path, options->force, error));
     w->sink = (model_sink){output, error, FFD_OK};
     TRY_END(files ? put_files(w, options, log) : binary ? put_glb(w, options->path) : put_stream(w));
+    note_animation(w, options->animated);
     log_origins(w, log);
     ffd_polygon_cut_warn(w->plan.hurried_polygons, log);
 end:

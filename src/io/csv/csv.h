@@ -1,7 +1,7 @@
 /* csv.h - parses rows of comma-separated values (RFC 4180), or of values separated by semicolons, tabs or
    bars. Blanks beside separators do not belong to a cell, except in quotes. */
-#ifndef FFD_BATCH_MANIFEST_CSV_H
-#define FFD_BATCH_MANIFEST_CSV_H
+#ifndef FFD_IO_CSV_CSV_H
+#define FFD_IO_CSV_CSV_H
 
 #include "base/text/buffer.h"
 #include <stdbool.h>

@@ -1,4 +1,4 @@
-#include "batch/manifest/csv.h"
+#include "io/csv/csv.h"
 #include "json/json_chars.h"
 #include <string.h>
 
