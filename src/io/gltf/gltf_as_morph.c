@@ -93,15 +93,17 @@ static void mark_meshes(const gltf_document *d, const gltf_morph *morph, morph_m
 }
 
 /* Sets the places of a target. A mesh gets it if it changed, or if it has one of the same name, which would
-   be out of date. If nothing changed at all, every selected mesh gets it. Returns whether memory sufficed. */
-static bool choose_places(const gltf_document *d, const morph_marks *marks, gltf_morph *morph, bool *any)
+   be out of date. If nothing changed at all, every selected mesh gets it, unless still ones are dropped.
+   Returns whether memory sufficed. */
+static bool choose_places(const gltf_document *d, const morph_marks *marks, bool drops_still,
+                          gltf_morph *morph, bool *any)
 {
     for (size_t m = 0; m < d->model.mesh_count; m++) {
         size_t named, found;
         if (!ffd_gltf_find_target(d, m, morph->name, &named, &found))
             return false;
-        const bool gets =
-            marks->moved[m] || (marks->selected[m] && (!marks->any_moved || named != GLTF_NONE));
+        const bool gets = marks->moved[m] ||
+                          (marks->selected[m] && ((!marks->any_moved && !drops_still) || named != GLTF_NONE));
         *any = *any || gets;
         morph->places[m] = !gets ? GLTF_NONE : named != GLTF_NONE ? named : d->mesh_uses[m].target_count;
     }
@@ -109,7 +111,8 @@ static bool choose_places(const gltf_document *d, const morph_marks *marks, gltf
 }
 
 /* Adds one target to the model. */
-static ffd_status add_target(gltf_edit *edit, gltf_morph *morph, const mesh_log *log, ffd_error *error)
+static ffd_status add_target(gltf_edit *edit, gltf_morph *morph, bool drops_still, const mesh_log *log,
+                             ffd_error *error)
 {
     const gltf_document *const d = edit->document;
     const size_t count = d->model.mesh_count;
@@ -121,18 +124,20 @@ static ffd_status add_target(gltf_edit *edit, gltf_morph *morph, const mesh_log 
     bool made = marks.known && marks.moved && marks.selected && morph->places;
     if (made) {
         mark_meshes(d, morph, &marks);
-        made = choose_places(d, &marks, morph, &any);
+        made = choose_places(d, &marks, drops_still, morph, &any);
     }
     ffd_free(marks.known);
     ffd_free(marks.moved);
     ffd_free(marks.selected);
     if (!made)
         return ffd_fail_memory(error);
+    if (!any && drops_still)
+        return FFD_OK;
     if (!any) {
         ffd_log_line(log, FFD_LOG_WARNING, "the file has no mesh that could get the morph target");
         return FFD_OK;
     }
-    if (!marks.any_moved)
+    if (!marks.any_moved && !drops_still)
         ffd_log_line(log, FFD_LOG_WARNING, "no vertex moves: all offsets of the morph target are 0");
     return ffd_gltf_add_target(edit, morph, log, error);
 }
@@ -177,18 +182,31 @@ static void warn_of_many(const gltf_document *d, const mesh_log *log)
 }
 
 /* Fills the edit with the targets and the animations of their weights. */
-static ffd_status fill_edit(gltf_edit *edit, const mesh_log *log, ffd_error *error)
+static ffd_status fill_edit(gltf_edit *edit, bool drops_still, const mesh_log *log, ffd_error *error)
 {
     gltf_document *const d = edit->document;
     for (size_t k = 0; k < d->morph_count; k++) {
         mesh_log_label label;
         const mesh_log labelled = ffd_log_morph(log, d->morphs[k].name, &label);
-        TRY(add_target(edit, &d->morphs[k], d->morph_count > 1 ? &labelled : log, error));
+        TRY(add_target(edit, &d->morphs[k], drops_still, d->morph_count > 1 ? &labelled : log, error));
     }
     TRY(edit->any ? ffd_gltf_make_shapes(d, error) : FFD_OK);
     TRY(ffd_gltf_animate_weights(edit, error));
     warn_of_many(d, log);
     return FFD_OK;
+}
+
+/* Returns how many of the targets a mesh gets, at most. */
+static size_t count_new_targets(const gltf_document *d)
+{
+    size_t most = 0;
+    for (size_t m = 0; m < d->model.mesh_count; m++) {
+        size_t count = 0;
+        for (size_t k = 0; k < d->morph_count; k++)
+            count += d->morphs[k].places[m] != GLTF_NONE;
+        most = count > most ? count : most;
+    }
+    return most;
 }
 
 static ffd_status save_as_morph(mesh_document *document, const mesh_save_options *options,
@@ -198,7 +216,9 @@ static ffd_status save_as_morph(mesh_document *document, const mesh_save_options
     ffd_status status;
     TRY_END(finish_target(d, error));
     d->edit->log = log;
-    status = fill_edit(d->edit, log, error);
+    status = fill_edit(d->edit, options->animated, log, error);
+    if (options->animated && !status)
+        options->animated->targets = count_new_targets(d);
     if (options->bytes_left)
         *options->bytes_left = d->edit->bytes_left;
     TRY_END(status);

@@ -2,6 +2,7 @@
 #include "io/gltf/gltf_format.h"
 #include "io/gltf/edit/gltf_edit.h"
 #include "io/gltf/gltf_skeleton.h"
+#include "io/gltf/gltf_weights.h"
 #include "io/gltf/model/gltf_faces.h"
 #include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/model/gltf_instancing.h"
@@ -115,6 +116,7 @@ const mesh_format ffd_gltf_format = {
     .write = ffd_gltf_write,
     .save = save,
     .faces = ffd_gltf_faces,
+    .visit_triangles = ffd_gltf_visit_triangles,
     .mixed_faces = ffd_gltf_mixed_faces,
     .corner_normals = ffd_gltf_corner_normals,
     .model = ffd_gltf_extract,
@@ -126,6 +128,7 @@ const mesh_format ffd_gltf_format = {
     .morphs = &morphs,
     .rig = &rig,
     .splats = &splats,
+    .weights = &ffd_gltf_weights,
     .describe = ffd_gltf_describe,
     .list_names = ffd_gltf_list_names,
     .compare = ffd_gltf_compare,

@@ -1,5 +1,5 @@
 #include "io/obj/obj_format.h"
-#include "io/obj/obj_document.h"
+#include "io/obj/obj_weights.h"
 #include "io/obj/resource/obj_resources.h"
 #include <float.h>
 
@@ -22,6 +22,7 @@ const mesh_format ffd_obj_format = {
     .resources = &resources,
     .largest_coordinate = DBL_MAX,
     .selectors = &selectors,
+    .weights = &ffd_obj_weights,
     .mark_used = ffd_obj_mark_used,
     .read = ffd_obj_read,
     .begin_results = ffd_obj_begin_results,

@@ -1,6 +1,7 @@
 #include "io/ply/ply_format.h"
 #include "io/ply/ply_document.h"
 #include "io/ply/ply_textures.h"
+#include "io/ply/ply_weights.h"
 #include <float.h>
 
 static ffd_status check(const mesh_document *document, ffd_error *error)
@@ -29,6 +30,7 @@ const mesh_format ffd_ply_format = {
     .largest_coordinate = DBL_MAX,
     .read = ffd_file_document_read,
     .splats = &splats,
+    .weights = &ffd_ply_weights,
     .begin_results = ffd_ply_begin_results,
     .write = ffd_ply_write,
     .save = ffd_ply_save,

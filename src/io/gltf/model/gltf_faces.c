@@ -1,5 +1,6 @@
 #include "io/gltf/model/gltf_faces.h"
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/system/thread.h"
 #include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/model/gltf_parts.h"
@@ -225,6 +226,69 @@ end:
     if (status)
         ffd_mesh_faces_free(faces);
     return status;
+}
+
+/* Triangles that are passed at a time: an even number, as every second one of a strip is turned. */
+#define TRIANGLE_RUN ((size_t)1024)
+
+/* Reads the vertices of `count` triangles of a primitive from `first` on, which is even. room: for the
+   corners of a strip or fan. */
+static ffd_status read_triangles(const gltf_document *d, const gltf_primitive *primitive, size_t first,
+                                 size_t count, uint32_t *room, uint32_t *triangles, ffd_error *error)
+{
+    const uint64_t vertices = d->model.accessors[primitive->accessor[GLTF_POSITION]].count;
+    const bool apart = primitive->mode == MODE_TRIANGLES, is_fan = primitive->mode == MODE_FAN;
+    const size_t from = apart ? 3 * first : first + is_fan, size = apart ? 3 * count : count + 2 - is_fan;
+    uint32_t *const to = apart ? triangles : room + is_fan;
+    uint32_t largest = is_fan;
+    if (primitive->indices < 0) {
+        room[0] = 0;
+        for (size_t i = 0; i < size; i++)
+            to[i] = (uint32_t)(from + i);
+    } else {
+        largest = is_fan ? ffd_gltf_read_drawn(d, primitive, 0, 1, room) : 0;
+        const uint32_t more = ffd_gltf_read_drawn(d, primitive, from, size, to);
+        largest = more > largest ? more : largest;
+        for (size_t i = 0; i < size && largest >= vertices; i++)
+            if (to[i] >= vertices)
+                return refuse_index(d, primitive, from + i, error);
+        if (largest >= vertices)
+            return refuse_index(d, primitive, 0, error);
+    }
+    for (size_t t = 0; t < count && !apart; t++)
+        gltf_triangle(primitive->mode, t, room, triangles + 3 * t);
+    return FFD_OK;
+}
+
+/* Passes the triangles of a primitive for one of its uses, whose first vertex is `base`. */
+static ffd_status visit_use(const gltf_document *d, const gltf_primitive *primitive, size_t base,
+                            mesh_triangle_visitor *visit, void *context, ffd_error *error)
+{
+    const size_t triangles = count_drawing(d, primitive).triangles;
+    uint32_t room[TRIANGLE_RUN + 2], corners[3 * TRIANGLE_RUN];
+    for (size_t first = 0; first < triangles; first += TRIANGLE_RUN) {
+        const size_t left = triangles - first, count = left < TRIANGLE_RUN ? left : TRIANGLE_RUN;
+        TRY(ffd_deadline_check(error));
+        TRY(read_triangles(d, primitive, first, count, room, corners, error));
+        for (size_t i = 0; i < 3 * count && base > 0; i++)
+            corners[i] += (uint32_t)base;
+        visit(context, corners, count);
+    }
+    return FFD_OK;
+}
+
+ffd_status ffd_gltf_visit_triangles(const mesh_document *document, const size_t *first,
+                                    mesh_triangle_visitor *visit, void *context, ffd_error *error)
+{
+    const gltf_document *const d = ffd_gltf_of(document);
+    for (size_t i = 0; i < d->instance_count; i++) {
+        const gltf_instance *const instance = &d->instances[i];
+        TRY(refuse_primitive(d, instance->primitive, error));
+        if (instance->part[GLTF_POSITION] != GLTF_NONE)
+            TRY(visit_use(d, instance->primitive, first[instance->part[GLTF_POSITION]], visit, context,
+                          error));
+    }
+    return FFD_OK;
 }
 
 /* Sets the normals of one instance's corners: vertex i of its positions has normal i of its normals. */

@@ -14,6 +14,7 @@
 #include "mesh/splats.h"
 
 mesh_faces_function ffd_gltf_faces;
+mesh_visit_triangles_function ffd_gltf_visit_triangles;
 mesh_corner_normals_function ffd_gltf_corner_normals;
 mesh_mark_used_function ffd_gltf_mark_used;
 mesh_mixed_faces_function ffd_gltf_mixed_faces;

@@ -162,6 +162,24 @@ static ffd_status put_buffer_files(const gltf_saver *saver, ffd_error *error)
     return FFD_OK;
 }
 
+/* Returns by how many bytes the files of the output are larger than those of the input; 0: they are not. */
+static uint64_t count_growth(const gltf_saver *saver)
+{
+    const gltf_document *const d = saver->document;
+    uint64_t before = d->input.size, after;
+    if (saver->binary)
+        after = measure_glb(saver).total;
+    else
+        after = json_size(saver, d->binary ? d->tree.values[0].end : d->tree.size);
+    for (size_t b = 0; b < d->buffer_values.count; b++) {
+        if (d->buffers[b].kind == BUFFER_FILE)
+            before += d->buffers[b].size;
+        if (saver->buffers[b].kind == BUFFER_FILE)
+            after += ffd_gltf_content_size(saver, b);
+    }
+    return after > before ? after - before : 0;
+}
+
 static ffd_status put_files(gltf_saver *saver, ffd_error *error)
 {
     const gltf_document *d = saver->document;
@@ -170,6 +188,8 @@ static ffd_status put_files(gltf_saver *saver, ffd_error *error)
     if (ffd_edits_failed(&saver->edits))
         return ffd_fail_memory(error);
     ffd_edits_sort(&saver->edits);
+    if (saver->options->animated)
+        saver->options->animated->bytes = count_growth(saver);
     if (!saver->output)
         return FFD_OK;
     TRY(put_buffer_files(saver, error));
