@@ -49,7 +49,8 @@ uint32_t ffd_json_tree_member(const json_tree *tree, uint32_t object, const char
 {
     if (object == JSON_NONE || tree->values[object].kind != JSON_OBJECT)
         return JSON_NONE;
-    for (uint32_t v = ffd_json_tree_first(tree, object); v != JSON_NONE; v = ffd_json_tree_after(tree, v)) {
+    const uint32_t end = tree->values[object].next;
+    for (uint32_t v = object + 1; v < end; v = tree->values[v].next) {
         /* Most keys differ in the first character: an escape may stand for any. */
         const char first = tree->text[tree->values[v].key_begin + 1];
         if ((first == *key || first == '\\' || !*key) && ffd_json_tree_key_is(tree, v, key))
@@ -139,6 +140,18 @@ static bool spells(const json_tree *tree, uint32_t begin, uint32_t end, const ch
         t += length;
     }
     return c == last && t == text_last;
+}
+
+char *ffd_json_tree_text(const json_tree *tree, uint32_t value)
+{
+    const json_value *const part = &tree->values[value];
+    const size_t size = part->end - part->begin;
+    char *const text = ffd_alloc(size + 1, 1);
+    if (text) {
+        memcpy(text, tree->text + part->begin, size);
+        text[size] = 0;
+    }
+    return text;
 }
 
 bool ffd_json_tree_key_is(const json_tree *tree, uint32_t value, const char *text)

@@ -69,6 +69,9 @@ bool ffd_json_tree_number(const json_tree *tree, uint32_t value, double *number)
 char *ffd_json_tree_string(const json_tree *tree, uint32_t value, size_t *size);
 /* The same for the key of a value, with that symbol. */
 char *ffd_json_tree_key(const json_tree *tree, uint32_t value);
+/* Returns the text of a value as it stands, with a final 0; free it with ffd_free. NULL if memory runs out.
+ */
+char *ffd_json_tree_text(const json_tree *tree, uint32_t value);
 /* Returns whether the key of a value equals text. */
 bool ffd_json_tree_key_is(const json_tree *tree, uint32_t value, const char *text);
 /* Returns whether a string value equals text. */

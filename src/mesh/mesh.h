@@ -162,6 +162,12 @@ typedef struct mesh_sharing {
     bool is_cheap; /* find reads no files */
 } mesh_sharing;
 
+/* What an animation of new morph targets has become. */
+typedef struct mesh_animated {
+    size_t targets; /* that a mesh gets, at most */
+    uint64_t bytes; /* by which the files grow; in a conversion those of targets and weights */
+} mesh_animated;
+
 typedef struct mesh_save_options {
     const char *path; /* "-": standard output */
     bool to_sink;     /* path is only a name: the output goes to a callback (ffd_output_redirect) */
@@ -184,7 +190,9 @@ typedef struct mesh_save_options {
     /* Receives the number of bytes of replaced morph targets and animations that stay in the file unused. May
        be NULL. */
     uint64_t *bytes_left;
-    uint64_t *bounds_left; /* receives the number of bounds in extensions that no longer fit; may be NULL */
+    mesh_animated *animated; /* receives these; a mesh gets no new target that moves nothing in it then, not
+                                even where no mesh moves. NULL: no such animation */
+    uint64_t *bounds_left;   /* receives the number of bounds in extensions that no longer fit; may be NULL */
 } mesh_save_options;
 
 /* Returns whether a path of the output leads to a file of the input. */
@@ -229,6 +237,13 @@ typedef void mesh_read_function(const mesh_document *document, size_t part, mesh
  * content. */
 typedef ffd_status mesh_faces_function(const mesh_document *document, mesh_state state, mesh_faces *faces,
                                        ffd_error *error);
+/* Receives the corners of count triangles, as mesh_faces has them. */
+typedef void mesh_triangle_visitor(void *context, const uint32_t *corners, size_t count);
+/* Passes all faces, cut into triangles, to a visitor in the order of `faces`, without memory for all of them.
+   first: the first vertex of each part in the document. Thread-safe. Errors: those of the file's content. */
+typedef ffd_status mesh_visit_triangles_function(const mesh_document *document, const size_t *first,
+                                                 mesh_triangle_visitor *visit, void *context,
+                                                 ffd_error *error);
 typedef struct vertex_marks vertex_marks; /* mixed_faces.h */
 /* Gets the faces whose vertices do not all have equal marks, and possibly others, with the positions of
    their vertices: only of these vertices if faces->vertices is set, otherwise the positions of other
@@ -305,6 +320,7 @@ typedef struct mesh_place_calls mesh_place_calls;       /* places.h */
 typedef struct mesh_morph_calls mesh_morph_calls;       /* morphs.h */
 typedef struct mesh_rig_calls mesh_rig_calls;           /* rig.h */
 typedef struct mesh_splat_calls mesh_splat_calls;       /* splats.h */
+typedef struct mesh_weight_calls mesh_weight_calls;     /* weights.h */
 
 typedef struct mesh_format {
     ffd_format format;
@@ -323,7 +339,8 @@ typedef struct mesh_format {
     mesh_save_function *save;
 
     /* NULL: there is nothing of that kind. */
-    mesh_describe_function *list_names; /* animations, morph targets, joints, cameras, scenes */
+    mesh_visit_triangles_function *visit_triangles; /* without it, `faces` has them */
+    mesh_describe_function *list_names;             /* animations, morph targets, joints, cameras, scenes */
     mesh_check_function *check;
     mesh_check_reach_function *check_reach;
     mesh_warn_function *warn;
@@ -340,6 +357,7 @@ typedef struct mesh_format {
     const mesh_morph_calls *morphs;
     const mesh_rig_calls *rig; /* skeletons and animations */
     const mesh_splat_calls *splats;
+    const mesh_weight_calls *weights; /* of vertices, which `--weight` takes */
 } mesh_format;
 
 /* The first member of every format's own document struct. */

@@ -95,6 +95,7 @@ typedef struct mesh_model {
     size_t position_count, texcoord_count, normal_count;
     model_morph *morphs; /* morph_count */
     size_t morph_count, morph_capacity;
+    bool drops_still; /* a mesh has no morph target that moves nothing in it, not even where nothing moves */
     const struct morph_clip *clips; /* clip_count animations of their weights, borrowed */
     size_t clip_count;
     double *colours;      /* 4 for each position: red, green, blue, alpha, 0 to 1, sRGB; NULL: none */

@@ -2,7 +2,6 @@
 #include "base/memory/hash.h"
 #include "base/memory/memory.h"
 #include "base/memory/slots.h"
-#include "base/system/deadline.h"
 #include <string.h>
 
 ffd_status ffd_positions_begin(position_table *table, const double *positions, size_t most, ffd_error *error)
@@ -51,16 +50,6 @@ bool ffd_positions_find(const position_table *table, uint32_t vertex, uint32_t *
 {
     *found = *ffd_positions_at(table, position_of(table, vertex));
     return *found != UINT32_MAX;
-}
-
-ffd_status ffd_positions_twins(const double *positions, size_t count, uint32_t *twins, ffd_error *error)
-{
-    position_table table;
-    TRY(ffd_positions_begin(&table, positions, count, error));
-    for (size_t v = 0; v < count && !ffd_deadline_passed_at(v); v++)
-        twins[v] = ffd_positions_add(&table, (uint32_t)v);
-    ffd_positions_end(&table);
-    return ffd_deadline_check(error);
 }
 
 void ffd_positions_end(position_table *table)

@@ -1,4 +1,4 @@
-/* positions.h - a hash table of vertices by position. */
+/* positions.h - a hash table of vertices by position; twins.c finds all that share one. */
 #ifndef FFD_MESH_POSITIONS_H
 #define FFD_MESH_POSITIONS_H
 
@@ -27,9 +27,5 @@ bool ffd_positions_find(const position_table *table, uint32_t vertex, uint32_t *
 uint32_t *ffd_positions_at(const position_table *table, const double position[3]);
 /* Frees the table. */
 void ffd_positions_end(position_table *table);
-
-/* Sets twins[i] to the first vertex with the same coordinates as vertex i, for count vertices. Errors:
-   FFD_E_MEMORY. */
-ffd_status ffd_positions_twins(const double *positions, size_t count, uint32_t *twins, ffd_error *error);
 
 #endif

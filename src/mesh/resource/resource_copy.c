@@ -53,13 +53,17 @@ static ffd_status begin_copy(const resource_copier *c, const char *target, const
 static ffd_status judge_copy(const resource_copier *c, const resource_kind *kind, const char *target,
                              const file_input *bytes, bool *replaces, ffd_error *error)
 {
-    bool is_file, is_same;
+    bool is_file, is_same, is_own = false;
     *replaces = false;
-    TRY(inspect(c, target, bytes, &is_file, &is_same, error));
-    if (is_same || !is_file)
-        return FFD_OK;
-    const bool is_own = c->options->noted && ffd_copies_are_own(c->options->noted, target);
-    *replaces = is_own && c->options->resources == FFD_RESOURCES_REFRESH;
+    /* Looks twice: between the first look and that at the notes, another process may have replaced the
+       earlier run's copy by this one. */
+    for (int look = 0; look < 2 && !*replaces; look++) {
+        TRY(inspect(c, target, bytes, &is_file, &is_same, error));
+        if (is_same || !is_file)
+            return FFD_OK;
+        is_own = c->options->noted && ffd_copies_are_own(c->options->noted, target);
+        *replaces = is_own && c->options->resources == FFD_RESOURCES_REFRESH;
+    }
     if (*replaces)
         return FFD_OK;
     return ffd_fail_file(error, FFD_E_IO, target,
