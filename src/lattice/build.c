@@ -3,6 +3,7 @@
 #include "base/memory/memory.h"
 #include "lattice/cylinder.h"
 #include "lattice/drag.h"
+#include "lattice/keys.h"
 #include "lattice/lattice.h"
 #include "lattice/moves.h"
 #include "lattice/shapes.h"
@@ -56,7 +57,8 @@ static ffd_status make_weights(const lattice_spec *spec, ffd_lattice *lattice, f
     const double *const rest = spec->weights, *const deformed = spec->deformed_weights;
     const bool rest_is_one = !rest || (all_equal(rest, spec->count) && rest[0] == 1);
     const bool deformed_is_one = !deformed || (all_equal(deformed, spec->count) && deformed[0] == 1);
-    if (rest_is_one && deformed_is_one)
+    /* Keys go between weights, so that all have some where the moves of one make them. */
+    if (rest_is_one && deformed_is_one && !(spec->keys.kind == KEYS_POINTS && ffd_spec_has_exact(spec)))
         return FFD_OK;
     lattice->rest_weights = ffd_alloc(spec->count, sizeof *rest);
     lattice->deformed_weights = ffd_alloc(spec->count, sizeof *deformed);
@@ -163,6 +165,8 @@ static ffd_status set_points(const lattice_spec *spec, const fit_extent *extent,
     TRY(set_deformed(spec, lattice, error));
     if (spec->move_count > 0)
         TRY(ffd_moves_apply(spec, &region, lattice, observer, error));
+    if (spec->keys.kind == KEYS_POINTS && spec->open.count == 0)
+        TRY(ffd_keys_apply(spec, &region, lattice, error));
     return ffd_lattice_finish_moved(lattice, error);
 }
 
@@ -227,13 +231,25 @@ static uint64_t drag_bytes(const lattice_spec *spec)
     uint64_t most = 0, acting = 1;
     for (int a = 0; a < 3; a++)
         acting *= (uint64_t)spec->degree[a] + 1;
-    for (size_t i = 0; i < spec->move_count; i++) {
-        const lattice_move *const move = &spec->moves[i];
-        const uint64_t bytes =
-            ffd_drag_bytes(move->drag_count * (move->mirror.kind == MIRROR_NONE ? 1 : 2), acting);
-        most = bytes > most ? bytes : most;
+    for (size_t list = 0; list <= spec->keys.count; list++) {
+        size_t count;
+        const lattice_move *const moves = ffd_spec_moves(spec, list, &count);
+        for (size_t i = 0; i < count; i++) {
+            const uint64_t bytes =
+                ffd_drag_bytes(moves[i].drag_count * (moves[i].mirror.kind == MIRROR_NONE ? 1 : 2), acting);
+            most = bytes > most ? bytes : most;
+        }
     }
     return most;
+}
+
+/* The bytes of a control point in the keys of the spec, and of what they need to go between two. */
+static uint64_t key_bytes(const lattice_spec *spec)
+{
+    uint64_t each = spec->keys.kind == KEYS_POINTS ? 7 * sizeof(double) : 0;
+    for (size_t k = 0; k < spec->keys.count; k++)
+        each += spec->keys.list[k].offsets ? 3 * sizeof(double) : 0;
+    return each;
 }
 
 uint64_t ffd_spec_point_bytes(const lattice_spec *spec)
@@ -246,5 +262,6 @@ uint64_t ffd_spec_point_bytes(const lattice_spec *spec)
     each += spec->deformed_points || spec->deformed_offsets ? 3 * sizeof(double) : 0;
     each += spec->weights ? sizeof(double) : 0;
     each += spec->deformed_weights ? sizeof(double) : 0;
+    each += key_bytes(spec);
     return spec->count * each + drag_bytes(spec);
 }

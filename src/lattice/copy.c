@@ -72,6 +72,49 @@ static bool copy_parameters(lattice_spec *copy)
     return whole;
 }
 
+static bool copy_texts(char ***texts, size_t count)
+{
+    bool whole = copy_block(texts, count, sizeof **texts);
+    for (size_t i = 0; *texts && i < count; i++)
+        whole = copy_text(&(*texts)[i]) && whole;
+    return whole;
+}
+
+/* Lets the moves of a copied list point to the places of their drags in their copy. */
+static void move_drags(lattice_move *moves, size_t count, const spec_drag *from, spec_drag *to)
+{
+    for (size_t i = 0; moves && to && i < count; i++)
+        if (moves[i].drag_count > 0)
+            moves[i].drags = to + (moves[i].drags - from);
+}
+
+static bool copy_key(const lattice_spec *copy, spec_key *key)
+{
+    const spec_drag *const drags = key->drags;
+    bool whole = copy_block(&key->offsets, copy->count, 3 * sizeof(double));
+    whole = copy_block(&key->moves, key->move_count, sizeof *key->moves) && whole;
+    whole = copy_block(&key->drags, key->drag_count, sizeof *key->drags) && whole;
+    move_drags(key->moves, key->move_count, drags, key->drags);
+    return copy_texts(&key->values, copy->keys.name_count) && whole;
+}
+
+static bool copy_keys(lattice_spec *copy)
+{
+    spec_keys *const keys = &copy->keys;
+    bool whole = copy_texts(&keys->names, keys->name_count);
+    whole = copy_block(&keys->list, keys->count, sizeof *keys->list) && whole;
+    for (size_t k = 0; keys->list && k < keys->count; k++)
+        whole = copy_key(copy, &keys->list[k]) && whole;
+    keys->count = keys->list ? keys->count : 0;
+    whole = copy_block(&keys->others, keys->other_count, sizeof *keys->others) && whole;
+    for (size_t i = 0; keys->others && i < keys->other_count; i++) {
+        whole = copy_text(&keys->others[i].name) && whole;
+        whole = copy_text(&keys->others[i].value) && whole;
+    }
+    keys->other_count = keys->others ? keys->other_count : 0;
+    return copy_text(&keys->moves) && whole;
+}
+
 lattice_spec *ffd_spec_copy(const lattice_spec *spec)
 {
     lattice_spec *copy = ffd_alloc(1, sizeof *copy);
@@ -89,9 +132,8 @@ lattice_spec *ffd_spec_copy(const lattice_spec *spec)
         whole = copy_block(weights[i], copy->count, sizeof(double)) && whole;
     whole = copy_block(&copy->moves, copy->move_count, sizeof *copy->moves) && whole;
     whole = copy_block(&copy->drags, copy->drag_count, sizeof *copy->drags) && whole;
-    for (size_t i = 0; whole && i < copy->move_count; i++)
-        if (copy->moves[i].drag_count > 0)
-            copy->moves[i].drags = copy->drags + (spec->moves[i].drags - spec->drags);
+    move_drags(copy->moves, copy->move_count, spec->drags, copy->drags);
+    whole = copy_keys(copy) && whole;
     whole = copy_meshes(copy) && whole;
     whole = copy_parameters(copy) && whole;
     whole = copy_variables(copy) && whole;

@@ -11,6 +11,33 @@ static void free_parameter(spec_parameter *parameter)
     ffd_free(parameter->comment);
 }
 
+static void free_texts(char **texts, size_t count)
+{
+    for (size_t i = 0; texts && i < count; i++)
+        ffd_free(texts[i]);
+    ffd_free(texts);
+}
+
+void ffd_keys_free(spec_keys *keys)
+{
+    for (size_t k = 0; k < keys->count; k++) {
+        spec_key *const key = &keys->list[k];
+        ffd_free(key->offsets);
+        ffd_free(key->moves);
+        ffd_free(key->drags);
+        free_texts(key->values, keys->name_count);
+    }
+    ffd_free(keys->list);
+    free_texts(keys->names, keys->name_count);
+    for (size_t i = 0; i < keys->other_count; i++) {
+        ffd_free(keys->others[i].name);
+        ffd_free(keys->others[i].value);
+    }
+    ffd_free(keys->others);
+    ffd_free(keys->moves);
+    *keys = (spec_keys){0};
+}
+
 void ffd_spec_free(lattice_spec *spec)
 {
     if (!spec)
@@ -28,6 +55,7 @@ void ffd_spec_free(lattice_spec *spec)
     ffd_free(spec->deformed_weights);
     ffd_free(spec->moves);
     ffd_free(spec->drags);
+    ffd_keys_free(&spec->keys);
     ffd_intern_free(&spec->open);
     for (size_t i = 0; i < spec->parameter_count; i++)
         free_parameter(&spec->parameters[i]);

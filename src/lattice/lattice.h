@@ -41,7 +41,7 @@ typedef enum point_move {
 
 /* What the drag that misses most misses of a place. */
 typedef struct drag_miss {
-    size_t move;        /* its index */
+    char pointer[48];   /* of the move, "/moves/3" */
     double miss, asked; /* lengths; both 0: all drags meet their places */
     double place[3];    /* at rest */
 } drag_miss;

@@ -343,7 +343,7 @@ static size_t keep_near(move_work *work, const double *xyz, size_t places, doubl
 }
 
 /* Notes the largest miss of a drag, if it is more than rounding and more than those of the moves before. */
-static void note_miss(move_work *work, size_t index, const drag_solver *solver, const double *xyz,
+static void note_miss(move_work *work, const lattice_move *move, const drag_solver *solver, const double *xyz,
                       const double *by)
 {
     drag_miss *const missed = &work->lattice->missed;
@@ -357,7 +357,8 @@ static void note_miss(move_work *work, size_t index, const drag_solver *solver, 
     }
     if (!(most > MISSED * asked) || !(most > missed->miss))
         return;
-    *missed = (drag_miss){.move = index, .miss = most, .asked = vec_length(by + 3 * worst)};
+    *missed = (drag_miss){.miss = most, .asked = vec_length(by + 3 * worst)};
+    memcpy(missed->pointer, move->pointer, sizeof missed->pointer);
     memcpy(missed->place, xyz + 3 * worst, sizeof missed->place);
 }
 
@@ -390,7 +391,7 @@ static ffd_status move_places(move_work *work, move_step *step, double *numbers)
         }
         TRY_END(check_finite(work, move, solver.point[i]));
     }
-    note_miss(work, step->index, &solver, numbers, by);
+    note_miss(work, move, &solver, numbers, by);
 end:
     ffd_drag_free(&solver);
     ffd_free(change);

@@ -1,17 +1,17 @@
-/* table_csv.c - a table of the control points. */
+/* csv.c - a table of the control points. */
 #include "base/memory/memory.h"
 #include "base/text/buffer.h"
 #include "base/text/number.h"
 #include "base/text/text_scan.h"
-#include "lattice/table/table.h"
+#include "lattice/formats/grid_arrays.h"
+#include "lattice/formats/readers.h"
+#include "lattice/formats/written_text.h"
 #include <math.h>
 #include <string.h>
 
 static const char *const columns[] = {
     "i", "j", "k", "x", "y", "z", "dx", "dy", "dz", "weight", "weight_deformed"};
 enum { INDICES = 3, PLACE = 3, OFFSET = 6, LEAST = 9, WEIGHT = 9, MOVED_WEIGHT = 10, MOST = 11 };
-/* Bytes of text that are gathered before they are written. */
-#define WRITTEN_AT_ONCE 65536
 #define HEADER "i,j,k,x,y,z,dx,dy,dz[,weight[,weight_deformed]]"
 
 typedef struct csv_point {
@@ -31,7 +31,7 @@ typedef struct csv_reader {
     csv_knots knots[3];
     int degree[3];
     bool closed[3];
-    size_t degree_line, width;
+    size_t degree_line, closed_line, width; /* line 0: not told */
     csv_point *points;
     size_t count, capacity;
     ffd_error *error;
@@ -95,11 +95,14 @@ static ffd_status take_knots(csv_reader *r, text_scan *line)
     return FFD_OK;
 }
 
-/* Reads three whole numbers up to `most`. */
+/* Reads three whole numbers up to `most`. *told: the line that told them before, which becomes this one. */
 static ffd_status take_three(csv_reader *r, text_scan *line, const char *what, uint64_t most,
-                             uint64_t numbers[3])
+                             uint64_t numbers[3], size_t *told)
 {
     text_word word;
+    if (*told)
+        return REFUSE(r, line->line, "# %s is there twice, first in line %zu", what, *told);
+    *told = line->line;
     for (int a = 0; a < 3; a++)
         if (!ffd_text_word(line, &word) || !ffd_text_whole(word, &numbers[a]) || numbers[a] > most)
             return REFUSE(r, line->line, "# %s is followed by three whole numbers up to %llu", what,
@@ -118,12 +121,11 @@ static ffd_status take_comment(csv_reader *r, text_scan *line)
     if (ffd_text_is(word, "knots"))
         return take_knots(r, line);
     if (ffd_text_is(word, "degree")) {
-        TRY(take_three(r, line, "degree", FFD_MAX_DEGREE, numbers));
+        TRY(take_three(r, line, "degree", FFD_MAX_DEGREE, numbers, &r->degree_line));
         for (int a = 0; a < 3; a++)
             r->degree[a] = (int)numbers[a];
-        r->degree_line = line->line;
     } else if (ffd_text_is(word, "closed")) {
-        TRY(take_three(r, line, "closed", 1, numbers));
+        TRY(take_three(r, line, "closed", 1, numbers, &r->closed_line));
         for (int a = 0; a < 3; a++)
             r->closed[a] = numbers[a];
     }
@@ -192,8 +194,8 @@ static ffd_status read_lines(csv_reader *r)
                                     : take_point(r, &line));
     }
     if (!r->width)
-        return ffd_fail_file(r->error, FFD_E_INVALID, r->name, "has no header %s", HEADER);
-    return r->count ? FFD_OK : ffd_fail_file(r->error, FFD_E_INVALID, r->name, "has no control points");
+        return REFUSE(r, r->scan.line, "there is no header %s", HEADER);
+    return r->count ? FFD_OK : REFUSE(r, r->scan.line, "there are no control points");
 }
 
 static void find_size(const csv_reader *r, size_t size[3])
@@ -265,7 +267,7 @@ static ffd_status fill(const csv_reader *r, const csv_point **rows, lattice_spec
 }
 
 /* Gives the spec the knots that comments tell; lists are handed over. */
-static ffd_status set_knots(csv_reader *r, const table_wish *wish, lattice_spec *spec)
+static ffd_status set_knots(csv_reader *r, const format_wish *wish, lattice_spec *spec)
 {
     for (int a = 0; a < 3; a++) {
         csv_knots *const knots = &r->knots[a];
@@ -277,6 +279,9 @@ static ffd_status set_knots(csv_reader *r, const table_wish *wish, lattice_spec 
         if (r->degree_line && r->degree[a] < 1)
             return REFUSE(r, r->degree_line, "the degree %d of %c is not 1 to %d", r->degree[a], "uvw"[a],
                           FFD_MAX_DEGREE);
+        if (r->degree_line && (size_t)r->degree[a] >= n)
+            return REFUSE(r, r->degree_line, "the degree %d of %c needs at least %d control points, not %zu",
+                          r->degree[a], "uvw"[a], r -> degree[a] + 1, n);
         spec->degree[a] = r->degree_line ? r->degree[a] : spec->degree[a];
         spec->kind[a] = r->closed[a] ? KNOTS_CLOSED : KNOTS_CLAMPED;
         if (!knots->line)
@@ -295,12 +300,12 @@ static ffd_status set_knots(csv_reader *r, const table_wish *wish, lattice_spec 
     return FFD_OK;
 }
 
-static ffd_status make_spec(csv_reader *r, const table_wish *wish, lattice_spec **spec)
+static ffd_status make_spec(csv_reader *r, const format_wish *wish, lattice_spec **spec)
 {
     size_t size[3];
     find_size(r, size);
     TRY(check_count(r, size));
-    TRY(ffd_lattice_table_begin(size, r->name, wish, spec, r->error));
+    TRY(ffd_format_begin(size, r->name, wish, spec, r->error));
     const csv_point **const rows = ffd_alloc_zero((*spec)->count, sizeof *rows);
     ffd_status status;
     TRY_END(rows ? FFD_OK : ffd_fail_memory(r->error));
@@ -312,16 +317,13 @@ end:
     return status;
 }
 
-ffd_status ffd_lattice_read_csv(const file_input *file, const char *name, const table_wish *wish,
+ffd_status ffd_lattice_read_csv(const file_input *file, const char *name, const format_wish *wish,
                                 lattice_spec **spec, ffd_error *error)
 {
     csv_reader r = {.name = name, .error = error};
     ffd_status status;
     *spec = NULL;
     ffd_text_begin(&r.scan, file->data, ffd_text_size(file->data, file->size), false);
-    TRY_END(wish->size[0]
-                ? ffd_fail_file(error, FFD_E_ARGUMENT, name, "tells its size itself: {size} is not for it")
-                : FFD_OK);
     TRY_END(read_lines(&r));
     TRY_END(make_spec(&r, wish, spec));
 end:
@@ -337,9 +339,8 @@ end:
 
 static void append_knots(const knot_vector *knots, char direction, byte_buffer *text)
 {
-    const bool is_closed = ffd_knots_closed(knots);
-    const double *const t = knots->t + (is_closed ? knots->degree : 0);
-    const size_t count = knots->points + (is_closed ? 1 : (size_t)knots->degree + 1);
+    size_t count;
+    const double *const t = ffd_grid_knots(knots, &count);
     ffd_buffer_format(text, "# knots %c", direction);
     for (size_t i = 0; i < count; i++) {
         ffd_buffer_append(text, " ", 1);
@@ -362,6 +363,18 @@ static void append_front(const ffd_lattice *lattice, size_t width, byte_buffer *
     ffd_buffer_append(text, "\n", 1);
 }
 
+/* Appends an index and a comma, without printf: a table has three for each control point. */
+static void append_index(size_t index, byte_buffer *text)
+{
+    char digits[24];
+    size_t first = sizeof digits;
+    digits[--first] = ',';
+    do
+        digits[--first] = (char)('0' + index % 10);
+    while (index /= 10);
+    ffd_buffer_append(text, digits + first, sizeof digits - first);
+}
+
 static void append_point(const ffd_lattice *lattice, size_t i, size_t width, byte_buffer *text)
 {
     const size_t *const n = lattice->size;
@@ -372,12 +385,13 @@ static void append_point(const ffd_lattice *lattice, size_t i, size_t width, byt
         numbers[WEIGHT - INDICES] = lattice->rest_weights[i];
     if (width > MOVED_WEIGHT)
         numbers[MOVED_WEIGHT - INDICES] = lattice->deformed_weights[i];
-    ffd_buffer_format(text, "%zu,%zu,%zu", i % n[0], i / n[0] % n[1], i / (n[0] * n[1]));
+    append_index(i % n[0], text);
+    append_index(i / n[0] % n[1], text);
+    append_index(i / (n[0] * n[1]), text);
     for (size_t c = INDICES; c < width; c++) {
-        ffd_buffer_append(text, ",", 1);
         ffd_buffer_number(text, numbers[c - INDICES]);
+        ffd_buffer_append(text, c + 1 < width ? "," : "\n", 1);
     }
-    ffd_buffer_append(text, "\n", 1);
 }
 
 static size_t find_width(const ffd_lattice *lattice)
@@ -396,10 +410,7 @@ ffd_status ffd_lattice_write_csv(const ffd_lattice *lattice, file_output *output
     append_front(lattice, width, &text);
     for (size_t i = 0; i < lattice->count && !status; i++) {
         append_point(lattice, i, width, &text);
-        if (text.size < WRITTEN_AT_ONCE && i + 1 < lattice->count)
-            continue;
-        status = text.failed ? ffd_fail_memory(error) : ffd_output_write(output, text.data, text.size, error);
-        text.size = 0;
+        status = ffd_text_written(&text, i + 1 == lattice->count, output, error);
     }
     ffd_buffer_free(&text);
     return status;
