@@ -200,9 +200,23 @@ FFD_API const double *ffd_lattice_get_offsets(const ffd_lattice *lattice);
    Thread-safe. */
 FFD_API size_t ffd_lattice_get_knots(const ffd_lattice *lattice, int direction, const double **knots);
 
+/* Returns how many keys the lattice has (data/schema/lattice.md 13): what it is at several times; 0: none, or
+   control points were set since. times: filled with their times in seconds, ascending, room for as many; or
+   NULL. Thread-safe. */
+FFD_API size_t ffd_lattice_get_keys(const ffd_lattice *lattice, double *times);
+
+/* Sets the deformed control points of a lattice with keys to those at a time, in seconds: between two keys
+   those between them, before the first key those of the first, after the last those of the last. A lattice
+   file is loaded with those of its first key. It may be called again with another time. A failure changes
+   nothing. Not thread-safe. Errors: FFD_E_ARGUMENT (a lattice without keys, a time that is not finite),
+   FFD_E_INVALID (the moves cannot be done with the values of that time, or placeholders have none),
+   FFD_E_MEMORY. */
+FFD_API ffd_status ffd_lattice_set_time(ffd_lattice *lattice, double time, ffd_error *error);
+
 /* Returns the text of a lattice file (data/schema/lattice.md). *text ends with a 0 byte that *size does not
-   count; the caller frees it with ffd_free. Control points that were set are written as offsets. Thread-safe.
-   Errors: FFD_E_MEMORY. */
+   count; the caller frees it with ffd_free. Control points that were set are written as offsets, a lattice
+   whose time was set as it is at that time, without keys. Thread-safe. Errors: FFD_E_INVALID (a lattice round
+   a mesh without one, between keys that need positions), FFD_E_MEMORY. */
 FFD_API ffd_status ffd_lattice_text(const ffd_lattice *lattice, char **text, size_t *size, ffd_error *error);
 
 /* Frees memory that the library has allocated for the caller, where a comment says so. block may be NULL.

@@ -74,7 +74,7 @@ typedef struct lattice_move {
     bool exact; /* of a bend: with rational quadratic arcs */
     move_mirror mirror;
     move_falloff falloff;
-    char pointer[32]; /* "/moves/3", for messages when the moves are applied; */
+    char pointer[48]; /* "/moves/3", "/keys/1/moves/3", for messages when the moves are applied; */
     size_t line;      /* its line; 0: unknown */
 } lattice_move;
 
@@ -101,6 +101,42 @@ typedef struct spec_seed {
     size_t variable, component;
     double factor;
 } spec_seed;
+
+/* What the keys of a file give at their times: control points, as offsets or by moves of their own; or values
+   of placeholders in the moves of the file. */
+typedef enum keys_kind { KEYS_NONE, KEYS_POINTS, KEYS_VALUES } keys_kind;
+
+/* A key. Each has one of the three: offsets, moves (which may be none), values. */
+typedef struct spec_key {
+    double time;     /* seconds */
+    double *offsets; /* 3*count of the spec */
+    lattice_move *moves;
+    size_t move_count;
+    spec_drag *drags; /* of all its moves */
+    size_t drag_count;
+    char **values; /* JSON, for each of the names */
+} spec_key;
+
+/* A placeholder and its value as JSON. */
+typedef struct spec_value {
+    char *name, *value;
+} spec_value;
+
+/* The keys of a file, in ascending order of their times. */
+typedef struct spec_keys {
+    keys_kind kind;
+    spec_key *list; /* count, at least 2 */
+    size_t count;
+    double time;    /* that the moves of the spec, and the lattice that is built, are those of */
+    bool is_chosen; /* by the user; else it is that of the first key */
+    /* Of KEYS_VALUES: */
+    char **names; /* name_count placeholders, of which each key has a value */
+    size_t name_count;
+    spec_value *others; /* other_count values of the other placeholders, of which some may not be used */
+    size_t other_count;
+    char *moves; /* the moves of the file, as JSON with placeholders */
+    size_t moves_line;
+} spec_keys;
 
 typedef struct lattice_spec {
     char *name; /* path of the file, for messages */
@@ -142,6 +178,7 @@ typedef struct lattice_spec {
     size_t move_count;
     spec_drag *drags; /* of all moves */
     size_t drag_count;
+    spec_keys keys;
     intern_table open; /* names of placeholders without a value; if there are any, there are no moves */
 } lattice_spec;
 
@@ -153,13 +190,35 @@ static inline bool ffd_spec_full_turn(const lattice_spec *spec)
     return spec->angle[1] - spec->angle[0] >= 360 - SPEC_TURN_TOLERANCE;
 }
 
+/* Returns one of the lists of moves: 0 is that of the file, i that of key i, from 1. */
+static inline const lattice_move *ffd_spec_moves(const lattice_spec *spec, size_t list, size_t *count)
+{
+    *count = list > 0 ? spec->keys.list[list - 1].move_count : spec->move_count;
+    return list > 0 ? spec->keys.list[list - 1].moves : spec->moves;
+}
+
+/* Returns whether a move in any of the lists has a trait. */
+static inline bool ffd_spec_any_move(const lattice_spec *spec, bool (*has)(const lattice_move *move))
+{
+    for (size_t list = 0; list <= spec->keys.count; list++) {
+        size_t count;
+        const lattice_move *const moves = ffd_spec_moves(spec, list, &count);
+        for (size_t i = 0; i < count; i++)
+            if (has(&moves[i]))
+                return true;
+    }
+    return false;
+}
+
+static inline bool ffd_move_is_exact(const lattice_move *move)
+{
+    return move->exact;
+}
+
 /* Returns whether a move adds weights (an exact bend). */
 static inline bool ffd_spec_has_exact(const lattice_spec *spec)
 {
-    for (size_t i = 0; i < spec->move_count; i++)
-        if (spec->moves[i].exact)
-            return true;
-    return false;
+    return ffd_spec_any_move(spec, ffd_move_is_exact);
 }
 
 /* Returns whether the weight of a move depends on positions: its mirror image then acts on the same points.
@@ -170,12 +229,15 @@ static inline bool ffd_move_weighs_places(const lattice_move *move)
 }
 
 /* Returns whether a move looks for the mirror images of control points. */
+static inline bool ffd_move_finds_images(const lattice_move *move)
+{
+    return move->mirror.kind != MIRROR_NONE && !ffd_move_weighs_places(move);
+}
+
+/* Returns whether one of the moves does. */
 static inline bool ffd_spec_finds_images(const lattice_spec *spec)
 {
-    for (size_t i = 0; i < spec->move_count; i++)
-        if (spec->moves[i].mirror.kind != MIRROR_NONE && !ffd_move_weighs_places(&spec->moves[i]))
-            return true;
-    return false;
+    return ffd_spec_any_move(spec, ffd_move_finds_images);
 }
 
 /* Values for placeholders, and whether the file has these placeholders. */
@@ -183,7 +245,9 @@ typedef struct spec_settings {
     const ffd_setting *values; /* count */
     bool *used;                /* count flags; set to true, never to false */
     size_t count;
-    bool may_be_open; /* if a placeholder has no value, leave out the moves instead of failing */
+    size_t keyed; /* so many at the end are of keys: they are not variables, and their bounds hold already */
+    const double *time; /* of a still of keys; NULL: that of the first key */
+    bool may_be_open;   /* if a placeholder has no value, leave out the moves instead of failing */
     bool derives; /* record what derivatives by placeholders need; FFD_E_INVALID for a placeholder that is not
                      numeric */
 } spec_settings;
@@ -193,5 +257,7 @@ typedef struct spec_settings {
 
 /* Frees a spec; NULL is allowed. */
 void ffd_spec_free(lattice_spec *spec);
+/* Frees keys, and leaves none. */
+void ffd_keys_free(spec_keys *keys);
 
 #endif

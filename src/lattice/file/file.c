@@ -9,7 +9,10 @@
 #include "lattice/file/lattice_source.h"
 #include "lattice/file/spec_parse.h"
 #include "lattice/file/spec_set.h"
+#include "lattice/file/spec_still.h"
 #include "lattice/file/spec_text.h"
+#include "lattice/formats/blender.h"
+#include "lattice/formats/formats.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
 #include <string.h>
@@ -54,20 +57,20 @@ ffd_status ffd_lattice_load(const char *path, ffd_lattice **lattice, ffd_error *
     return ffd_lattice_load_set(path, NULL, 0, NULL, lattice, error);
 }
 
-/* Reads the file. *size is its size. */
-/* A lattice file is JSON whatever its name. Who gives a table or an array is told what makes one of it. */
-static ffd_status refuse_table(const char *path, const file_input *input, ffd_error *error)
+/* A lattice file is JSON whatever its name. Who gives one of another program is told what reads it. */
+static ffd_status refuse_other(const char *path, const file_input *input, ffd_error *error)
 {
     text_scan scan;
+    const lattice_format *const format = ffd_lattice_format(path);
     ffd_text_begin(&scan, input->data, input->size, false);
-    const bool is_table = ffd_path_has_ending(path, ".csv"), is_array = ffd_path_has_ending(path, ".npy");
-    if ((!is_table && !is_array) || (ffd_text_find(&scan) && *scan.at == '{'))
+    if (!format || format->kind == FORMAT_JSON || !(format->traits & FORMAT_IS_READ) ||
+        (ffd_text_find(&scan) && *scan.at == '{'))
         return FFD_OK;
     return ffd_fail_file(error, FFD_E_INVALID, path,
-                         "is not JSON: of %s `ffd lattice convert` makes a lattice file",
-                         is_table ? "a table" : "an array");
+                         "is not JSON: of %s `ffd lattice convert` makes a lattice file", format->what);
 }
 
+/* Reads the file. *size is its size. */
 static ffd_status load_file(const char *path, const spec_settings *settings, lattice_spec **spec,
                             size_t *size, ffd_error *error)
 {
@@ -75,9 +78,13 @@ static ffd_status load_file(const char *path, const spec_settings *settings, lat
     const unsigned losses = ffd_mapping_losses();
     TRY(ffd_file_load(path, &input, error));
     *size = input.size;
-    ffd_status status = refuse_table(path, &input, error);
+    ffd_status status = refuse_other(path, &input, error);
     if (!status)
         status = ffd_spec_parse((const char *)input.data, input.size, path, settings, spec, error);
+    if (status == FFD_E_INVALID && ffd_blender_is_json(&input))
+        status = ffd_fail_file(error, FFD_E_INVALID, path,
+                               "is no lattice file: of %s `ffd lattice convert` makes one",
+                               ffd_format_of_json(true)->what);
     ffd_file_unload(&input);
     return ffd_mapping_judge(losses, status, error);
 }
@@ -148,34 +155,25 @@ end:
     return status;
 }
 
-/* Whether the deformed weights have to be written: those at rest times a factor too, though these move
-   nothing. */
-static bool weights_differ(const ffd_lattice *lattice)
-{
-    const double *const rest = lattice->rest_weights;
-    return rest && memcmp(rest, lattice->deformed_weights, lattice->count * sizeof *rest) != 0;
-}
-
 /* Returns a spec with the current state of an edited lattice: the result of the moves and of the caller's
    changes as offsets. Its arrays are borrowed from the lattice and its spec. */
 static lattice_spec edited_spec(const ffd_lattice *lattice)
 {
     lattice_spec spec = *lattice->spec;
-    if (!lattice->edited)
-        return spec;
-    spec.moves = NULL;
-    spec.move_count = 0;
-    spec.open = (intern_table){0};
-    spec.deformed_points = NULL;
-    spec.deformed_offsets = lattice->difference;
-    spec.deformed_weights = weights_differ(lattice) ? lattice->deformed_weights : NULL;
+    if (lattice->edited)
+        ffd_spec_bake(lattice, &spec);
     return spec;
 }
 
 ffd_status ffd_lattice_text(const ffd_lattice *lattice, char **text, size_t *size, ffd_error *error)
 {
-    const lattice_spec spec = edited_spec(lattice);
+    lattice_spec spec = edited_spec(lattice);
+    double *own = NULL;
+    *text = NULL;
+    if (spec.keys.is_chosen)
+        TRY(ffd_spec_still(lattice, &spec, &own, error));
     *text = ffd_spec_text(&spec, size);
+    ffd_free(own);
     return *text ? FFD_OK : ffd_fail_memory(error);
 }
 

@@ -27,19 +27,6 @@ static ffd_status read_text(json_cursor parameter, const char *key, char **text)
     return *text ? FFD_OK : ffd_fail_memory(parameter.file->error);
 }
 
-/* Copies the JSON text of the default from the file. */
-static ffd_status copy_default(json_cursor cursor, char **text)
-{
-    const json_value *const value = &cursor.tree->values[cursor.value];
-    const size_t size = value->end - value->begin;
-    *text = ffd_alloc(size + 1, 1);
-    if (!*text)
-        return ffd_fail_memory(cursor.file->error);
-    memcpy(*text, cursor.tree->text + value->begin, size);
-    (*text)[size] = 0;
-    return FFD_OK;
-}
-
 /* Finds a number in a value, which may be in nested arrays, that is out of bounds. */
 static bool find_outside(const json_tree *tree, uint32_t value, const spec_parameter *parameter,
                          double *number)
@@ -67,14 +54,20 @@ ffd_status ffd_spec_check_bounds(json_cursor cursor, const spec_parameter *param
     return find_outside(value, 0, parameter, &number) ? fail_outside(cursor, parameter, number) : FFD_OK;
 }
 
-static ffd_status read_default(json_cursor cursor, spec_parameter *parameter)
+ffd_status ffd_spec_check_value(json_cursor value, const spec_parameter *parameter)
 {
     double number;
+    return find_outside(value.tree, value.value, parameter, &number) ? fail_outside(value, parameter, number)
+                                                                     : FFD_OK;
+}
+
+static ffd_status read_default(json_cursor cursor, spec_parameter *parameter)
+{
     if (!ffd_cursor_exists(cursor))
         return FFD_OK;
-    if (find_outside(cursor.tree, cursor.value, parameter, &number))
-        return fail_outside(cursor, parameter, number);
-    return copy_default(cursor, &parameter->value);
+    TRY(ffd_spec_check_value(cursor, parameter));
+    parameter->value = ffd_json_tree_text(cursor.tree, cursor.value);
+    return parameter->value ? FFD_OK : ffd_fail_memory(cursor.file->error);
 }
 
 static ffd_status read_name(json_cursor cursor, spec_parameter *parameter)

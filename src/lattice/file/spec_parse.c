@@ -3,18 +3,19 @@
 #include "base/memory/memory.h"
 #include "base/text/content.h"
 #include "base/text/number.h"
+#include "lattice/file/spec_keys.h"
 #include "lattice/file/spec_parameters.h"
 #include "lattice/file/spec_parse_moves.h"
 #include "lattice/file/spec_parse_rest.h"
-#include "lattice/file/spec_set.h"
 #include "lattice/file/spec_values.h"
 #include "lattice/lattice.h"
 #include "json/json_parse.h"
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
 
-static const char *const top_keys[] = {"format",  "version",  "size",  "degree", "knots",      "rest",
-                                       "weights", "deformed", "units", "moves",  "parameters", SPEC_NOTES};
+static const char *const top_keys[] = {"format",     "version", "size",     "degree", "knots",
+                                       "rest",       "weights", "deformed", "units",  "moves",
+                                       "parameters", "keys",    SPEC_NOTES};
 
 static ffd_status read_format(json_cursor root)
 {
@@ -281,13 +282,32 @@ static ffd_status read_root(json_cursor root, bool with_moves, lattice_spec *spe
     TRY(ffd_spec_read_object(root, top_keys, COUNT_OF(top_keys)));
     TRY(read_members(root, spec));
     if (with_moves && ffd_cursor_exists(moves))
-        TRY(ffd_spec_parse_moves(moves, spec));
+        TRY(ffd_spec_parse_moves(moves, "/moves", spec));
+    return FFD_OK;
+}
+
+/* Substitutes the placeholders, of which keys give some. */
+static ffd_status set_values(json_file *file, const spec_settings *settings, const keyed_settings *keyed,
+                             lattice_spec *spec, spec_values *values)
+{
+    uint32_t *lists;
+    size_t count;
+    TRY(ffd_spec_list_moves(ffd_cursor_top(file), &lists, &count));
+    const ffd_status status = ffd_spec_set(file, lists, count, &keyed->settings, spec, values);
+    ffd_free(lists);
+    TRY(status);
+    ffd_spec_mark_used(keyed, settings);
+    if (settings->derives && spec->keys.kind == KEYS_POINTS && values->origins.count > 0)
+        return ffd_cursor_fail_as(
+            (json_cursor){file, file->tree, values->origins.origins[0].value, JSON_NONE}, FFD_E_UNSUPPORTED,
+            "derivatives by placeholders in the moves of keys are not supported");
     return FFD_OK;
 }
 
 /* Reads the tree of a lattice file, with values for the placeholders in its moves. */
 static ffd_status read_tree(json_file *file, const spec_settings *settings, lattice_spec *spec)
 {
+    keyed_settings keyed = {0};
     spec_values values = {0};
     json_trace trace = {0};
     ffd_status status;
@@ -295,18 +315,22 @@ static ffd_status read_tree(json_file *file, const spec_settings *settings, latt
     const json_cursor parameters = ffd_cursor_member(ffd_cursor_top(file), "parameters");
     if (ffd_cursor_exists(parameters))
         TRY_END(ffd_spec_parse_parameters(parameters, spec));
-    TRY_END(ffd_spec_set(file, ffd_json_tree_member(file->tree, 0, "moves"), settings, spec, &values));
+    TRY_END(ffd_spec_begin_keys(ffd_cursor_member(ffd_cursor_top(file), "keys"), settings, spec));
+    TRY_END(ffd_spec_add_keyed(&spec->keys, settings, &keyed, file->error));
+    TRY_END(set_values(file, settings, &keyed, spec, &values));
     if (settings->derives)
         file->trace = &trace;
     TRY_END(read_root(ffd_cursor_top(file), values.open.count == 0, spec));
-    if (settings->derives)
+    if (settings->derives && spec->keys.kind != KEYS_POINTS)
         TRY_END(ffd_spec_make_seeds(file, &values.origins, spec));
+    TRY_END(ffd_spec_end_keys(ffd_cursor_top(file), &keyed, values.open.count == 0, spec));
 end:
     file->trace = NULL;
     ffd_free(trace.entries);
     spec->open = values.open;
     values.open = (intern_table){0};
     ffd_spec_values_free(&values);
+    ffd_keyed_settings_free(&keyed);
     return status;
 }
 

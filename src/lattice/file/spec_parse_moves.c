@@ -489,7 +489,7 @@ static void note_lines(json_cursor cursor, json_line_mark *mark, lattice_move *m
         move->drags[i].line = ffd_cursor_line_from(ffd_cursor_member(drag, "point"), mark);
 }
 
-ffd_status ffd_spec_parse_moves(json_cursor cursor, lattice_spec *spec)
+ffd_status ffd_spec_parse_moves(json_cursor cursor, const char *pointer, lattice_spec *spec)
 {
     if (!ffd_cursor_is(cursor, JSON_ARRAY))
         return ffd_cursor_fail(cursor, "must be an array of moves, not %s", ffd_json_describe(cursor).text);
@@ -504,7 +504,7 @@ ffd_status ffd_spec_parse_moves(json_cursor cursor, lattice_spec *spec)
     json_cursor move = ffd_cursor_first(cursor);
     for (size_t i = 0; i < count; i++, move = ffd_cursor_next(move)) {
         spec->moves[i].drags = drags;
-        snprintf(spec->moves[i].pointer, sizeof spec->moves[i].pointer, "/moves/%zu", i);
+        snprintf(spec->moves[i].pointer, sizeof spec->moves[i].pointer, "%s/%zu", pointer, i);
         TRY(read_move(move, spec, &spec->moves[i]));
         note_lines(move, &mark, &spec->moves[i]);
         drags += spec->moves[i].drag_count;

@@ -99,15 +99,18 @@ static const char *find_text(const char *name, const spec_settings *settings, co
     return parameter->value;
 }
 
-/* Finds the value of a placeholder, without its factor; none if the placeholder is open. */
+/* Finds the value of a placeholder, without its factor; none if the placeholder is open. *is_keyed: it is one
+   of a key. */
 static ffd_status find_value(const spec_placeholder *placeholder, const spec_settings *settings,
-                             const lattice_spec *spec, spec_values *values, const json_tree **tree)
+                             const lattice_spec *spec, spec_values *values, const json_tree **tree,
+                             bool *is_keyed)
 {
     const spec_parameter *const parameter = find_parameter(placeholder->name, spec, values);
     size_t index;
     const char *const text = find_text(placeholder->name, settings, spec, values, parameter, &index);
     if (!text)
         return FFD_OK;
+    *is_keyed = index < settings->count && index >= settings->count - settings->keyed;
     json_setting *const value = &values->values[index];
     ffd_status status = FFD_OK;
     if (!value->tree.values)
@@ -118,7 +121,7 @@ static ffd_status find_value(const spec_placeholder *placeholder, const spec_set
                                placeholder->name);
     if (status)
         return ffd_fail_memory(placeholder->at.file->error);
-    return parameter ? ffd_spec_check_bounds(placeholder->at, parameter, *tree) : FFD_OK;
+    return parameter && !*is_keyed ? ffd_spec_check_bounds(placeholder->at, parameter, *tree) : FFD_OK;
 }
 
 /* Writes a number or an array of numbers, multiplied by the factor. Returns false if the value is neither. */
@@ -226,10 +229,11 @@ static ffd_status fill(json_file *file, uint32_t v, uint32_t text, const spec_se
 {
     spec_placeholder placeholder = {0};
     const json_tree *value = NULL;
+    bool is_keyed = false;
     ffd_status status;
     TRY_END(read_placeholder((json_cursor){file, file->tree, v, JSON_NONE}, text, &placeholder));
-    TRY_END(find_value(&placeholder, settings, spec, values, &value));
-    if (value && settings->derives)
+    TRY_END(find_value(&placeholder, settings, spec, values, &value, &is_keyed));
+    if (value && settings->derives && !is_keyed)
         TRY_END(ffd_spec_add_origin(file, (spec_origin){.value = v, .factor = placeholder.factor},
                                     placeholder.name, value, spec, &values->origins));
     if (value && placeholder.factor != 1)
@@ -240,26 +244,35 @@ end:
     return status;
 }
 
-ffd_status ffd_spec_set(json_file *file, uint32_t moves, const spec_settings *settings, lattice_spec *spec,
-                        spec_values *values)
+/* Substitutes the placeholders in one list. *first_open: the first one that is open; JSON_NONE: none yet. */
+static ffd_status fill_list(json_file *file, uint32_t moves, const spec_settings *settings,
+                            lattice_spec *spec, spec_values *values, uint32_t *first_open)
 {
     const json_tree *const tree = file->tree;
-    const uint32_t end = moves == JSON_NONE ? 0 : tree->values[moves].next;
-    uint32_t first_open = JSON_NONE;
-    TRY(list_names(file, settings, spec, values));
-    values->count = settings->count + spec->parameter_count;
-    values->values = ffd_alloc_zero(values->count, sizeof *values->values);
-    if (!values->values)
-        return ffd_fail_memory(file->error);
+    const uint32_t end = tree->values[moves].next;
     /* Descendants of "moves" follow it in the tree. */
     for (uint32_t v = moves + 1; v < end; v++) {
         const uint32_t text = placeholder_text(tree, v);
         if (text == JSON_NONE)
             continue;
         TRY(fill(file, v, text, settings, spec, values));
-        if (first_open == JSON_NONE && values->open.count > 0)
-            first_open = v;
+        if (*first_open == JSON_NONE && values->open.count > 0)
+            *first_open = v;
     }
+    return FFD_OK;
+}
+
+ffd_status ffd_spec_set(json_file *file, const uint32_t *moves, size_t count, const spec_settings *settings,
+                        lattice_spec *spec, spec_values *values)
+{
+    uint32_t first_open = JSON_NONE;
+    TRY(list_names(file, settings, spec, values));
+    values->count = settings->count + spec->parameter_count;
+    values->values = ffd_alloc_zero(values->count, sizeof *values->values);
+    if (!values->values)
+        return ffd_fail_memory(file->error);
+    for (size_t i = 0; i < count; i++)
+        TRY(fill_list(file, moves[i], settings, spec, values, &first_open));
     if (values->open.count > 0 && !settings->may_be_open)
         return refuse_open(file, first_open, &values->open);
     file->substitutes = values->substitutes;

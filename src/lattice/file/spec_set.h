@@ -27,13 +27,13 @@ typedef struct spec_values {
     size_t *settings;     /* the first setting of each of these */
 } spec_values;
 
-/* Substitutes the placeholders anywhere in moves (a value of the file's tree, or JSON_NONE) by the values of
-   the settings, or by the defaults of the spec's parameters, and marks the settings that are used. values
-   must outlive the reading of the file; the caller frees it, also after a failure. Errors: FFD_E_INVALID for
-   a placeholder without a value (unless the settings allow it) and for a value out of its bounds,
-   FFD_E_MEMORY. */
-ffd_status ffd_spec_set(json_file *file, uint32_t moves, const spec_settings *settings, lattice_spec *spec,
-                        spec_values *values);
+/* Substitutes the placeholders anywhere in count lists of moves (values of the file's tree, ascending) by the
+   values of the settings, or by the defaults of the spec's parameters, and marks the settings that are used.
+   values must outlive the reading of the file; the caller frees it, also after a failure. Errors:
+   FFD_E_INVALID for a placeholder without a value (unless the settings allow it) and for a value out of its
+   bounds, FFD_E_MEMORY. */
+ffd_status ffd_spec_set(json_file *file, const uint32_t *moves, size_t count, const spec_settings *settings,
+                        lattice_spec *spec, spec_values *values);
 /* Writes the message that these placeholders (at least one) have no values. */
 void ffd_spec_describe_open(const intern_table *open, char *text, size_t capacity);
 /* Adds to open the names of the placeholders in a file or a text that have no value. Errors: those of

@@ -272,17 +272,63 @@ static void write_action(json_text *json, const lattice_move *move)
     }
 }
 
-static void write_moves(json_text *json, const lattice_spec *spec)
+static void write_moves(json_text *json, const lattice_move *moves, size_t count)
 {
     ffd_json_array(json, "moves", false);
-    for (size_t i = 0; i < spec->move_count; i++) {
+    for (size_t i = 0; i < count; i++) {
         ffd_json_object(json, NULL, true);
-        write_selection(json, &spec->moves[i]);
-        if (spec->moves[i].falloff.kind != FALLOFF_NONE)
-            write_falloff(json, &spec->moves[i].falloff);
-        if (spec->moves[i].mirror.kind != MIRROR_NONE)
-            write_mirror(json, &spec->moves[i].mirror);
-        write_action(json, &spec->moves[i]);
+        write_selection(json, &moves[i]);
+        if (moves[i].falloff.kind != FALLOFF_NONE)
+            write_falloff(json, &moves[i].falloff);
+        if (moves[i].mirror.kind != MIRROR_NONE)
+            write_mirror(json, &moves[i].mirror);
+        write_action(json, &moves[i]);
+        ffd_json_end(json, '}');
+    }
+    ffd_json_end(json, ']');
+}
+
+/* Writes the values that placeholders without keys have as their defaults. */
+static void write_others(json_text *json, const spec_keys *keys)
+{
+    intern_table written = {0};
+    uint32_t index;
+    if (keys->other_count == 0)
+        return;
+    ffd_json_object(json, "parameters", false);
+    for (size_t i = 0; i < keys->other_count; i++) {
+        const spec_value *const other = &keys->others[i];
+        const uint32_t before = written.count;
+        if (!ffd_intern(&written, other->name, strlen(other->name), &index))
+            json->out->failed = true;
+        if (written.count == before) /* the first of a name counts */
+            continue;
+        ffd_json_object(json, other->name, true);
+        ffd_json_raw(json, "default", other->value, strlen(other->value));
+        ffd_json_end(json, '}');
+    }
+    ffd_json_end(json, '}');
+    ffd_intern_free(&written);
+}
+
+static void write_keys(json_text *json, const lattice_spec *spec)
+{
+    const spec_keys *const keys = &spec->keys;
+    ffd_json_array(json, "keys", false);
+    for (size_t k = 0; k < keys->count; k++) {
+        const spec_key *const key = &keys->list[k];
+        ffd_json_object(json, NULL, keys->kind == KEYS_VALUES);
+        ffd_json_number(json, "time", key->time);
+        if (key->offsets)
+            write_points(json, "offsets", key->offsets, spec->count);
+        else if (keys->kind == KEYS_POINTS)
+            write_moves(json, key->moves, key->move_count);
+        else
+            ffd_json_object(json, "set", true);
+        for (size_t n = 0; n < keys->name_count; n++)
+            ffd_json_raw(json, keys->names[n], key->values[n], strlen(key->values[n]));
+        if (keys->kind == KEYS_VALUES)
+            ffd_json_end(json, '}');
         ffd_json_end(json, '}');
     }
     ffd_json_end(json, ']');
@@ -306,8 +352,15 @@ char *ffd_spec_text(const lattice_spec *spec, size_t *size)
         write_deformed(&json, spec);
     if (spec->units != UNITS_WORLD)
         ffd_json_string(&json, "units", spec->units == UNITS_BOX ? "box" : "mesh");
-    /* Also if there are none: a new file shows where moves are to be added. */
-    write_moves(&json, spec);
+    if (spec->keys.kind == KEYS_VALUES) {
+        write_others(&json, &spec->keys);
+        ffd_json_raw(&json, "moves", spec->keys.moves, strlen(spec->keys.moves));
+    } else {
+        /* Also if there are none: a new file shows where moves are to be added. */
+        write_moves(&json, spec->moves, spec->move_count);
+    }
+    if (spec->keys.kind != KEYS_NONE)
+        write_keys(&json, spec);
     ffd_json_end(&json, '}');
     *size = buffer.size;
     return ffd_buffer_finish(&buffer);
