@@ -23,10 +23,11 @@ static ffd_status check_number(double number, const char *what, ffd_error *error
     return isfinite(number) ? FFD_OK : ffd_fail(error, FFD_E_ARGUMENT, "%s is not finite", what);
 }
 
+/* No zero gets a sign. */
 static ffd_status scale(made_lattice *made, double strength, ffd_error *error)
 {
     for (size_t i = 0; i < 3 * made->from->count; i++)
-        made->offsets[i] *= strength;
+        made->offsets[i] = strength < 0 ? 0 - -strength * made->offsets[i] : strength * made->offsets[i];
     for (size_t i = 0; made->weights && i < made->from->count; i++)
         made->moved_weights[i] = (1 - strength) * made->weights[i] + strength * made->moved_weights[i];
     return check_weights(made, error);

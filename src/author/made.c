@@ -16,6 +16,9 @@ ffd_status ffd_made_begin(const ffd_lattice *from, made_lattice *made, ffd_error
 {
     const lattice_spec *const spec = from->spec;
     *made = (made_lattice){.from = from};
+    if (!from->rest && spec->keys.kind == KEYS_POINTS)
+        return ffd_fail(error, FFD_E_INVALID,
+                        "the box of the lattice is that of a mesh, and its keys need positions ({meshes})");
     if (!from->rest &&
         (spec->move_count > 0 || spec->weights || spec->deformed_weights || spec->deformed_points))
         return ffd_fail(error, FFD_E_INVALID,
@@ -240,6 +243,15 @@ static bool move_weights(const made_lattice *made, size_t count)
            memcmp(made->weights, made->moved_weights, count * sizeof *made->weights) != 0;
 }
 
+/* Whether all weights are 1, which none need to be written for. */
+static bool are_ones(const double *weights, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (weights[i] != 1)
+            return false;
+    return true;
+}
+
 /* Moves an array into the spec. */
 static void take(double **from, double **to)
 {
@@ -261,7 +273,8 @@ static ffd_status fill(made_lattice *made, lattice_spec *spec, ffd_error *error)
         take(&made->offsets, &spec->deformed_offsets);
     if (move_weights(made, spec->count))
         take(&made->moved_weights, &spec->deformed_weights);
-    take(&made->weights, &spec->weights);
+    if (made->weights && (spec->deformed_weights || !are_ones(made->weights, spec->count)))
+        take(&made->weights, &spec->weights);
     if (!made->points)
         return set_same(made, spec, error);
     spec->rest = SPEC_POINTS;

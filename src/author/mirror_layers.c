@@ -1,5 +1,6 @@
 /* mirror_layers.c - ffd_lattice_mirror, ffd_lattice_symmetrize: the layers of a direction change places, and
    displacements are reflected, where the lattice at rest is symmetric. */
+#include "author/mirror_layers.h"
 #include "author/made.h"
 #include "base/arithmetic.h"
 #include "base/memory/memory.h"
@@ -17,21 +18,14 @@
 /* A component of the normal of less is 0: across a coordinate axis a reflection then changes a sign only. */
 #define NORMAL_TOLERANCE 1e-12
 
-/* The reflection that the rest has along a direction of the lattice. */
-typedef struct reflection {
-    int direction; /* 0 to 2: u, v, w */
-    size_t layers, before,
-        behind; /* numbers of control points: in the direction, in those before and after it */
-    double normal[3], middle[3];
-} reflection;
-
-static size_t point_of(const reflection *by, size_t before, size_t layer, size_t behind)
+static size_t point_of(const layer_reflection *by, size_t before, size_t layer, size_t behind)
 {
     return before + by->before * (layer + by->layers * behind);
 }
 
 /* The mean of a layer. */
-static void mean_of_layer(const ffd_lattice *lattice, const reflection *by, size_t layer, double mean[3])
+static void mean_of_layer(const ffd_lattice *lattice, const layer_reflection *by, size_t layer,
+                          double mean[3])
 {
     const double count = (double)(by->before * by->behind);
     mean[0] = mean[1] = mean[2] = 0;
@@ -53,7 +47,7 @@ static int axis_of(const double normal[3])
     return count == 1 ? axis : -1;
 }
 
-static ffd_status find_plane(const ffd_lattice *lattice, reflection *by, ffd_error *error)
+static ffd_status find_plane(const ffd_lattice *lattice, layer_reflection *by, ffd_error *error)
 {
     double first[3], last[3];
     mean_of_layer(lattice, by, 0, first);
@@ -73,13 +67,22 @@ static ffd_status find_plane(const ffd_lattice *lattice, reflection *by, ffd_err
     return FFD_OK;
 }
 
-/* Reflects a displacement. */
-static void reflect(const reflection *by, const double from[3], double to[3])
+void ffd_reflect_vector(const layer_reflection *by, const double from[3], double to[3])
 {
     const int axis = axis_of(by->normal);
     const double twice = 2 * vec_dot(from, by->normal);
     for (int c = 0; c < 3; c++)
-        to[c] = axis == c ? -from[c] : axis >= 0 ? from[c] : from[c] - twice * by->normal[c];
+        to[c] = axis == c ? 0 - from[c] : axis >= 0 ? from[c] : from[c] - twice * by->normal[c];
+}
+
+void ffd_reflect_place(const layer_reflection *by, const double from[3], double to[3])
+{
+    double off[3];
+    for (int c = 0; c < 3; c++)
+        off[c] = from[c] - by->middle[c];
+    ffd_reflect_vector(by, off, to);
+    for (int c = 0; c < 3; c++)
+        to[c] += by->middle[c];
 }
 
 static ffd_status check_knots(const knot_vector *knots, char direction, ffd_error *error)
@@ -98,7 +101,7 @@ static ffd_status check_knots(const knot_vector *knots, char direction, ffd_erro
     return FFD_OK;
 }
 
-static ffd_status check_points(const ffd_lattice *lattice, const reflection *by, ffd_error *error)
+static ffd_status check_points(const ffd_lattice *lattice, const layer_reflection *by, ffd_error *error)
 {
     double farthest = 0, greatest = 0, weight = 0;
     for (size_t b = 0; b < by->behind; b++)
@@ -108,7 +111,7 @@ static ffd_status check_points(const ffd_lattice *lattice, const reflection *by,
                 double from[3], image[3];
                 for (size_t c = 0; c < 3; c++)
                     from[c] = lattice->rest[3 * i + c] - by->middle[c];
-                reflect(by, from, image);
+                ffd_reflect_vector(by, from, image);
                 for (size_t c = 0; c < 3; c++)
                     farthest =
                         maximum_number(farthest, fabs(image[c] - (lattice->rest[3 * j + c] - by->middle[c])));
@@ -131,19 +134,20 @@ static ffd_status check_points(const ffd_lattice *lattice, const reflection *by,
     return FFD_OK;
 }
 
-static ffd_status make_reflection(const ffd_lattice *lattice, int direction, reflection *by, ffd_error *error)
+ffd_status ffd_layer_reflection_make(const ffd_lattice *lattice, int direction, layer_reflection *by,
+                                     ffd_error *error)
 {
     if (direction < 0 || direction > 2)
         return ffd_fail(error, FFD_E_ARGUMENT, "the direction %d is not 0 to 2", direction);
     const size_t *const size = lattice->size;
-    *by = (reflection){.direction = direction,
-                       .layers = size[direction],
-                       .before = direction == 0   ? 1
-                                 : direction == 1 ? size[0]
-                                                  : size[0] * size[1],
-                       .behind = direction == 2   ? 1
-                                 : direction == 1 ? size[2]
-                                                  : size[1] * size[2]};
+    *by = (layer_reflection){.direction = direction,
+                             .layers = size[direction],
+                             .before = direction == 0   ? 1
+                                       : direction == 1 ? size[0]
+                                                        : size[0] * size[1],
+                             .behind = direction == 2   ? 1
+                                       : direction == 1 ? size[2]
+                                                        : size[1] * size[2]};
     if (!lattice->rest)
         return ffd_fail(error, FFD_E_INVALID,
                         "the box of the lattice is that of a mesh, and a mirror image needs positions "
@@ -154,15 +158,15 @@ static ffd_status make_reflection(const ffd_lattice *lattice, int direction, ref
 }
 
 /* Gives a control point what the one opposite has. */
-static void take_image(made_lattice *made, const reflection *by, size_t to, size_t from)
+static void take_image(made_lattice *made, const layer_reflection *by, size_t to, size_t from)
 {
-    reflect(by, made->from->difference + 3 * from, made->offsets + 3 * to);
+    ffd_reflect_vector(by, made->from->difference + 3 * from, made->offsets + 3 * to);
     if (made->moved_weights)
         made->moved_weights[to] = made->from->deformed_weights[from];
 }
 
 /* Of a point on the plane what moves it off the plane becomes 0. */
-static void flatten(const reflection *by, double offset[3])
+static void flatten(const layer_reflection *by, double offset[3])
 {
     const double along = vec_dot(offset, by->normal);
     const int axis = axis_of(by->normal);
@@ -173,7 +177,7 @@ static void flatten(const reflection *by, double offset[3])
 /* Which half of the layers stays. */
 typedef enum kept_half { KEEP_NONE, KEEP_FIRST, KEEP_LAST } kept_half;
 
-static void mirror_layer(made_lattice *made, const reflection *by, size_t layer, kept_half kept)
+static void mirror_layer(made_lattice *made, const layer_reflection *by, size_t layer, kept_half kept)
 {
     const size_t opposite = by->layers - 1 - layer;
     const bool is_first = layer < opposite, is_middle = layer == opposite;
@@ -193,10 +197,10 @@ static ffd_status mirror(const ffd_lattice *lattice, int direction, kept_half ke
                          ffd_error *error)
 {
     made_lattice made = {0};
-    reflection by;
+    layer_reflection by;
     ffd_status status;
     *result = NULL;
-    TRY_END(make_reflection(lattice, direction, &by, error));
+    TRY_END(ffd_layer_reflection_make(lattice, direction, &by, error));
     TRY_END(ffd_made_begin_same(lattice, &made, error));
     for (size_t layer = 0; layer < by.layers; layer++)
         mirror_layer(&made, &by, layer, kept);

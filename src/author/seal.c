@@ -1,7 +1,7 @@
 /* seal.c - ffd_lattice_seal: faces of the volume held still up to a derivative. */
+#include "author/seal.h"
 #include "author/refine.h"
 #include "lattice/lattice.h"
-#include <ffd/author.h>
 #include <string.h>
 
 /* What is held: the k + 1 outermost layers at the first and the last face of each direction. */
@@ -24,8 +24,8 @@ static ffd_status check_face(const ffd_lattice *lattice, int a, int k, ffd_error
 static ffd_status begin(const ffd_lattice *lattice, int k, unsigned faces, held_layers *layers,
                         ffd_error *error)
 {
-    if (k < 0)
-        return ffd_fail(error, FFD_E_ARGUMENT, "the continuity %d is negative", k);
+    if (k < 0 || k >= FFD_MAX_DEGREE)
+        return ffd_fail(error, FFD_E_ARGUMENT, "the continuity %d is not 0 to %d", k, FFD_MAX_DEGREE - 1);
     if (faces > FFD_FACES_ALL)
         return ffd_fail(error, FFD_E_ARGUMENT, "there are no faces 0x%x", faces);
     layers->k = k;
@@ -46,6 +46,12 @@ static bool is_held(const held_layers *layers, int a, size_t layer, size_t size)
 {
     const size_t k = (size_t)layers->k;
     return (layers->held[a][0] && layer <= k) || (layers->held[a][1] && size - 1 - layer <= k);
+}
+
+ffd_status ffd_seal_check(const ffd_lattice *lattice, int k, unsigned faces, ffd_error *error)
+{
+    held_layers layers = {0};
+    return begin(lattice, k, faces, &layers, error);
 }
 
 /* Puts the control points of held layers back to rest. */

@@ -1,5 +1,6 @@
 /* transform.c - ffd_lattice_transform: the lattice placed elsewhere, with the same deformation there. */
 #include "author/made.h"
+#include "base/arithmetic.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "lattice/lattice.h"
@@ -14,6 +15,21 @@ typedef struct affine_map {
     double linear[9], shift[3]; /* linear: row by row */
 } affine_map;
 
+/* Whether a map flattens space. Rows are scaled first, so that no product of small numbers is lost. */
+static bool is_flat(const double linear[9])
+{
+    double rows[9];
+    for (int r = 0; r < 3; r++) {
+        const double *const row = linear + 3 * r;
+        const double largest = maximum_number(fabs(row[0]), maximum_number(fabs(row[1]), fabs(row[2])));
+        int exponent;
+        frexp(largest, &exponent);
+        for (int c = 0; c < 3; c++)
+            rows[3 * r + c] = ldexp(row[c], -exponent);
+    }
+    return mat_determinant(rows) == 0;
+}
+
 static ffd_status take_matrix(const double matrix[16], affine_map *map, ffd_error *error)
 {
     for (int i = 0; i < 16; i++)
@@ -27,10 +43,9 @@ static ffd_status take_matrix(const double matrix[16], affine_map *map, ffd_erro
         memcpy(map->linear + 3 * r, matrix + 4 * r, 3 * sizeof *matrix);
         map->shift[r] = matrix[4 * r + 3];
     }
-    return mat_determinant(map->linear) != 0
-               ? FFD_OK
-               : ffd_fail(error, FFD_E_INVALID,
-                          "the determinant of the matrix is 0: it flattens the lattice");
+    return is_flat(map->linear)
+               ? ffd_fail(error, FFD_E_INVALID, "the determinant of the matrix is 0: it flattens the lattice")
+               : FFD_OK;
 }
 
 /* Places a box. Returns false if it would be none. */
@@ -54,6 +69,17 @@ static bool place_box(const affine_map *by, made_box *box)
     return true;
 }
 
+/* Refuses a box whose file could not be read. */
+static ffd_status check_box(const made_box *box, ffd_error *error)
+{
+    for (int a = 0; a < 3; a++)
+        if (!(box->max[a] > box->min[a]) || !isfinite(box->max[a] - box->min[a]))
+            return ffd_fail(error, FFD_E_INVALID,
+                            "the box would have no extent along %c there: it would reach from %g to %g",
+                            "uvw"[a], box -> min[a], box -> max[a]);
+    return FFD_OK;
+}
+
 static bool is_box(const ffd_lattice *lattice)
 {
     return lattice->spec->rest == SPEC_BOX || lattice->spec->rest == SPEC_BOX_MESH;
@@ -66,7 +92,7 @@ static ffd_status place_rest(const affine_map *by, made_lattice *made, ffd_error
         TRY(ffd_made_find_box(made, &made->box, error));
         made->has_box = place_box(by, &made->box);
         if (made->has_box)
-            return FFD_OK;
+            return check_box(&made->box, error);
     }
     TRY(ffd_made_take_points(made, error));
     for (size_t i = 0; i < made->from->count; i++) {

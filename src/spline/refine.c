@@ -356,15 +356,16 @@ static void advance_span(const knot_row *row, double x, ptrdiff_t *span)
         --*span;
 }
 
-/* Returns the control point whose arguments are these, in a row; REFINE_NEW if there is none. *from: where
-   the search begins, and began for smaller ones. */
-static size_t find_copy(const knot_row *row, const double *arguments, ptrdiff_t *from)
+/* Returns the control point whose arguments are these, in a row; REFINE_NEW if there is none. A knot that
+   stands degree + 1 times at an end of the domain gives two points the same arguments: the one that counts
+   acts on the piece of `span`. *from: where the search begins, and began for smaller ones. */
+static size_t find_copy(const knot_row *row, const double *arguments, ptrdiff_t span, ptrdiff_t *from)
 {
-    const ptrdiff_t n = (ptrdiff_t)row->points;
+    const ptrdiff_t n = (ptrdiff_t)row->points, first = span - row->degree;
     while ((row->closed || *from < n) && knot_at(row, *from + 1) < arguments[0])
         ++*from;
     for (ptrdiff_t j = *from; (row->closed || j < n) && knot_at(row, j + 1) <= arguments[0]; j++) {
-        bool equal = has_point(row, j);
+        bool equal = has_point(row, j) && j >= first;
         for (int k = 0; k < row->degree && equal; k++)
             equal = !(knot_at(row, j + 1 + k) < arguments[k]) && !(knot_at(row, j + 1 + k) > arguments[k]);
         if (equal)
@@ -436,7 +437,7 @@ ffd_status ffd_refine_points(const knot_row *from, const knot_row *to, const dou
         for (int k = 0; k < to->degree; k++)
             arguments[k] = knot_at(to, (ptrdiff_t)i + 1 + k);
         advance_span(from, knot_at(to, (ptrdiff_t)i), &b.span);
-        copied[i] = to->degree == from->degree ? find_copy(from, arguments, &seen) : REFINE_NEW;
+        copied[i] = to->degree == from->degree ? find_copy(from, arguments, b.span, &seen) : REFINE_NEW;
         if (copied[i] != REFINE_NEW) {
             copy_point(&of, copied[i], i);
         } else if (to->degree > from->degree) {

@@ -5,6 +5,7 @@
 
 #include "base/fail.h"
 #include "spline/knot_vector.h"
+#include <stdint.h>
 
 /* The knots of a direction on the way to finer ones. */
 typedef struct knot_row {
