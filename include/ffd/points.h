@@ -116,6 +116,43 @@ FFD_API ffd_status ffd_embedding_deform_some(const ffd_embedding *embedding, con
                                              ffd_span out, double *gradients, const ffd_run_options *options,
                                              ffd_error *error);
 
+/* As ffd_embedding_deform, with a weight for each point: out = in + w d for the displacement d, and the
+   gradients are w E + d g^T for its gradient E.
+   - weights: N numbers w from 0 to 1.
+   - slopes: N x 3 doubles g, as ffd_weight_slopes fills them; NULL: all are 0. Normals and tangents need them
+     where w is not the same everywhere.
+
+   A point with w = 0 keeps its bits as one that does not move; with w = 1 and g = 0 everywhere all bits are
+   those of ffd_embedding_deform. Errors also: FFD_E_INVALID (a weight that is not in that range; the message
+   has its index). */
+FFD_API ffd_status ffd_embedding_deform_weighted(const ffd_embedding *embedding, const ffd_lattice *moved,
+                                                 const double *weights, const double *slopes, ffd_span in,
+                                                 ffd_span out, double *gradients,
+                                                 const ffd_run_options *options, ffd_error *error);
+
+/* The same for some of the points, as ffd_embedding_deform_some: weights and slopes are those of all N. */
+FFD_API ffd_status ffd_embedding_deform_some_weighted(const ffd_embedding *embedding,
+                                                      const ffd_lattice *moved, const uint32_t *vertices,
+                                                      size_t count, const double *weights,
+                                                      const double *slopes, ffd_span in, ffd_span out,
+                                                      double *gradients, const ffd_run_options *options,
+                                                      ffd_error *error);
+
+/* Finds the slope g of weights on a surface: on a triangle it is the vector in its plane with g . e = the
+   difference of the weights along each edge e; at a point it is the mean over the triangles round its
+   position, weighted by their areas (src/maths.md 9.7). Points at equal positions have one slope; 0 at points
+   of no triangle with an area.
+   - points: at rest, as they were embedded. weights: one for each.
+   - triangles: 3 indices of points for each of count triangles.
+   - slopes: filled, 3 doubles for each point.
+   - options: may be NULL.
+
+   Thread-safe. Errors: FFD_E_ARGUMENT (also an index that is not one of a point), FFD_E_INVALID (a weight
+   that is not in 0 to 1), FFD_E_CANCELLED, FFD_E_MEMORY. */
+FFD_API ffd_status ffd_weight_slopes(ffd_span points, const double *weights, const uint32_t *triangles,
+                                     size_t count, double *slopes, const ffd_run_options *options,
+                                     ffd_error *error);
+
 /* Lists the points that may move with any of the given control points (count indices, u fastest): all points
    in the span cells of their supports, and with FFD_OUTSIDE_EXTEND the points outside whose border point is
    in such a cell. Other points do not move with these control points. *vertices are *vertex_count indices in

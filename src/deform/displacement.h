@@ -49,7 +49,7 @@ typedef struct kept_cells {
     const ffd_lattice *lattice;  /* the lattice of the cells; NULL: empty */
     cell_use use;                /* what the numbers are for */
     size_t count, width;         /* capacity in cells, and numbers for each cell */
-    size_t keys[KEPT_CELLS];     /* 1 + the key of a batch_cell; 0: none */
+    size_t keys[KEPT_CELLS];     /* 1 + the key of a batch_cell; 0: none; `count` are in use */
     uint16_t places[KEPT_CELLS]; /* index of its numbers; assigned in ascending order, so that few pages are
                                     touched */
     uint16_t used;               /* number of used places */
@@ -76,9 +76,12 @@ typedef struct displacement_scratch {
     batch_stretch stretches[DISPLACEMENT_BATCH + 1]; /* the last one only marks the end */
     size_t stretch_count;
     uint16_t buckets[2 * DISPLACEMENT_BATCH]; /* hash table of the cells by key */
-    uint32_t sorted[DISPLACEMENT_BATCH];      /* indices of the points, cell by cell */
-    double uvw[3 * DISPLACEMENT_BATCH];       /* their u,v,w */
-    double fields[2 * FIELD_NUMBERS + 1];     /* of a cell in which the displacement may turn */
+    size_t bucket_count;                      /* in use */
+    uint32_t sorted_room[DISPLACEMENT_BATCH];
+    double uvw_room[3 * DISPLACEMENT_BATCH];
+    const uint32_t *sorted;               /* indices of the points, cell by cell: there, or the batch's */
+    const double *uvw;                    /* their u,v,w, likewise */
+    double fields[2 * FIELD_NUMBERS + 1]; /* of a cell in which the displacement may turn */
     turn_run runs[DISPLACEMENT_BATCH];
     kept_turns kept_turns;
     turn_scratch turns;

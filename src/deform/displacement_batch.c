@@ -13,12 +13,12 @@ static const cell_kernels kernels[] = {
 /* Returns the cell of the batch with these spans, and adds it if it is new. */
 static size_t take_cell(const size_t span[3], size_t key, displacement_scratch *scratch)
 {
-    size_t bucket = (key * 0x9e3779b97f4a7c15u >> 20) % (2 * DISPLACEMENT_BATCH);
+    size_t bucket = (key * 0x9e3779b97f4a7c15u >> 20) % scratch->bucket_count;
     while (scratch->buckets[bucket] != NO_CELL) {
         const size_t found = scratch->buckets[bucket];
         if (scratch->cells[found].key == key)
             return found;
-        bucket = (bucket + 1) % (2 * DISPLACEMENT_BATCH);
+        bucket = (bucket + 1) % scratch->bucket_count;
     }
     const size_t made = scratch->cell_count++;
     scratch->buckets[bucket] = (uint16_t)made;
@@ -72,7 +72,8 @@ static void find_cells(const ffd_lattice *lattice, const displacement_batch *bat
     span_range cell[3] = {{0}}; /* an empty range: no cell yet */
     size_t stretches = 0;
     scratch->cell_count = 0;
-    memset(scratch->buckets, 0xff, sizeof scratch->buckets);
+    scratch->bucket_count = 2 * batch->count;
+    memset(scratch->buckets, 0xff, scratch->bucket_count * sizeof *scratch->buckets);
     for (size_t k = 0; k < batch->count; k++) {
         if (cell_holds(cell, uvw_of(batch, k)))
             continue;
@@ -88,8 +89,8 @@ static void add_stretch(const ffd_lattice *lattice, const displacement_batch *ba
                         batch_cell *cell, displacement_scratch *scratch)
 {
     const size_t slot = cell->first + cell->count;
-    double *const uvw = scratch->uvw + 3 * slot;
-    memcpy(scratch->sorted + slot, batch->which + first, (end - first) * sizeof *batch->which);
+    double *const uvw = scratch->uvw_room + 3 * slot;
+    memcpy(scratch->sorted_room + slot, batch->which + first, (end - first) * sizeof *batch->which);
     ffd_displacement_wrap(lattice, uvw_of(batch, first), uvw);
     for (size_t k = first + 1; k < end; k++)
         memcpy(uvw + 3 * (k - first), uvw_of(batch, k), 3 * sizeof *uvw);
@@ -112,6 +113,37 @@ static void sort_points(const ffd_lattice *lattice, const displacement_batch *ba
     for (size_t s = 0; s < scratch->stretch_count; s++)
         add_stretch(lattice, batch, stretches[s].first, stretches[s + 1].first,
                     &scratch->cells[stretches[s].cell], scratch);
+    scratch->sorted = scratch->sorted_room;
+    scratch->uvw = scratch->uvw_room;
+}
+
+/* Whether a lattice has one cell, and no u,v,w of it is wrapped: that of one polynomial, as Sederberg &
+   Parry's. */
+static bool is_one_cell(const ffd_lattice *lattice)
+{
+    bool is_one = true;
+    for (int a = 0; a < 3; a++) {
+        const knot_vector *const knots = &lattice->knots[a];
+        const double last = ffd_knots_last(knots);
+        is_one = is_one && knots->span_count == 1 && ffd_knots_wrap(knots, last) == last;
+    }
+    return is_one;
+}
+
+/* Whether the u,v,w of a batch follow one another without a gap. */
+static bool is_packed(const displacement_batch *batch)
+{
+    const uint32_t distance = batch->which[batch->count - 1] - batch->which[0];
+    return distance == batch->count - 1 && batch->stride == 3 * sizeof *batch->uvw;
+}
+
+/* Takes the points where they are, all in the only cell. */
+static void take_points(const displacement_batch *batch, displacement_scratch *scratch)
+{
+    scratch->cell_count = 1;
+    scratch->cells[0] = (batch_cell){.count = (uint32_t)batch->count};
+    scratch->sorted = batch->which;
+    scratch->uvw = uvw_of(batch, 0);
 }
 
 static void stay(const displacement_batch *batch, size_t n)
@@ -129,21 +161,33 @@ void ffd_displacement_scratch_clear(displacement_scratch *scratch)
     scratch->turns.order[0] = 0;
 }
 
+static size_t cell_count(const ffd_lattice *lattice)
+{
+    const knot_vector *const knots = lattice->knots;
+    return knots[0].span_count * knots[1].span_count * knots[2].span_count;
+}
+
+/* More slots than cells, so that few cells share one. */
+#define SLOTS_A_CELL 4
+
 /* Prepares the cache for a lattice. */
 static void begin_cells(const ffd_lattice *lattice, cell_use use, kept_cells *kept)
 {
     if (kept->lattice == lattice && kept->use == use)
         return;
     const size_t width = ffd_displacement_cell_width(lattice, use) + 1;
+    const size_t most = SLOTS_A_CELL * cell_count(lattice);
     kept->lattice = lattice;
     kept->use = use;
     kept->width = width;
     const size_t share = KEPT_IN_ALL / (size_t)(kept->threads > 2 ? kept->threads : 2);
     kept->count = share / width < KEPT_CELLS ? share / width : KEPT_CELLS;
+    if (kept->count > most)
+        kept->count = most;
     if (kept->count == 0)
         kept->count = 1;
     kept->used = 0;
-    memset(kept->keys, 0, sizeof kept->keys);
+    memset(kept->keys, 0, kept->count * sizeof *kept->keys);
 }
 
 /* Returns the number of blocks of cells along a direction. */
@@ -158,7 +202,7 @@ static void begin_turns(const ffd_lattice *lattice, kept_turns *kept)
     if (kept->lattice == lattice)
         return;
     kept->lattice = lattice;
-    kept->cells = knots[0].span_count * knots[1].span_count * knots[2].span_count;
+    kept->cells = cell_count(lattice);
     const size_t all = kept->cells + block_count(&knots[0]) * block_count(&knots[1]) * block_count(&knots[2]);
     kept->count = all < TURN_SLOTS ? all : TURN_SLOTS;
     memset(kept->answers, 0, kept->count * sizeof *kept->answers);
@@ -383,8 +427,12 @@ void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displaceme
     begin_cells(lattice, gradients ? CELL_GRADIENTS : CELL_VALUES, &scratch->kept);
     if (batch->turns)
         begin_turns(lattice, &scratch->kept_turns);
-    find_cells(lattice, batch, scratch);
-    sort_points(lattice, batch, scratch);
+    if (batch->count > 0 && is_packed(batch) && is_one_cell(lattice))
+        take_points(batch, scratch);
+    else {
+        find_cells(lattice, batch, scratch);
+        sort_points(lattice, batch, scratch);
+    }
     for (size_t c = 0; c < scratch->cell_count; c++)
         displace_cell(lattice, kernel, batch, &scratch->cells[c], scratch);
 }

@@ -279,11 +279,25 @@ static ALWAYS_INLINE void displace_all(const kernel_cell *cell, const int degree
     displace(cell, degree, points, parameters, rest, derivatives, jacobian);
 }
 
+/* Whether all degrees are this one. */
+static ALWAYS_INLINE bool is_all(const kernel_cell *cell, int degree)
+{
+    return cell->degree[0] == degree && cell->degree[1] == degree && cell->degree[2] == degree;
+}
+
 void FFD_KERNEL(const kernel_cell *cell, const kernel_points *points)
 {
+    /* Constant degrees let the compiler unroll the loops: those of most lattices, and of the one cell of
+       5 x 5 x 5 points in which PyGeM's users work. WebAssembly has to be small. */
     static const int cubic[3] = {3, 3, 3};
-    /* Constant degrees let the compiler unroll the loops. */
-    if (cell->degree[0] != 3 || cell->degree[1] != 3 || cell->degree[2] != 3)
+#ifndef __wasm__
+    static const int quartic[3] = {4, 4, 4};
+    if (is_all(cell, 4) && !points->gradient) {
+        displace_all(cell, quartic, points, false, false);
+        return;
+    }
+#endif
+    if (!is_all(cell, 3))
         displace_all(cell, cell->degree, points, points->gradient, points->jacobian);
     else if (points->jacobian)
         displace_all(cell, cubic, points, true, true);

@@ -123,19 +123,45 @@ static bool begin(const ffd_locator *locator, const double xyz[3], double p[3], 
 static affine_kernel *const affine_kernels[] = {[FFD_ISA_SCALAR] = NULL, /* one by one */
                                                 FOR_EACH_SIMD(ROW)};
 
-static void find_affine(const ffd_locator *locator, const double *xyz, size_t count, ffd_location *locations)
+/* Finds at most AFFINE_POINTS points of an affine rest map. */
+static void find_some(const ffd_locator *locator, const double *xyz, size_t count, double *uvw,
+                      double *residuals, uint8_t *found)
 {
     affine_kernel *const kernel = affine_kernels[ffd_isa_resolve(locator->isa)];
+    if (kernel)
+        kernel(locator, xyz, count, uvw, residuals, found);
+    else
+        memset(found, 0, count);
+}
+
+static void find_affine(const ffd_locator *locator, const double *xyz, size_t count, ffd_location *locations)
+{
     for (size_t first = 0; first < count; first += AFFINE_POINTS) {
         const size_t size = count - first < AFFINE_POINTS ? count - first : AFFINE_POINTS;
-        uint8_t found[AFFINE_POINTS] = {0};
-        double p[3];
-        if (kernel)
-            kernel(locator, xyz + 3 * first, size, locations + first, found);
+        ffd_location *const own = locations + first;
+        double uvw[3 * AFFINE_POINTS], residuals[AFFINE_POINTS], p[3];
+        uint8_t found[AFFINE_POINTS];
+        find_some(locator, xyz + 3 * first, size, uvw, residuals, found);
         for (size_t i = 0; i < size; i++)
-            if (!found[i] && begin(locator, xyz + 3 * (first + i), p, &locations[first + i]))
-                ffd_affine_find(locator, p, &locations[first + i]);
+            if (found[i])
+                own[i] = (ffd_location){.uvw = {uvw[3 * i], uvw[3 * i + 1], uvw[3 * i + 2]},
+                                        .residual = residuals[i],
+                                        .status = FFD_VERTEX_INSIDE};
+            else if (begin(locator, xyz + 3 * (first + i), p, &own[i]))
+                ffd_affine_find(locator, p, &own[i]);
     }
+}
+
+size_t ffd_locator_find_inside(const ffd_locator *locator, const double *xyz, size_t count, double *uvw,
+                               uint8_t *found)
+{
+    if (locator->method != METHOD_AFFINE)
+        return 0;
+    double residuals[AFFINE_POINTS];
+    for (size_t first = 0; first < count; first += AFFINE_POINTS)
+        find_some(locator, xyz + 3 * first, count - first < AFFINE_POINTS ? count - first : AFFINE_POINTS,
+                  uvw + 3 * first, residuals, found + first);
+    return count;
 }
 
 static ffd_status find_general(const ffd_locator *locator, const double *xyz, size_t count,
@@ -179,6 +205,26 @@ ffd_status ffd_locator_find_near(const ffd_locator *locator, const double *xyz, 
 {
     TRY(ffd_locator_find(locator, xyz, count, locations, error));
     return allowance ? ffd_near_border_find(locator, xyz, count, allowance, locations, error) : FFD_OK;
+}
+
+/* A box that comes nearer to the border, as a part of the domain, is looked at point by point. */
+#define ROOM 1e-6
+
+bool ffd_locator_holds_box(const ffd_locator *locator, const double min[3], const double max[3])
+{
+    if (locator->method != METHOD_AFFINE)
+        return false;
+    for (int r = 0; r < 3; r++) {
+        double middle = 0, reach = 0;
+        for (int c = 0; c < 3; c++) {
+            const double by = locator->affine.inverse[3 * r + c];
+            middle += by * (min[c] + (max[c] - min[c]) / 2 - locator->origin[c]);
+            reach += fabs(by) * (max[c] - min[c]) / 2;
+        }
+        if (!(middle - reach > ROOM && middle + reach < 1 - ROOM)) /* NaN counts as outside */
+            return false;
+    }
+    return true;
 }
 
 bool ffd_locator_has_seam(const ffd_locator *locator, int direction)

@@ -15,10 +15,20 @@ ffd_status ffd_locator_create_for(const ffd_lattice *lattice, ffd_isa isa, ffd_l
 ffd_status ffd_locator_find(const ffd_locator *locator, const double *xyz, size_t count,
                             ffd_location *locations, ffd_error *error);
 
-/* The same with an allowance, which may be NULL. */
+/* Finds u,v,w, 3 numbers each, of those points that are plainly inside a volume whose rest map is affine:
+   found is 1 for these and 0 for all others, which ffd_locator_find finds. Returns count, or 0 for another
+   volume. */
+size_t ffd_locator_find_inside(const ffd_locator *locator, const double *xyz, size_t count, double *uvw,
+                               uint8_t *found);
+
+/* The same as ffd_locator_find with an allowance, which may be NULL. */
 ffd_status ffd_locator_find_near(const ffd_locator *locator, const double *xyz, size_t count,
                                  const ffd_border_allowance *allowance, ffd_location *locations,
                                  ffd_error *error);
+
+/* Returns whether a box of points is inside the volume, with room to spare; false says nothing. A cheap
+   answer for many points of a volume that is a box itself. */
+bool ffd_locator_holds_box(const ffd_locator *locator, const double min[3], const double max[3]);
 
 /* Whether the location has u,v,w. */
 static inline bool ffd_location_is_placed(const ffd_location *location)

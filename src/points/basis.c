@@ -15,7 +15,7 @@ typedef struct basis_work {
 
 static void find_row(const basis_work *work, size_t point, size_t *next, basis_row *row)
 {
-    ffd_basis_row(work->embedding, work->weights, point, next, row);
+    ffd_basis_row(work->embedding, work->weights, NULL, point, next, row);
 }
 
 static ffd_status count_tile(void *context, size_t first, size_t count, int worker, ffd_error *error)

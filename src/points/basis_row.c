@@ -3,6 +3,7 @@
 #include "deform/extension.h"
 #include "spline/knots.h"
 #include <math.h>
+#include <string.h>
 
 ffd_status ffd_basis_weights(const ffd_embedding *embedding, const double **weights, ffd_error *error)
 {
@@ -36,11 +37,38 @@ static void make_factor(const knot_vector *knots, int span, const double value[M
     }
 }
 
-/* Fills the row at u,v,w of a lattice, times the scale: R_j = h_j N N N / sum h N N N (NURBS Book 4.2). */
-static void fill_row(const ffd_lattice *lattice, const double *weights, const double uvw[3], double scale,
-                     basis_row *row)
+/* Replaces the factors of directions with held ends. */
+static void seal_factors(const row_seal *seal, const ffd_lattice *lattice, const lattice_basis *basis,
+                         const lattice_basis *sealed, factor of[3])
 {
-    lattice_basis basis;
+    for (int a = 0; a < 3; a++) {
+        const size_t degree = (size_t)lattice->knots[a].degree;
+        if (seal->directions[a].is_held)
+            ffd_row_seal_factors(&seal->directions[a], (int)degree, (size_t)basis->span[a] - degree,
+                                 (size_t)sealed->span[a] - degree, sealed->value[a], of[a].value);
+    }
+}
+
+/* sum h N N N of the deformed volume of a sealed lattice, whose held layers have the weights at rest. */
+static double sum_weights(const ffd_lattice *sealed, const lattice_basis *basis)
+{
+    double weights[BASIS_ENTRIES], sum = 0;
+    size_t next = 0;
+    if (!sealed->deformed_weights)
+        return 1;
+    ffd_lattice_cell_weights(sealed, sealed->deformed_weights, basis->span, weights);
+    for (int k = 0; k <= sealed->knots[2].degree; k++)
+        for (int j = 0; j <= sealed->knots[1].degree; j++)
+            for (int i = 0; i <= sealed->knots[0].degree; i++)
+                sum += basis->value[2][k] * basis->value[1][j] * basis->value[0][i] * weights[next++];
+    return sum;
+}
+
+/* Fills the row at u,v,w of a lattice, times the scale: R_j = h_j N N N / sum h N N N (NURBS Book 4.2). */
+static void fill_row(const ffd_lattice *lattice, const double *weights, const row_seal *seal,
+                     const double uvw[3], double scale, basis_row *row)
+{
+    lattice_basis basis, sealed;
     factor of[3];
     double sum = 0;
     double inside[3];
@@ -50,6 +78,10 @@ static void fill_row(const ffd_lattice *lattice, const double *weights, const do
     ffd_lattice_basis(lattice, inside, &basis);
     for (int a = 0; a < 3; a++)
         make_factor(&lattice->knots[a], basis.span[a], basis.value[a], &of[a]);
+    if (seal) {
+        ffd_lattice_basis(seal->sealed, inside, &sealed);
+        seal_factors(seal, lattice, &basis, &sealed, of);
+    }
     for (size_t k = 0; k < of[2].count; k++)
         for (size_t j = 0; j < of[1].count; j++)
             for (size_t i = 0; i < of[0].count; i++) {
@@ -63,24 +95,42 @@ static void fill_row(const ffd_lattice *lattice, const double *weights, const do
                 row->columns[row->count] = (uint32_t)column;
                 row->values[row->count++] = value;
             }
+    if (seal && weights)
+        sum = sum_weights(seal->sealed, &sealed);
     for (size_t i = 0; i < row->count; i++)
         row->values[i] = weights ? scale * (row->values[i] / sum) : scale * row->values[i];
 }
 
-void ffd_basis_row(const ffd_embedding *embedding, const double *weights, size_t point, size_t *next,
-                   basis_row *row)
+/* Returns the extended point that a point is, if it is one; next as of ffd_basis_row. */
+static const extended_point *extended_at(const ffd_embedding *embedding, size_t point, size_t next)
+{
+    return next < embedding->extended_count && embedding->extended[next].point == point
+               ? &embedding->extended[next]
+               : NULL;
+}
+
+bool ffd_basis_uvw(const ffd_embedding *embedding, size_t point, size_t next, double uvw[3])
+{
+    const extended_point *const extended = extended_at(embedding, point, next);
+    const bool has = ffd_embedding_has(embedding, point);
+    if (has || extended)
+        memcpy(uvw, has ? embedding->uvw + 3 * point : extended->nearest.uvw, 3 * sizeof *uvw);
+    return has || extended;
+}
+
+void ffd_basis_row(const ffd_embedding *embedding, const double *weights, const row_seal *seal, size_t point,
+                   size_t *next, basis_row *row)
 {
     row->count = 0;
     if (ffd_embedding_has(embedding, point)) {
-        fill_row(embedding->rest, weights, embedding->uvw + 3 * point, 1, row);
+        fill_row(embedding->rest, weights, seal, embedding->uvw + 3 * point, 1, row);
         return;
     }
     while (*next < embedding->extended_count && embedding->extended[*next].point < point)
         ++*next;
-    if (*next == embedding->extended_count || embedding->extended[*next].point != point)
-        return;
-    const boundary_point *const nearest = &embedding->extended[*next].nearest;
-    const double fade = ffd_extension_fade(nearest->distance, embedding->falloff, NULL);
+    const extended_point *const extended = extended_at(embedding, point, *next);
+    const double fade =
+        extended ? ffd_extension_fade(extended->nearest.distance, embedding->falloff, NULL) : 0;
     if (fade > 0)
-        fill_row(embedding->rest, weights, nearest->uvw, fade, row);
+        fill_row(embedding->rest, weights, seal, extended->nearest.uvw, fade, row);
 }

@@ -3,6 +3,7 @@
 #define FFD_POINTS_BASIS_ROW_H
 
 #include "points/embedding.h"
+#include "points/row_seal.h"
 
 /* The most control points that affect a point. */
 #define BASIS_ENTRIES ((size_t)MAX_ORDER * MAX_ORDER * MAX_ORDER)
@@ -18,8 +19,12 @@ typedef struct basis_row {
 ffd_status ffd_basis_weights(const ffd_embedding *embedding, const double **weights, ffd_error *error);
 
 /* Computes the row of a point. next: index of the first extended point not before this point; advanced for
-   the next point. weights: those of the deformed volume; NULL: all 1. */
-void ffd_basis_row(const ffd_embedding *embedding, const double *weights, size_t point, size_t *next,
-                   basis_row *row);
+   the next point. weights: those of the deformed volume; NULL: all 1. seal: NULL, or of a sealed lattice that
+   moves the points in place of the embedding's; R_j are then what control points of the latter do. */
+void ffd_basis_row(const ffd_embedding *embedding, const double *weights, const row_seal *seal, size_t point,
+                   size_t *next, basis_row *row);
+/* Fills uvw with the parameters that such a row is of, or returns false: the point does not move. next: as it
+   is after ffd_basis_row. */
+bool ffd_basis_uvw(const ffd_embedding *embedding, size_t point, size_t next, double uvw[3]);
 
 #endif

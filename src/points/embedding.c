@@ -76,12 +76,30 @@ static ffd_status settle_point(const embed_work *work, size_t point, const doubl
     return work->border ? extend(work, point, x, &work->outside[point / POINT_TILE], error) : FFD_OK;
 }
 
+/* Takes the points of a tile that the locator finds at once, and finds the others one by one. */
+static ffd_status embed_rest(const embed_work *work, size_t first, size_t count, const double *x,
+                             const uint8_t *found, ffd_location *location, ffd_error *error)
+{
+    ffd_embedding *const embedding = work->embedding;
+    memset(embedding->status + first, FFD_VERTEX_INSIDE, count);
+    for (size_t i = 0; i < count; i++) {
+        if (found[i])
+            continue;
+        TRY(ffd_locator_find(work->locator, x + 3 * i, 1, location, error));
+        TRY(settle_point(work, first + i, x + 3 * i, location, error));
+    }
+    return FFD_OK;
+}
+
 static ffd_status embed_tile(void *context, size_t first, size_t count, int worker, ffd_error *error)
 {
     const embed_work *const work = context;
     double *const x = work->positions + 3 * POINT_TILE * (size_t)worker;
     ffd_location *const locations = work->locations + POINT_TILE * (size_t)worker;
+    uint8_t found[POINT_TILE];
     ffd_span_read(&work->desc->points, first, count, x);
+    if (ffd_locator_find_inside(work->locator, x, count, work->embedding->uvw + 3 * first, found) == count)
+        return embed_rest(work, first, count, x, found, locations, error);
     TRY(ffd_locator_find(work->locator, x, count, locations, error));
     for (size_t i = 0; i < count; i++)
         TRY(settle_point(work, first + i, x + 3 * i, &locations[i], error));

@@ -3,9 +3,11 @@
 #include "base/vector/array_kernel.h"
 #include "deform/displacement.h"
 #include "deform/extension.h"
+#include "deform/weighting.h"
 #include "points/embedding.h"
 #include "points/point_run.h"
 #include "points/span.h"
+#include "points/weights.h"
 #include <float.h>
 #include <string.h>
 
@@ -17,7 +19,9 @@ _Static_assert(POINT_TILE <= DISPLACEMENT_BATCH, "a tile is one batch");
 
 /* Scratch memory of a thread for a tile, in one block. */
 typedef struct deform_scratch {
-    double *x, *delta, *gradient, *uvw; /* 3, 3, 9, 3 numbers for each point; uvw: of the listed vertices */
+    double *room, *delta, *gradient,
+        *uvw;  /* 3, 3, 9, 3 numbers for each point; uvw: of the listed vertices */
+    double *x; /* the points: room, or the output's own */
     uint32_t *which;
     uint8_t *moves, *changed;
     displacement_scratch *displacement; /* NULL for few points */
@@ -27,6 +31,8 @@ typedef struct deform_work {
     const ffd_embedding *embedding;
     const ffd_lattice *lattice;
     const uint32_t *vertices; /* NULL: all */
+    bool is_weighted;
+    const double *weights, *slopes; /* of all points; slopes NULL: all are 0 */
     ffd_span in, out;
     double *gradients;
     ffd_isa isa;
@@ -76,8 +82,28 @@ static void extend(const deform_work *work, size_t first, size_t count, deform_s
     }
 }
 
+/* Replaces the displacements of a tile by the weighted ones. */
+static void weigh(const deform_work *work, size_t first, size_t count, const deform_scratch *s)
+{
+    for (size_t i = 0; i < count && work->is_weighted; i++) {
+        const size_t point = point_of(work, first + i);
+        weigh_displacement(work->weights[point], work->slopes ? work->slopes + 3 * point : NULL,
+                           s->delta + 3 * i, work->gradients ? s->gradient + 9 * i : NULL);
+    }
+}
+
+/* Whether all points of a tile are written as they are computed. */
+static bool is_whole(const deform_work *work, size_t first, size_t count)
+{
+    return !work->vertices && !memchr(work->embedding->status + first, FFD_VERTEX_INVALID, count);
+}
+
+/* Reads the points of a tile to s->x: into the output itself where that saves a copy. */
 static void read_tile(const deform_work *work, size_t first, size_t count, deform_scratch *s)
 {
+    double *const out = ffd_span_doubles(&work->out, first);
+    const bool is_direct = out && is_whole(work, first, count) && work->in.data != work->out.data;
+    s->x = is_direct ? out : s->room;
     if (!work->vertices)
         ffd_span_read(&work->in, first, count, s->x);
     for (size_t i = 0; i < count && work->vertices; i++)
@@ -97,9 +123,8 @@ static void write_point(const deform_work *work, size_t point, const double x[3]
 
 static void write_tile(const deform_work *work, size_t first, size_t count, const deform_scratch *s)
 {
-    const uint8_t *const status = work->embedding->status;
-    const bool whole = !work->vertices && !memchr(status + first, FFD_VERTEX_INVALID, count);
-    if (whole)
+    const bool whole = is_whole(work, first, count);
+    if (whole && s->x == s->room)
         ffd_span_write(&work->out, first, count, s->x);
     for (size_t i = 0; i < count && !whole; i++)
         write_point(work, point_of(work, first + i), s->x + 3 * i);
@@ -124,6 +149,7 @@ static ffd_status deform_tile(void *context, size_t first, size_t count, int wor
     ffd_displacements(work->lattice, work->isa, &batch, s->displacement);
     if (work->embedding->extended_count > 0)
         extend(work, first, count, s);
+    weigh(work, first, count, s);
     const double largest = work->out.type == FFD_FLOAT32 ? FLT_MAX : DBL_MAX;
     const size_t unfit = work->arrays->displace(s->delta, count, largest, s->x, s->changed);
     if (unfit < count)
@@ -152,7 +178,8 @@ static ffd_status check(deform_work *work, size_t count, ffd_error *error)
     TRY(ffd_embedding_check_lattice(work->embedding, work->lattice, error));
     TRY(ffd_span_check(&work->in, all, "the array of points", error));
     TRY(ffd_span_check(&work->out, all, "the array of results", error));
-    return check_vertices(work, count, error);
+    TRY(check_vertices(work, count, error));
+    return work->is_weighted ? ffd_weights_check(work->weights, work->vertices, count, error) : FFD_OK;
 }
 
 /* Allocates the scratch memory of a thread for tiles of this many points. */
@@ -161,8 +188,8 @@ static bool make_thread_scratch(const point_run *run, size_t tile, deform_scratc
     double *const block = ffd_alloc(tile, 18 * sizeof(double) + sizeof(uint32_t) + 2);
     if (!block)
         return false;
-    s->x = block;
-    s->delta = s->x + 3 * tile;
+    s->room = block;
+    s->delta = s->room + 3 * tile;
     s->gradient = s->delta + 3 * tile;
     s->uvw = s->gradient + 9 * tile;
     s->which = (uint32_t *)(void *)(s->uvw + 3 * tile);
@@ -195,7 +222,7 @@ static ffd_status make_scratch(const point_run *run, deform_work *work, ffd_erro
 static void free_scratch(const point_run *run, deform_scratch *scratch)
 {
     for (int i = 0; scratch && i < run->options.threads; i++) {
-        ffd_free(scratch[i].x);
+        ffd_free(scratch[i].room);
         ffd_free(scratch[i].displacement);
     }
     ffd_free(scratch);
@@ -233,6 +260,41 @@ ffd_status ffd_embedding_deform_some(const ffd_embedding *embedding, const ffd_l
     deform_work work = {.embedding = embedding,
                         .lattice = moved,
                         .vertices = count > 0 ? vertices : &none,
+                        .in = in,
+                        .out = out,
+                        .gradients = gradients};
+    return deform_elements(&work, count, options, error);
+}
+
+ffd_status ffd_embedding_deform_weighted(const ffd_embedding *embedding, const ffd_lattice *moved,
+                                         const double *weights, const double *slopes, ffd_span in,
+                                         ffd_span out, double *gradients, const ffd_run_options *options,
+                                         ffd_error *error)
+{
+    deform_work work = {.embedding = embedding,
+                        .lattice = moved,
+                        .is_weighted = true,
+                        .weights = weights,
+                        .slopes = slopes,
+                        .in = in,
+                        .out = out,
+                        .gradients = gradients};
+    return deform_elements(&work, embedding->count, options, error);
+}
+
+ffd_status ffd_embedding_deform_some_weighted(const ffd_embedding *embedding, const ffd_lattice *moved,
+                                              const uint32_t *vertices, size_t count, const double *weights,
+                                              const double *slopes, ffd_span in, ffd_span out,
+                                              double *gradients, const ffd_run_options *options,
+                                              ffd_error *error)
+{
+    static const uint32_t none = 0;
+    deform_work work = {.embedding = embedding,
+                        .lattice = moved,
+                        .vertices = count > 0 ? vertices : &none,
+                        .is_weighted = true,
+                        .weights = weights,
+                        .slopes = slopes,
                         .in = in,
                         .out = out,
                         .gradients = gradients};

@@ -1,4 +1,5 @@
 #include "points/span.h"
+#include <stdint.h>
 #include <string.h>
 
 static size_t size_of(ffd_number type)
@@ -90,6 +91,13 @@ void ffd_span_write(const ffd_span *span, size_t first, size_t count, const doub
         for (size_t i = 0; i < count; i++, to += span->stride)
             for (int c = 0; c < 3; c++)
                 write_number(to + c * span->step, span->type, xyz[3 * i + (size_t)c]);
+}
+
+double *ffd_span_doubles(const ffd_span *span, size_t first)
+{
+    void *const from = address(span, first);
+    const bool are_doubles = is_packed(span) && span->type == FFD_FLOAT64;
+    return are_doubles && (uintptr_t)from % _Alignof(double) == 0 ? from : NULL;
 }
 
 void ffd_span_copy(const ffd_span *from, const ffd_span *to, size_t point)

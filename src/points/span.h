@@ -12,6 +12,9 @@ ffd_status ffd_span_check(ffd_span *span, size_t count, const char *what, ffd_er
 void ffd_span_read(const ffd_span *span, size_t first, size_t count, double *xyz);
 /* Writes points, rounded to the type of the span. */
 void ffd_span_write(const ffd_span *span, size_t first, size_t count, const double *xyz);
+/* Returns where the numbers of the points from `first` on are, if they are doubles without gaps; else NULL.
+ */
+double *ffd_span_doubles(const ffd_span *span, size_t first);
 /* Copies the bytes of a point between spans of the same type. */
 void ffd_span_copy(const ffd_span *from, const ffd_span *to, size_t point);
 

@@ -38,21 +38,17 @@ static ALWAYS_INLINE void find(const ffd_locator *locator, const double *xyz, af
     }
 }
 
-void FFD_AFFINE_KERNEL(const ffd_locator *locator, const double *xyz, size_t count, ffd_location *locations,
-                       uint8_t *found)
+void FFD_AFFINE_KERNEL(const ffd_locator *locator, const double *xyz, size_t count, double *uvw,
+                       double *residuals, uint8_t *found)
 {
     size_t first = 0;
     for (; first + FFD_LANES <= count; first += FFD_LANES) {
         affine_lanes at;
-        double uvw[3 * FFD_LANES];
         find(locator, xyz + 3 * first, &at);
-        lanes_store_triples(at.uvw, uvw);
-        for (size_t l = 0; l < FFD_LANES; l++) {
-            locations[first + l] = (ffd_location){.uvw = {uvw[3 * l], uvw[3 * l + 1], uvw[3 * l + 2]},
-                                                  .residual = at.residual[l],
-                                                  .status = FFD_VERTEX_INSIDE};
+        lanes_store_triples(at.uvw, uvw + 3 * first);
+        lanes_store(at.residual, residuals + first);
+        for (size_t l = 0; l < FFD_LANES; l++)
             found[first + l] = (uint8_t)(at.found[l] & 1);
-        }
     }
     memset(found + first, 0, count - first);
 }

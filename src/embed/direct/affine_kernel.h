@@ -9,10 +9,11 @@
 #define AFFINE_POINTS ((size_t)256)
 
 /* Finds u,v,w of those of count points (xyz as in ffd_locator_find) for which the inverse matrix alone gives
-   a result in the domain and within the tolerance, with the same bits as ffd_affine_find. found: one byte for
-   each point; 0: call ffd_affine_find. One function for each SIMD instruction set. */
-typedef void affine_kernel(const ffd_locator *locator, const double *xyz, size_t count,
-                           ffd_location *locations, uint8_t *found);
+   a result in the domain and within the tolerance, with the same bits as ffd_affine_find: 3 numbers each, and
+   the residual. found: one byte for each point; 0: call ffd_affine_find. One function for each SIMD
+   instruction set. */
+typedef void affine_kernel(const ffd_locator *locator, const double *xyz, size_t count, double *uvw,
+                           double *residuals, uint8_t *found);
 
 #define DECLARE(ISA, set, lanes) affine_kernel ffd_affine_kernel_##set;
 FOR_EACH_SIMD(DECLARE)
