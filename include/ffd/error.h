@@ -15,6 +15,7 @@ extern "C" {
 typedef enum ffd_status {
     FFD_OK = 0,
     FFD_E_GATE = -1,         /* a quality gate (ffd_gate) is violated (exit 1) */
+    FFD_E_UNMET = -2,        /* what is asked for cannot be met: rows that contradict each other (exit 1) */
     FFD_E_ARGUMENT = -10,    /* the caller passed an argument that the function does not accept (exit 2) */
     FFD_E_IO = -20,          /* a file cannot be read or written (exit 3) */
     FFD_E_EXISTS = -21,      /* the output exists and must not be overwritten (exit 3) */

@@ -25,12 +25,14 @@
 #ifndef FFD_FFD_H
 #define FFD_FFD_H
 
+#include <ffd/animate.h>
 #include <ffd/author.h>
 #include <ffd/batch.h>
 #include <ffd/deform.h>
 #include <ffd/embedding.h>
 #include <ffd/error.h>
 #include <ffd/export.h>
+#include <ffd/fit.h>
 #include <ffd/fold.h>
 #include <ffd/isa.h>
 #include <ffd/jacobian.h>

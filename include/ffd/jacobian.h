@@ -34,11 +34,12 @@ typedef enum ffd_jacobian_by { FFD_BY_POINTS = 0, FFD_BY_PARAMETERS } ffd_jacobi
    placeholder, in the order in which the file first uses them.
 
    Rows of vertices that do not move (outside, invalid, not selected) are empty. A vertex that
-   FFD_OUTSIDE_EXTEND moves has the row of its border point. */
+   FFD_OUTSIDE_EXTEND moves has the row of its border point. Where faces are held (ffd_deform_desc.seam),
+   columns stay those of the control points as they are: R_j is what the free layers have of them. */
 typedef struct ffd_jacobian_desc {
     size_t struct_size;         /* sizeof(ffd_jacobian_desc) in the caller's header */
-    const ffd_deform_desc *job; /* used are input, lattices, set, outside, falloff, snap, only, threads, isa,
-                                   force, log, sink, timeout */
+    const ffd_deform_desc *job; /* used are input, lattices, set, outside, falloff, seam, snap, only,
+                                   weight, threads, isa, force, log, sink, timeout */
     const char *output; /* a path or name that ends in .npz (CSR as SciPy reads it), .mtx (Matrix Market) or
                            .npy (dense); not "-" */
     ffd_jacobian_by by;

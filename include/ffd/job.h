@@ -64,6 +64,11 @@ typedef enum ffd_resources {
     FFD_RESOURCES_REFRESH
 } ffd_resources;
 
+/* In place of the faces of ffd_lattice_seal: those that the mesh cuts. A mesh cuts the faces that a vertex
+   outside of the lattice is beyond (those of the nearest point of the border) if an edge of a mesh face leads
+   from it to a vertex inside. */
+#define FFD_FACES_CUT 0u
+
 /* Quality gates, combined with |. If one is violated, the job fails with FFD_E_GATE before it writes
    anything. */
 typedef enum ffd_gate {
@@ -224,6 +229,25 @@ typedef struct ffd_embedding_source {
     ffd_bytes bytes; /* the content of such a file */
 } ffd_embedding_source;
 
+/* The weights of the vertices of a job: how far each takes part in the deformation. */
+typedef struct ffd_weight_source {
+    /* Where they are; a text of these, or of one of them after "1-", which means 1 - w:
+       - "FILE.npy": a NumPy array of float32 or float64, of the shape (N) or (N, 1), in the order of
+         `ffd embed`. With bytes it is only a name, or NULL, which stands for "weight.npy".
+       - "attribute:NAME": a SCALAR attribute of a glTF, floats or normalized integers.
+       - "color:r" (g, b, a): COLOR_0 of a glTF as stored, the colours of an OBJ or PLY.
+       - "joint:NAME": the weight of the joints of that name in the skin of a glTF, divided by the sum of all.
+       - "property:NAME": a property of the vertices of a PLY, float or double; uchar, ushort as fractions. */
+    const char *source;
+    ffd_bytes bytes; /* the content of FILE.npy */
+} ffd_weight_source;
+
+/* Checks the syntax of a source of weights. Thread-safe. Errors: FFD_E_ARGUMENT (the message lists the
+   forms). */
+FFD_API ffd_status ffd_weight_check(const char *text, ffd_error *error);
+/* Returns the file that a source of weights names: the end of the text; NULL: it names none. Thread-safe. */
+FFD_API const char *ffd_weight_file(const char *text);
+
 /* A job of `ffd deform` or `ffd check`. Fill with ffd_deform_desc_init, then set input, output and
    lattices. */
 typedef struct ffd_deform_desc {
@@ -334,6 +358,22 @@ typedef struct ffd_deform_desc {
     /* The same functions cancel the job also when *cancel is not 0. Another thread or the handler of a signal
        may set it, by an atomic store; NULL: nobody does. */
     const int *cancel;
+    /* With has_time: lattices that have keys (ffd_lattice_set_time) are taken as they are at this time, in
+       seconds; FFD_E_ARGUMENT where none has. Else they are taken as they are at their first key, and objects
+       as they are. */
+    double time;
+    bool has_time;
+    /* Weights of the vertices, from 0 to 1 (others are clamped, with a warning): a vertex moves by w times
+       the displacement by all lattices together. Nothing: all are 1. FFD_E_INVALID for a selected vertex
+       without a weight, or with one that is not finite. Not with FFD_RIG_FOLLOW. */
+    ffd_weight_source weight;
+    /* Hold faces of every lattice (ffd_lattice_seal) so that the deformed part joins the rest with this
+       continuity; u,v,w stay those of the lattices as they are. seam_faces: FFD_FACES_CUT (default; of each
+       lattice those that the mesh cuts as it reaches it; of blocks, that the mesh cuts where it leaves all of
+       them), FFD_FACES_ALL, or faces of ffd_lattice_seal that all lattices have. FFD_E_ARGUMENT for a face of
+       a closed direction, or a continuity that is not below the degree. */
+    ffd_seam seam;
+    unsigned seam_faces;
 } ffd_deform_desc;
 
 /* Sets desc to defaults: all members 0, NULL or false. size: sizeof(ffd_deform_desc) in the caller's
@@ -616,13 +656,17 @@ FFD_API void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc, size_t size);
    of ffd_lattice_save. */
 FFD_API ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *desc, ffd_error *error);
 
-/* A job of `ffd lattice refine`: reads a lattice, makes one of more control points or higher degrees that is
-   the same map (ffd_lattice_refine), and writes it. */
-typedef struct ffd_lattice_refine_desc {
-    size_t struct_size; /* sizeof(ffd_lattice_refine_desc) in the caller's header */
+/* What jobs have in common that make a lattice of a lattice, and write it. Fill with ffd_author_desc_init,
+   then set lattice and output. */
+typedef struct ffd_author_desc {
+    size_t struct_size; /* sizeof(ffd_author_desc) in the caller's header */
     ffd_lattice_source lattice;
-    const ffd_setting *set; /* set_count values for placeholders in its moves, or NULL */
+    const ffd_setting *set; /* set_count values for placeholders in the moves, or NULL */
     size_t set_count;
+    /* With has_time: lattices that have keys are taken as they are at this time, as in ffd_deform_desc.
+       Without it they are FFD_E_ARGUMENT, but for an object whose time was set. */
+    double time;
+    bool has_time;
     /* The box of a lattice that goes round a mesh is laid round these mesh_count meshes, or what of them
        matches one of only_count selectors; NULL: it stays without positions, where none are needed. */
     const ffd_source *meshes;
@@ -631,22 +675,20 @@ typedef struct ffd_lattice_refine_desc {
     size_t only_count;
     /* memory, strict and space: of the lattice and of meshes that it names. The other members are ignored. */
     ffd_source reading;
-    const ffd_refine_desc *refine;
-    bool measure;               /* find largest_difference of the result */
-    int threads;                /* >= 1, or 0 for all cores; does not affect the output */
-    const char *output;         /* path; "-": standard output */
-    bool force;                 /* overwrite an existing output */
+    int threads;        /* >= 1, or 0 for all cores; does not affect the output */
+    const char *output; /* path; "-": standard output; an ending is .json, of ffd_lattice_convert_run any */
+    bool force;         /* overwrite an existing output */
     ffd_output_set *output_set; /* the files of this run; may be NULL */
-    ffd_log_function log;       /* receives warnings, which begin with the name of a mesh; may be NULL */
+    ffd_log_function log;       /* receives warnings; may be NULL */
     void *log_user;
     ffd_sink_function sink; /* as in ffd_deform_desc */
     void *sink_user;
-} ffd_lattice_refine_desc;
+} ffd_author_desc;
 
-/* Sets desc to defaults. size: sizeof(ffd_lattice_refine_desc) in the caller's header. */
-FFD_API void ffd_lattice_refine_desc_init(ffd_lattice_refine_desc *desc, size_t size);
+/* Sets desc to defaults. size: sizeof(ffd_author_desc) in the caller's header. */
+FFD_API void ffd_author_desc_init(ffd_author_desc *desc, size_t size);
 
-/* How long the parts of such a job took. */
+/* How long the parts of a job of ffd_lattice_refine_run took. */
 typedef struct ffd_refine_seconds {
     double read, refine, write; /* refine: with the measuring */
 } ffd_refine_seconds;
@@ -660,15 +702,16 @@ typedef struct ffd_refine_result {
     size_t size_before[3], size[3]; /* 0 where the lattice could not be read, or refined */
     int degree_before[3], degree[3];
     /* The largest difference of a coordinate of C, at rest and deformed, at 3 places of each new span in each
-       direction; -1: not measured. */
+       direction; -1: the job failed before. */
     double largest_difference;
 } ffd_refine_result;
 
-/* Runs the job. The output is complete or absent. result may be NULL. Errors: those of ffd_lattice_load,
-   ffd_lattice_refine, ffd_lattice_save, and of reading a mesh; FFD_E_ARGUMENT for meshes where the lattice
-   does not go round one. */
-FFD_API ffd_status ffd_lattice_refine_run(const ffd_lattice_refine_desc *desc, ffd_refine_result *result,
-                                          ffd_error *error);
+/* Runs the job of `ffd lattice refine`: makes a lattice of more control points or higher degrees that is the
+   same map (ffd_lattice_refine). The output is complete or absent. result may be NULL; the maps are measured
+   only for it. Errors: those of ffd_lattice_load, ffd_lattice_refine, ffd_lattice_save, and of reading a
+   mesh; FFD_E_ARGUMENT for meshes where the lattice does not go round one. */
+FFD_API ffd_status ffd_lattice_refine_run(const ffd_author_desc *job, const ffd_refine_desc *refine,
+                                          ffd_refine_result *result, ffd_error *error);
 
 /* Which states of a lattice are written. */
 typedef enum ffd_lattice_part {
@@ -678,41 +721,40 @@ typedef enum ffd_lattice_part {
     FFD_PART_DEFORMED /* the deformed control points, and weights, as rest */
 } ffd_lattice_part;
 
-/* A job of `ffd lattice convert`: reads a lattice of one format, by the ending of its name, and writes it in
-   another: .json, .csv or .npy (data/schema/lattice.md 12). Moves
-   become offsets. */
-typedef struct ffd_lattice_convert_desc {
-    size_t struct_size; /* sizeof(ffd_lattice_convert_desc) in the caller's header */
-    /* The following members are those of ffd_lattice_refine_desc. A text of lattice is the content of a file
-       of its format. set and meshes are for .json alone. */
-    ffd_lattice_source lattice;
-    const ffd_setting *set;
-    size_t set_count;
-    const ffd_source *meshes;
-    size_t mesh_count;
-    const char *const *only;
-    size_t only_count;
-    ffd_source reading;
-    size_t size[3]; /* of an array (n, 3): control points along u, v and w; 0 (default): not given */
-    int degree[3];  /* of a format that has none; 0 (default): min(3, size - 1) */
+/* The order in which a file has the points of an array. */
+typedef enum ffd_point_order {
+    FFD_ORDER_UVW, /* as it stands: u fastest, or of an array (n_u, n_v, n_w, 3) the last index */
+    /* Found by the points: the counts may be in another order, that with the nearest neighbours; and of all
+       orders and directions in which no cell is turned over, u is nearest to +x, then v to +y. */
+    FFD_ORDER_AUTO,
+    FFD_ORDER_DEFAULT /* as it stands, but of a .obj that does not tell its size found by the points */
+} ffd_point_order;
+
+/* How ffd_lattice_convert_run reads and writes. Fill with ffd_convert_desc_init. */
+typedef struct ffd_convert_desc {
+    size_t struct_size; /* sizeof(ffd_convert_desc) in the caller's header */
+    size_t size[3];     /* of an array (n, 3): control points along u, v and w; all 0 (default): not given */
+    int degree[3];      /* of a format that has none; 0 (default): min(3, size - 1) */
     ffd_lattice_part part;
-    const char *output; /* its ending chooses the format; "-": standard output, JSON */
-    bool force;
-    ffd_output_set *output_set;
-    ffd_log_function log; /* receives warnings of what the format cannot hold; may be NULL */
-    void *log_user;
-    ffd_sink_function sink;
-    void *sink_user;
-} ffd_lattice_convert_desc;
+    ffd_point_order order; /* of points; the log is told what was found. Default FFD_ORDER_DEFAULT */
+    const char *block;     /* of a file of several lattices: its number from 0 (Plot3D), or its name (SU2) */
+} ffd_convert_desc;
 
-/* Sets desc to defaults. size: sizeof(ffd_lattice_convert_desc) in the caller's header. */
-FFD_API void ffd_lattice_convert_desc_init(ffd_lattice_convert_desc *desc, size_t size);
+/* Sets desc to defaults. size: sizeof(ffd_convert_desc) in the caller's header. */
+FFD_API void ffd_convert_desc_init(ffd_convert_desc *desc, size_t size);
 
-/* Runs the job. The output is complete or absent. Errors: those of ffd_lattice_load, ffd_lattice_save and of
-   reading a mesh; FFD_E_INVALID for a file that is not what its ending says; FFD_E_ARGUMENT for an ending
-   that is none of these, size or degree for a format that has its own, a part that the format cannot hold,
-   and settings or meshes that the lattice has no use for. */
-FFD_API ffd_status ffd_lattice_convert_run(const ffd_lattice_convert_desc *desc, ffd_error *error);
+/* Whether ffd_lattice_convert_run reads or writes files with the ending of this name, and they are not JSON.
+   Thread-safe. */
+FFD_API bool ffd_lattice_converts(const char *name);
+/* Runs the job of `ffd lattice convert`: reads a lattice of one format, by the ending of its name, and writes
+   it in another, by that of the output (data/schema/lattice.md 12). Moves become
+   offsets. The text of job->lattice is the content of a file of its format; settings and meshes are for .json
+   alone. convert: NULL for defaults. The output is complete or absent. Errors: those of ffd_lattice_load,
+   ffd_lattice_save and of reading a mesh; FFD_E_INVALID for a file that is not what its ending says;
+   FFD_E_ARGUMENT for an ending that is none of these, size, degree or order for a format that has its own, a
+   part that the format cannot hold, and settings or meshes that the lattice has no use for. */
+FFD_API ffd_status ffd_lattice_convert_run(const ffd_author_desc *job, const ffd_convert_desc *convert,
+                                           ffd_error *error);
 
 /* What `ffd lattice set` does to a lattice, one after the other. */
 typedef enum ffd_operation_kind {
@@ -726,7 +768,13 @@ typedef enum ffd_operation_kind {
     FFD_OPERATION_ROTATE,     /* by number degrees about the axis `direction` through place, right-handed */
     FFD_OPERATION_SCALE,      /* by number, about place */
     FFD_OPERATION_INVERT,     /* ffd_lattice_invert */
-    FFD_OPERATION_SEAL        /* ffd_lattice_seal with continuity and faces */
+    FFD_OPERATION_SEAL,       /* ffd_lattice_seal with continuity and faces */
+    /* The deformed control points become those of other, whatever its degrees, knots and rest are: its
+       deformed ones, if it moves something; and so do the deformed weights, if it has weights.
+       FFD_E_INVALID where it has another number of control points along u, v or w. */
+    FFD_OPERATION_DEFORMED,
+    /* The displacements become those of other; if its file has none, its control points are displacements. */
+    FFD_OPERATION_DEFORMED_OFFSETS
 } ffd_operation_kind;
 
 typedef struct ffd_operation {
@@ -736,40 +784,20 @@ typedef struct ffd_operation {
     bool keep_last;
     double place[3], matrix[16];
     int continuity; /* 1: C1 */
-    unsigned faces;
-    ffd_lattice_source other; /* read with the settings and meshes of the job */
+    unsigned faces; /* or FFD_FACES_CUT: those that the job's meshes cut, at least one */
+    /* Read with the settings and meshes of the job. The last two take a .csv or .npy too
+       (ffd_lattice_convert_run), an array (n, 3) in the order of the lattice. */
+    ffd_lattice_source other;
+    const char *block; /* of other, as in ffd_convert_desc */
 } ffd_operation;
 
-/* A job of `ffd lattice set`: reads a lattice, does operations to it, and writes it. */
-typedef struct ffd_lattice_set_desc {
-    size_t struct_size; /* sizeof(ffd_lattice_set_desc) in the caller's header */
-    /* The following members are those of ffd_lattice_refine_desc. set and meshes are also for the other
-       lattices: each value is that of a placeholder of one of them. */
-    ffd_lattice_source lattice;
-    const ffd_setting *set;
-    size_t set_count;
-    const ffd_source *meshes;
-    size_t mesh_count;
-    const char *const *only;
-    size_t only_count;
-    ffd_source reading;
-    const ffd_operation *operations; /* operation_count operations, at least one */
-    size_t operation_count;
-    int threads;
-    const char *output;
-    bool force;
-    ffd_output_set *output_set;
-    ffd_log_function log;
-    void *log_user;
-    ffd_sink_function sink;
-    void *sink_user;
-} ffd_lattice_set_desc;
-
-/* Sets desc to defaults. size: sizeof(ffd_lattice_set_desc) in the caller's header. */
-FFD_API void ffd_lattice_set_desc_init(ffd_lattice_set_desc *desc, size_t size);
-/* Runs the job. The output is complete or absent. Errors: those of ffd_lattice_load, of the operations, of
-   ffd_lattice_save, and of reading a mesh; FFD_E_ARGUMENT for meshes where no lattice goes round one. */
-FFD_API ffd_status ffd_lattice_set_run(const ffd_lattice_set_desc *desc, ffd_error *error);
+/* Runs the job of `ffd lattice set`: does count operations, at least one, to a lattice in this order. The
+   job's settings and meshes are also for the other lattices: each value is that of a placeholder of one of
+   them. The output is complete or absent. Errors: those of ffd_lattice_load, of the operations, of
+   ffd_lattice_save, and of reading a mesh; FFD_E_ARGUMENT for meshes where no lattice goes round one
+   and none is cut. */
+FFD_API ffd_status ffd_lattice_set_run(const ffd_author_desc *job, const ffd_operation *operations,
+                                       size_t count, ffd_error *error);
 
 /* Writes the figures of a result for people, as `ffd check` prints them, a line or two for each. lattice: the
    name of the lattice result->folds.witness.lattice, or NULL. *text ends with a line break and a 0 byte; the

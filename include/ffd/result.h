@@ -69,7 +69,8 @@ typedef enum ffd_tear_cause {
     FFD_TEAR_SEAM,       /* it crosses two coinciding rest faces of a lattice that are moved apart */
     FFD_TEAR_AXIS,       /* it meets a collapsed face of a lattice that is opened */
     FFD_TEAR_BORDER,     /* outside, where another part of the border becomes the nearest */
-    FFD_TEAR_OVERLAP     /* it leads from one part of a lattice that overlaps itself to another */
+    FFD_TEAR_OVERLAP,    /* it leads from one part of a lattice that overlaps itself to another */
+    FFD_TEAR_WEIGHTS     /* it is one of no length: vertices at one position have different weights */
 } ffd_tear_cause;
 
 /* Torn edges: one end moves and the other stays, where the displacement does not fade; or both move, but the
@@ -216,11 +217,37 @@ typedef struct ffd_morph_results {
     const struct ffd_job_result *results; /* NULL if the description has no room for them */
 } ffd_morph_results;
 
+/* The continuity C0, C1 or C2 with which what is deformed joins what is not, where faces of the lattices are
+   held (ffd_lattice_seal); NONE: no face is held. */
+typedef enum ffd_seam { FFD_SEAM_NONE = 0, FFD_SEAM_C0, FFD_SEAM_C1, FFD_SEAM_C2 } ffd_seam;
+
+/* Returns "none", "C0", "C1" or "C2"; NULL for another value. The string is static. Thread-safe. */
+FFD_API const char *ffd_seam_name(ffd_seam seam);
+
+/* The most lattices of a job, and so the most that are listed. */
+#define FFD_LATTICES_MOST 1024
+/* The faces that ffd_deform_desc.seam holds. */
+typedef struct ffd_seam_figures {
+    bool is_there; /* it is set, and the lattices were fitted */
+    ffd_seam continuity;
+    uint64_t count;                   /* of lattices; with morphs one of each target */
+    uint8_t faces[FFD_LATTICES_MOST]; /* of each: bit 2 a + side, as of ffd_lattice_seal; 0: none */
+} ffd_seam_figures;
+
 /* Wall clock time of each step. */
 typedef struct ffd_seconds {
     double read, embed, deform, judge, write;
     uint64_t room[2];
 } ffd_seconds;
+
+/* The weights of the selected vertices (ffd_deform_desc.weight). */
+typedef struct ffd_weight_figures {
+    bool is_there;      /* weights are given; if false, all other members are 0 */
+    uint64_t zero, one; /* vertices with the weight 0, and 1 */
+    uint64_t clamped;   /* vertices whose weight was below 0 or above 1 */
+    double mean;        /* NaN without vertices */
+    uint64_t room[2];
+} ffd_weight_figures;
 
 /* The names of the files that a job has written: first the output, as the caller has named it, then the files
    that belong to it (buffers, copied images and material libraries). ffd/job.h has its functions. One thread
@@ -295,6 +322,8 @@ typedef struct ffd_job_result {
     /* Of a job of a batch: why its picture has a frame of its own, unlike those of other jobs on its mesh:
        "far" or "options" (ffd_batch_desc.view); else NULL. */
     const char *own_frame;
+    ffd_weight_figures weight;
+    ffd_seam_figures seam;
 } ffd_job_result;
 
 #ifdef __cplusplus

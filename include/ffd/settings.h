@@ -22,9 +22,11 @@ typedef enum ffd_member_kind {
     FFD_MEMBER_LENGTH,   /* double: at least 0 and finite */
     FFD_MEMBER_DISTANCE, /* a length, and a bool: whether it is a fraction of another one */
     FFD_MEMBER_TIME,     /* double: seconds, at least 0 */
+    FFD_MEMBER_MOMENT,   /* double: a time in an animation, finite; and a bool: whether it is given */
     FFD_MEMBER_BYTES,    /* uint64_t: a size in bytes */
     FFD_MEMBER_GATES,    /* unsigned: ffd_gate flags, with the limits of fail_on */
     FFD_MEMBER_TEXT,     /* const char * */
+    FFD_MEMBER_SEAM,     /* a choice, and unsigned: faces of ffd_lattice_seal, or FFD_FACES_CUT */
     /* Lists: an array, and the count of its elements, size_t. */
     FFD_MEMBER_TEXTS,
     FFD_MEMBER_SELECTORS, /* of texts (ffd_selector_check) */
@@ -32,7 +34,9 @@ typedef enum ffd_member_kind {
     FFD_MEMBER_VALUES,    /* of ffd_setting */
     FFD_MEMBER_LATTICES,  /* of ffd_lattice_source */
     FFD_MEMBER_MORPHS,    /* of texts: a name for each lattice; NULL: it makes no morph target */
-    FFD_MEMBER_OBJECT     /* a pointer to something else, or a function */
+    FFD_MEMBER_OBJECT,    /* a pointer to something else, or a function */
+    FFD_MEMBER_WEIGHT /* const char *: a source of weights (ffd_weight_check); a manifest has the file that
+                         it may name relative to its own folder */
 } ffd_member_kind;
 
 /* What holds for a member, combined with |. */
@@ -41,14 +45,15 @@ typedef enum ffd_member_trait {
     FFD_MEMBER_IS_IDLE = 2  /* it changes no byte of what a job writes */
 } ffd_member_trait;
 
-/* A member of ffd_deform_desc. It is not set while it is 0, false or NULL, and a list while it is empty. */
+/* A member of ffd_deform_desc. It is not set while it is 0, false or NULL, a list while it is
+   empty, and a moment while its bool is false. */
 typedef struct ffd_member {
     const char *name;   /* "falloff", "input.space" */
     const char *option; /* in manifests and for the program: "space"; NULL: neither has it */
     ffd_member_kind kind;
     size_t offset;            /* in ffd_deform_desc */
-    size_t second;            /* offset of a list's count, or of a distance's bool; else 0 */
-    const char *const *words; /* of a choice or format: in the order of the enum; of gates: their names, with
+    size_t second;            /* offset of a list's count, a distance's bool, a seam's faces; or 0 */
+    const char *const *words; /* of a choice, format, seam: in the enum's order; of gates: their names, with
                                  "=" where a limit follows; ended by NULL; else NULL */
     unsigned traits;          /* ffd_member_trait flags */
 } ffd_member;

@@ -23,14 +23,14 @@ static bool mixes_morphs(const ffd_deform_desc *jobs)
     return jobs->morphs && named < jobs->lattice_count;
 }
 
-/* Whether there is a lattice in memory, or an embedding, which no other process can read. */
+/* Whether there is a lattice in memory, or an embedding or weights, which no other process can read. */
 static bool has_memory(const ffd_deform_desc *jobs)
 {
     size_t files = 0;
     while (files < jobs->lattice_count && jobs->lattices[files].path && !jobs->lattices[files].text.data &&
            !jobs->lattices[files].object)
         files++;
-    return files < jobs->lattice_count || jobs->embedding.bytes.data;
+    return files < jobs->lattice_count || jobs->embedding.bytes.data || jobs->weight.bytes.data;
 }
 
 static bool is_stream(const char *path)
@@ -54,7 +54,8 @@ static const char *find_misfit(const ffd_batch_desc *d, const ffd_deform_desc *j
          "{next} cannot be used with {in}, {csv}, {lattices}, {morphs} or {out_dir}"},
         {d->csv_ignore && !d->csv, "{csv_ignore} needs {csv}"},
         {!has_lines && !d->csv && jobs->lattice_count == 0, "{in} needs a lattice ({lattices})"},
-        {has_memory(jobs), "{lattices} and {embedding} of a batch are files: its processes read them"},
+        {has_memory(jobs),
+         "{lattices}, {embedding} and {weight} of a batch are files: its processes read them"},
         {mixes_morphs(jobs), "{lattices} cannot be used with {morphs}: each {morphs} names its own lattice"},
         {!has_lines && !d->csv && !d->out_dir && !in_place && !d->positions,
          "{in} needs {out_dir}, {in_place} or {positions}"},

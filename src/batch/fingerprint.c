@@ -150,6 +150,8 @@ ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const hash128 *co
         TRY_END(ffd_paths_add(&others, desc->lattices[i].path, error));
     if (desc->embedding.path)
         TRY_END(ffd_paths_add(&others, desc->embedding.path, error));
+    if (desc->weight.source && ffd_weight_file(desc->weight.source))
+        TRY_END(ffd_paths_add(&others, ffd_weight_file(desc->weight.source), error));
     TRY_END(add_files(&list, cache, &others, error));
     for (size_t i = 0; i < others.count; i++)
         TRY_END(ffd_paths_add(files, others.paths[i], error));

@@ -6,8 +6,8 @@
 
 /* Hashes everything that the output depends on: the job's content (batch_job.h), and the bytes
    of the mesh, its buffers, the images and material libraries copied with it, the lattices, the meshes that
-   these name, the embedding, and the shared box. Adds the files to `files`. cache: of the jobs before; may be
-   NULL. Errors: those of reading. */
+   these name, the embedding, the file of the weights, and the shared box. Adds the files to `files`. cache:
+   of the jobs before; may be NULL. Errors: those of reading. */
 ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const hash128 *content, hash_cache *cache,
                                   path_list *files, hash128 *hash, ffd_error *error);
 /* Hashes the output, its buffers, and the images and material libraries beside it. Errors: those of

@@ -50,6 +50,9 @@ static ffd_status check_reads(const own_file *file, const job_source_desc *jobs,
         TRY(check_read(file, &reads[i], error));
     for (size_t i = 0; defaults && i < defaults->lattice_count; i++)
         TRY(check_read(file, &(own_file){"a lattice", defaults->lattices[i].path}, error));
+    const char *const weights =
+        defaults && defaults->weight.source ? ffd_weight_file(defaults->weight.source) : NULL;
+    TRY(check_read(file, &(own_file){"the weights", weights}, error));
     return defaults && defaults->embedding.path
                ? check_read(file, &(own_file){"the embedding", defaults->embedding.path}, error)
                : FFD_OK;

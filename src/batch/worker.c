@@ -25,6 +25,7 @@
 #include "job/report/depfile.h"
 #include "job/report/output_set.h"
 #include "job/report/report.h"
+#include "lattice/file/lattice_time.h"
 #include "mesh/resource/copy_notes.h"
 #include <ffd/program.h>
 #include <ffd/version.h>
@@ -305,6 +306,7 @@ static ffd_status plan(const ffd_deform_desc *desc, ffd_error *error)
                                .count = desc->lattice_count,
                                .set = desc->set,
                                .set_count = desc->set_count,
+                               .time = desc->has_time ? &desc->time : NULL,
                                .mesh = &desc->input};
     if (desc->output)
         TRY(ffd_output_check_with_folder(desc->output, desc->force || desc->if_changed, error));
@@ -632,10 +634,44 @@ static ffd_status take_texts(batch_worker *worker, ffd_error *error)
     return desc->morph_results ? FFD_OK : ffd_fail_memory(error);
 }
 
+/* A column "time" of a table is the option of that name, where it is no placeholder. set: gets the values
+   without it; freed by the caller. */
+static ffd_status take_time(const wire_task *task, ffd_deform_desc *desc, ffd_setting **set, ffd_error *error)
+{
+    bool has_keys = false, has_placeholder = false;
+    size_t column = 0;
+    while (column < desc->set_count && strcmp(desc->set[column].name, "time") != 0)
+        column++;
+    if (!task->wishes.of_table || column == desc->set_count)
+        return FFD_OK;
+    for (size_t i = 0; i < desc->lattice_count; i++) {
+        bool keyed, named;
+        ffd_lattice_look(&desc->lattices[i], &desc->set[column], &keyed, &named);
+        has_keys = has_keys || keyed;
+        has_placeholder = has_placeholder || named;
+    }
+    if (!has_keys)
+        return FFD_OK;
+    if (has_placeholder)
+        return ffd_fail(error, FFD_E_INVALID,
+                        "the column \"time\" may be the time of the keys or a placeholder of that name: the "
+                        "lattices have both");
+    *set = ffd_alloc(desc->set_count, sizeof **set);
+    if (!*set)
+        return ffd_fail_memory(error);
+    memcpy(*set, desc->set, column * sizeof **set);
+    memcpy(*set + column, desc->set + column + 1, (desc->set_count - column - 1) * sizeof **set);
+    TRY(ffd_member_read(ffd_deform_member_of("time"), desc, desc->set[column].value, error));
+    desc->set = *set;
+    desc->set_count--;
+    return FFD_OK;
+}
+
 static ffd_status run_task(batch_worker *worker, const wire_task *task, wire_answer *answer,
                            ffd_job_result *result)
 {
-    ffd_deform_desc *const desc = &worker->desc;
+    ffd_deform_desc own = worker->desc, *const desc = &own; /* the report has the values of the row */
+    ffd_setting *set = NULL;
     job_row row = {.array = task->rows, .index = task->row, .dry = task->wishes.dry};
     job_log log = {&worker->log, desc->input.path, task->wishes.quiet, task->wishes.verbose};
     row.array.path = worker->texts.rows;
@@ -652,8 +688,11 @@ static ffd_status run_task(batch_worker *worker, const wire_task *task, wire_ans
     desc->output_set = worker->output_set;
     if (desc->threads == 0)
         desc->threads = task->threads;
-    const ffd_status status =
-        do_task(worker, task, worker->texts.picture, task->has_row ? &row : NULL, desc, answer, result);
+    ffd_status status = take_time(task, desc, &set, &result->error);
+    if (!status)
+        status =
+            do_task(worker, task, worker->texts.picture, task->has_row ? &row : NULL, desc, answer, result);
+    ffd_free(set);
     if (status) {
         worker->rule.size = 0;
         hint_at_columns(task, &result->error);

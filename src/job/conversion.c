@@ -189,7 +189,7 @@ static void warn(const mesh_model *model, const model_target *target, const mesh
     for (size_t k = 0; k < model->morph_count; k++) {
         mesh_log_label label;
         const mesh_log labelled = ffd_log_morph(log, model->morphs[k].name, &label);
-        if (!ffd_model_morphs(model, k))
+        if (!model->drops_still && !ffd_model_morphs(model, k))
             ffd_log_line(model->morph_count > 1 ? &labelled : log, FFD_LOG_WARNING,
                          "no vertex moves: all offsets of the morph target are 0");
     }

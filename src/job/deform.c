@@ -55,6 +55,8 @@ static ffd_status refuse_inputs(const ffd_deform_desc *desc, ffd_error *error)
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the input ({in_place} overwrites it)");
     if (ffd_job_reads_lattice(desc->lattices, desc->lattice_count, desc->output))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is a lattice of this command");
+    if (ffd_job_reads_weights(desc, desc->output))
+        return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the file of the weights ({weight})");
     return ffd_job_reads_embedding(desc, desc->output)
                ? ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the embedding that is to be reused")
                : FFD_OK;
@@ -161,11 +163,14 @@ static ffd_status make_rule(const deform_job *job, const path_list *outputs, pat
     const ffd_deform_desc *desc = job->desc;
     for (size_t i = 0; i < desc->lattice_count; i++) {
         const char *const path = ffd_lattice_file(&desc->lattices[i]);
-        TRY(path ? ffd_paths_add(inputs, path, error) : FFD_OK);
+        const bool is_again = path && i > 0 && desc->lattices[i - 1].path == desc->lattices[i].path;
+        TRY(path && !is_again ? ffd_paths_add(inputs, path, error) : FFD_OK);
     }
     const char *const embedding = desc->embedding.bytes.data ? NULL : desc->embedding.path;
     if (embedding && !ffd_file_is_stream(embedding))
         TRY(ffd_paths_add(inputs, embedding, error));
+    if (ffd_job_weight_file(desc))
+        TRY(ffd_paths_add(inputs, ffd_job_weight_file(desc), error));
     for (size_t i = 0; i < job->chain.count; i++)
         TRY(add_paths(inputs, &job->chain.links[i].box_files, error));
     if (desc->shared_box && goes_round_all(job))
@@ -393,11 +398,22 @@ static ffd_status write_output(deform_job *job, mesh_save_options *options, ffd_
     return status;
 }
 
+static ffd_status plan_animation(deform_job *job, mesh_save_options *options, ffd_error *error)
+{
+    if (!job->animation)
+        return FFD_OK;
+    TRY(job->animation->plan(job->animation, error));
+    options->sparse_targets = job->desc->morphs;
+    options->animated = &job->animation->figures;
+    return FFD_OK;
+}
+
 static ffd_status deform_and_save(deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     mesh_save_options options;
     TRY(restore_output(job->desc, error));
     TRY(resolve_output(job->desc, &options, error));
+    TRY(plan_animation(job, &options, error));
     TRY(check_morph(job, &options, error));
     TRY(ffd_morphs_begin(job, error));
     const unsigned needs = needs_only_positions(job->desc, &options) ? 0 : JOB_NEEDS_NORMALS;
@@ -415,39 +431,49 @@ static ffd_status deform_and_save(deform_job *job, ffd_job_result *result, ffd_e
 }
 
 /* Several morph targets share the locations of the vertices through a cache of the job's own. */
-static ffd_status cache_locations(ffd_deform_desc *desc, ffd_job_cache **cache, ffd_error *error)
+static ffd_status cache_locations(ffd_deform_desc *desc, bool animates, ffd_job_cache **cache,
+                                  ffd_error *error)
 {
     *cache = NULL;
-    if (!desc->morphs || ffd_job_cache_holds_meshes(desc->cache))
+    if ((!desc->morphs && !animates) || ffd_job_cache_holds_meshes(desc->cache))
         return FFD_OK;
     TRY(ffd_job_cache_create(cache, error));
     desc->cache = *cache;
     return FFD_OK;
 }
 
-static ffd_status run(const ffd_deform_desc *desc, ffd_job_result *result)
+static ffd_status run(const ffd_deform_desc *desc, job_animation *animation, ffd_job_result *result)
 {
     deform_job job;
     ffd_status status;
     TRY_END(ffd_deform_job_begin(&job, desc, false, result));
+    job.animation = animation;
     TRY_END(deform_and_save(&job, result, &result->error));
 end:
     ffd_morphs_end(&job);
     return ffd_deform_job_end(&job, status, result, NULL);
 }
 
+ffd_status ffd_deform_call(job_call *call, job_animation *animation)
+{
+    ffd_job_cache *cache = NULL;
+    ffd_status status;
+    TRY_END(cache_locations(&call->desc, animation, &cache, &call->result.error));
+    TRY_END(run(&call->desc, animation, &call->result));
+end:
+    ffd_job_cache_destroy(&cache);
+    return status;
+}
+
 ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
 {
     job_call call;
-    ffd_job_cache *cache = NULL;
     ffd_status status;
     TRY_END(ffd_job_call_begin(&call, desc, result, error));
     if (!ffd_deform_desc_writes(&call.desc)) /* normals are not written */
         call.desc.normals = FFD_NORMALS_KEEP;
-    TRY_END(cache_locations(&call.desc, &cache, &call.result.error));
-    TRY_END(run(&call.desc, &call.result));
+    TRY_END(ffd_deform_call(&call, NULL));
 end:
-    ffd_job_cache_destroy(&cache);
     return ffd_job_call_end(&call, status, error);
 }
 

@@ -10,11 +10,13 @@
 #include "job/chain/job_cache.h"
 #include "job/chain/lattice_memory.h"
 #include "job/chain/overlaps.h"
+#include "job/chain/seals.h"
 #include "job/deform_passes.h"
 #include "job/figures/figure_values.h"
 #include "job/input/deform_desc.h"
 #include "job/input/selection.h"
 #include "job/input/source.h"
+#include "job/job_fit.h"
 #include "job/judge/gates.h"
 #include "job/judge/warnings.h"
 #include "job/measure/behind.h"
@@ -22,12 +24,21 @@
 #include "job/measure/rig.h"
 #include "job/measure/symmetry.h"
 #include "job/measure/tear_figures.h"
-#include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
+#include "job/reads.h"
 #include "job/report/output_set.h"
 #include "lattice/file/lattice_source.h"
 #include "mesh/places.h"
 #include <string.h>
+
+/* Refuses to read what the run has written. */
+static ffd_status check_unwritten(const ffd_deform_desc *desc, const char *path, ffd_error *error)
+{
+    return desc->output_set && ffd_written_holds(&desc->output_set->files, path)
+               ? ffd_fail_file(error, FFD_E_EXISTS, path,
+                               "was written by this run already, under this name or another")
+               : FFD_OK;
+}
 
 static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
 {
@@ -37,10 +48,7 @@ static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
     if (strcmp(embedding, "-") == 0 &&
         (strcmp(desc->input.path, "-") == 0 || ffd_lattice_is_stream(&desc->lattices[0])))
         return ffd_fail(error, FFD_E_ARGUMENT, "standard input can be read only once");
-    if (desc->output_set && ffd_written_holds(&desc->output_set->files, embedding))
-        return ffd_fail_file(error, FFD_E_EXISTS, embedding,
-                             "was written by this run already, under this name or another");
-    return FFD_OK;
+    return check_unwritten(desc, embedding, error);
 }
 
 static bool is_complete(const ffd_deform_desc *desc)
@@ -62,6 +70,8 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT,
                         "{isa}: this build or this processor does not support the instruction set %s",
                         ffd_isa_name(desc->isa));
+    if (ffd_job_weight_file(desc))
+        TRY(check_unwritten(desc, ffd_job_weight_file(desc), error));
     return check_embedding(desc, error);
 }
 
@@ -118,6 +128,8 @@ ffd_status ffd_deform_job_load_chain(deform_job *job, unsigned needs, const chai
                                .count = desc->lattice_count,
                                .set = desc->set,
                                .set_count = desc->set_count,
+                               .time = desc->has_time ? &desc->time : NULL,
+                               .made = job->animation ? job->animation->lattices : NULL,
                                .mesh = &desc->input,
                                .derives = needs & JOB_NEEDS_DERIVATIVES,
                                .shared = desc->shared_box,
@@ -132,14 +144,14 @@ ffd_status ffd_deform_job_open(deform_job *job, unsigned needs, ffd_job_result *
     const ffd_deform_desc *desc = job->desc;
     const chain_outside outside = {desc->outside == FFD_OUTSIDE_EXTEND, desc->falloff, desc->snap,
                                    desc->snap_relative};
+    const chain_seal seal = {.layers = (int)desc->seam, .faces = desc->seam_faces};
     const bool only_positions = !(needs & JOB_NEEDS_NORMALS);
     const double start = ffd_clock_seconds();
-    if (desc->output_set && !desc->input.bytes.data &&
-        ffd_written_holds(&desc->output_set->files, desc->input.path))
-        return ffd_fail_file(error, FFD_E_EXISTS, desc->input.path,
-                             "was written by this run already, under this name or another");
+    if (!desc->input.bytes.data)
+        TRY(check_unwritten(desc, desc->input.path, error));
     ffd_status status;
     TRY_END(ffd_deform_job_load_chain(job, needs, &outside, desc->cache, error));
+    TRY_END(ffd_seals_begin(&job->chain, &seal, error));
     job->document = ffd_job_cache_take_mesh(desc->cache, desc, only_positions);
     job->document_is_cached = job->document;
     if (!job->document)
@@ -206,6 +218,49 @@ static ffd_status prepare_arrays(deform_job *job, figure_arrays *arrays, figure_
     return status;
 }
 
+ffd_status ffd_deform_job_load_weights(deform_job *job, ffd_error *error)
+{
+    const ffd_deform_desc *const desc = job->desc;
+    return !desc->weight.source || job->weights.values
+               ? FFD_OK
+               : ffd_vertex_weights_load(&desc->weight, job->document, ffd_source_name(&desc->input),
+                                         job->threads, &job->file_log, &job->weights, error);
+}
+
+/* Whether some part has normals that turn, or splats. */
+static bool turns_directions(const deform_job *job)
+{
+    const bool turns = job->desc->normals != FFD_NORMALS_KEEP;
+    for (size_t i = 0; i < job->document->part_count; i++) {
+        const mesh_part *const part = &job->document->parts[i];
+        if (part->has_ellipsoids || (turns && (part->normal_count || part->has_tangents)))
+            return true;
+    }
+    return false;
+}
+
+/* Finds how the weights change along the surface in the states whose gradients are wanted, and where they
+   tear what is judged. */
+static ffd_status survey_weights(deform_job *job, figure_arrays *arrays, ffd_error *error)
+{
+    const bool of_figures = ffd_figures_wanted(job) || arrays->has_faces;
+    const mesh_state judged = ffd_job_judged(job), written = ffd_job_written(job);
+    for (int state = MESH_STORED; state <= MESH_SHOWN && job->weights.values; state++) {
+        const bool is_wanted = ((mesh_state)state == written && turns_directions(job)) ||
+                               ((mesh_state)state == judged && of_figures);
+        const mesh_faces *const faces =
+            (mesh_state)state == judged && arrays->has_faces ? &arrays->faces : NULL;
+        if (is_wanted)
+            TRY(ffd_vertex_weights_find_slopes(&job->weights, job->document, (mesh_state)state,
+                                               (mesh_state)state == judged, faces, job->threads,
+                                               job->chain.isa, &arrays->budget, &job->file_log, error));
+    }
+    return job->weights.values && ffd_tear_figures_count_splits(job)
+               ? ffd_vertex_weights_find_splits(&job->weights, job->document, judged, job->threads,
+                                                &arrays->budget, error)
+               : FFD_OK;
+}
+
 /* Refuses what can be refused before vertices are processed, and allocates the results. */
 static ffd_status prepare(deform_job *job, figure_arrays *arrays, figure_arrays *stored, ffd_error *error)
 {
@@ -213,6 +268,7 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, figure_arrays 
     if (!job->details)
         TRY(check_unknown(job, error));
     TRY(ffd_mesh_warn(job->document, &job->file_log, error));
+    TRY(ffd_deform_job_load_weights(job, error));
     job->recomputes = job->desc->normals == FFD_NORMALS_RECOMPUTE && has_normals(job->document);
     const mesh_results results = {.state = ffd_job_written(job),
                                   .directions = job->desc->normals != FFD_NORMALS_KEEP,
@@ -226,6 +282,7 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, figure_arrays 
     arrays->budget = job->document->budget;
     TRY(ffd_lattice_memory_share(&job->chain, &arrays->budget, error));
     TRY(prepare_arrays(job, arrays, stored, error));
+    TRY(survey_weights(job, arrays, error));
     if (job->details)
         TRY(ffd_details_begin(job->details, (size_t)ffd_mesh_vertex_count(job->document), &arrays->budget,
                               error));
@@ -233,16 +290,6 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, figure_arrays 
     job->threads =
         ffd_pass_threads(&arrays->budget, job->check ? ffd_chain_layers(&job->chain) : 0, job->threads);
     return FFD_OK;
-}
-
-static ffd_status locate(deform_job *job, ffd_error *error)
-{
-    TRY(ffd_chain_fit(&job->chain, job->document, job->threads, error));
-    if (!job->desc->embedding.path)
-        return FFD_OK;
-    const chain_link *const link = &job->chain.links[0];
-    return ffd_embedding_reuse(&job->desc->embedding, job->document, link->lattice, link->snap, job->threads,
-                               &job->embedding, error);
 }
 
 /* Whether nodes and other places matter: conversions and arrays of positions do not contain them. */
@@ -352,7 +399,8 @@ static ffd_status pass_and_judge(deform_job *job, figure_arrays *arrays, figure_
     result->seconds.read += prepared - start;
     TRY(ready);
     TRY(ffd_deadline_check(error));
-    TRY(locate(job, error));
+    TRY(ffd_job_fit(job, error));
+    ffd_job_note_seam(job, result);
     TRY(ffd_symmetry_warn(job, error));
     TRY(ffd_tear_figures_prepare(job, arrays, error));
     TRY(move_rig(job, error));
@@ -361,6 +409,7 @@ static ffd_status pass_and_judge(deform_job *job, figure_arrays *arrays, figure_
     TRY(passed);
     ffd_deadline_done(JOB_HAS_PASSED);
     ffd_result_fill(result, &job->totals, ffd_clock_seconds() - prepared);
+    result->weight = job->weights.figures;
     TRY(find_left(job, result, error));
     TRY(judge(job, arrays, result, error));
     ffd_deadline_done(JOB_IS_JUDGED);
@@ -376,8 +425,8 @@ static ffd_status warn(const deform_job *job, const ffd_job_result *result, ffd_
     ffd_result_warn(&job->totals, &job->chain, true, &job->log);
     TRY(ffd_places_warn(&job->chain, &job->log, &falls_short, error));
     if (warns_if_still(job) && !(falls_short && job->totals.moved == 0))
-        ffd_still_warn(&job->totals, &job->chain, &result->bounds.before, job->desc->as_morph != NULL,
-                       !job->check, &job->log);
+        ffd_still_warn(&job->totals, &job->chain, &job->weights.figures, &result->bounds.before,
+                       job->desc->as_morph != NULL, !job->check, &job->log);
     warn_of_left(job, result);
     if (job->totals.vertices == 0)
         ffd_log_line(&job->file_log, FFD_LOG_WARNING, "%s",
@@ -389,6 +438,13 @@ static ffd_status warn(const deform_job *job, const ffd_job_result *result, ffd_
         ffd_tears_warn(result, job->desc->only_count > 0, &job->log);
     }
     return FFD_OK;
+}
+
+static void forget_locations(deform_job *job)
+{
+    ffd_free(job->locations);
+    job->locations = NULL;
+    job->is_located = false;
 }
 
 ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error *error)
@@ -406,6 +462,7 @@ end:
     ffd_rig_places_free(&job->rig);
     ffd_free(job->kept);
     ffd_free(job->positions);
+    forget_locations(job);
     job->kept = NULL;
     job->positions = NULL;
     return status;
@@ -420,6 +477,8 @@ ffd_status ffd_deform_job_end(deform_job *job, ffd_status status, ffd_job_result
     if (status && status != FFD_E_ARGUMENT)
         ffd_fail_name_file(&result->error, ffd_source_name(&job->desc->input));
     ffd_embedding_close(&job->embedding);
+    ffd_vertex_weights_free(&job->weights);
+    forget_locations(job);
     ffd_model_free(&job->base);
     if (!status)
         ffd_job_cache_put_mesh(job->desc->cache, job->desc, job->document);

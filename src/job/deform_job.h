@@ -3,6 +3,7 @@
 #ifndef FFD_JOB_DEFORM_JOB_H
 #define FFD_JOB_DEFORM_JOB_H
 
+#include "job/job_call.h"
 #include "job/measure/job_state.h"
 
 /* Clears result, checks the options that do not concern the output, and takes desc. Errors, stored in result:
@@ -25,12 +26,20 @@ ffd_status ffd_deform_job_load_chain(deform_job *job, unsigned needs, const chai
 /* Opens the lattices and the mesh. needs: a set of JOB_NEEDS. */
 ffd_status ffd_deform_job_open(deform_job *job, unsigned needs, ffd_job_result *result, ffd_error *error);
 
+/* Loads the weights of the vertices, if any are given, unless they are loaded. The mesh must be one that can
+   be deformed (ffd_mesh_check). Errors: those of ffd_vertex_weights_load. */
+ffd_status ffd_deform_job_load_weights(deform_job *job, ffd_error *error);
+
 /* Deforms the vertices, fills result with the figures and judges them. The document can be saved
    afterwards. */
 ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error *error);
 
 /* Frees the job's memory, stores the outcome in result and in *error (may be NULL), and returns it. */
 ffd_status ffd_deform_job_end(deform_job *job, ffd_status status, ffd_job_result *result, ffd_error *error);
+
+/* Runs a call of `ffd deform` that has begun; its failure is in call->result. animation: NULL: none
+   (deform.c). */
+ffd_status ffd_deform_call(job_call *call, job_animation *animation);
 
 /* Fills desc->output_list with the names of the files that a job writes, without doing it; the mesh is opened
    through desc->cache (deform.c). Errors: those of opening the mesh and the lattices, and of the checks of

@@ -1,4 +1,6 @@
 #include "job/deform_passes.h"
+#include "base/memory/memory.h"
+#include "job/chain/chain_load.h"
 #include "job/chain/job_cache.h"
 #include "job/chain/pace.h"
 #include "job/input/deform_desc.h"
@@ -30,6 +32,7 @@ static mesh_pass describe(const deform_job *job, mesh_state state, chain_pace *p
                        .is_converted = job->converts,
                        .chain = &job->chain,
                        .links = job->chain.count,
+                       .weights = ffd_job_weights(job),
                        .threads = job->threads,
                        .pace = pace,
                        .write = true,
@@ -60,21 +63,57 @@ static ffd_status recompute(deform_job *job, mesh_state state, const figure_arra
                                  counts, error);
 }
 
+/* Allocates the locations that the job keeps itself; leaves NULL where memory does not suffice. */
+static void make_locations(deform_job *job)
+{
+    const uint64_t count = ffd_mesh_vertex_count(job->document);
+    if (!ffd_budget_check(&job->document->budget, count, sizeof *job->locations, NULL))
+        job->locations = ffd_alloc_whole((size_t)count, sizeof *job->locations);
+}
+
+void ffd_pass_take_locations(deform_job *job, bool for_later, mesh_pass *pass)
+{
+    ffd_job_cache *const cache = job->desc->cache;
+    const chain_link *const link = &job->chain.links[0];
+    pass->locations = NULL;
+    pass->is_located = false;
+    if (job->desc->embedding.path)
+        return;
+    if (job->chain.count == 1 && !job->forgets_locations && ffd_job_cache_holds_meshes(cache)) {
+        const hash128 rest = located_in(link);
+        pass->locations =
+            ffd_job_cache_locations(cache, job->document, job->document_is_cached, &rest, &pass->is_located);
+    } else if (job->chain.count == 1 && !job->forgets_locations) {
+        if (for_later && !job->locations && ffd_link_searches(link))
+            make_locations(job);
+        pass->locations = job->locations;
+        pass->is_located = job->locations && job->is_located;
+    }
+    if (!pass->is_located)
+        ffd_job_cache_count_search(cache);
+}
+
+void ffd_pass_keep_locations(deform_job *job, const mesh_pass *pass)
+{
+    if (!pass->locations || pass->is_located)
+        return;
+    if (pass->locations == job->locations) {
+        job->is_located = true;
+        return;
+    }
+    ffd_job_cache_locations_filled(job->desc->cache);
+    job->document_is_cached = true; /* a later pass of this job knows them, too */
+}
+
 /* Runs a pass over the shapes that the file stores, whose locations an embedding or an earlier pass may know.
    It also gives the positions to the caller. */
 static ffd_status pass_over_stored(deform_job *job, mesh_pass *pass, pass_totals *totals, ffd_error *error)
 {
-    const bool keeps = job->chain.count == 1 && !job->desc->embedding.path && !job->forgets_locations;
-    ffd_job_cache *const cache = keeps ? job->desc->cache : NULL;
-    const hash128 rest = located_in(&job->chain.links[0]);
-    pass->locations =
-        ffd_job_cache_locations(cache, job->document, job->document_is_cached, &rest, &pass->is_located);
     pass->embedding = job->desc->embedding.path ? &job->embedding : NULL;
     pass->deformed = pass->deformed ? pass->deformed : job->positions;
-    if (!pass->is_located && !job->desc->embedding.path)
-        ffd_job_cache_count_search(job->desc->cache);
+    ffd_pass_take_locations(job, false, pass);
     TRY(ffd_pass_over_mesh(pass, totals, error));
-    ffd_job_cache_locations_filled(cache);
+    ffd_pass_keep_locations(job, pass);
     if (job->positions && pass->deformed != job->positions)
         memcpy(job->positions, pass->deformed,
                (size_t)ffd_mesh_vertex_count(job->document) * 3 * sizeof *job->positions);

@@ -6,6 +6,13 @@
 
 #include "job/measure/figures.h"
 #include "job/measure/job_state.h"
+#include "job/pass/mesh_pass.h"
+
+/* Lets a pass over stored vertices use their locations in the only link, if an earlier job or pass has found
+   them, or fill them for a later one. for_later: keep them in any case where a second search is slow. */
+void ffd_pass_take_locations(deform_job *job, bool for_later, mesh_pass *pass);
+/* Notes that the pass has filled them. */
+void ffd_pass_keep_locations(deform_job *job, const mesh_pass *pass);
 
 /* Sends the mesh through the chain: fills the results, job->totals, job->positions and the arrays, and
    recomputes normals. figures: of the shape that is judged. stored: of the base, if normals are recomputed

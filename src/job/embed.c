@@ -147,7 +147,7 @@ static ffd_status open_mesh(const ffd_embed_desc *desc, embedding *made, int thr
     TRY(ffd_source_open(&desc->input, threads, &made->document, error));
     TRY(ffd_mesh_check(made->document, error));
     TRY(ffd_mesh_warn(made->document, &log, error));
-    return ffd_chain_fit(&made->chain, made->document, threads, error);
+    return ffd_chain_fit(&made->chain, made->document, threads, NULL, error);
 }
 
 /* Allocates and fills the arrays. */

@@ -120,6 +120,20 @@ static void write_parameters(const lattice_spec *spec, json_text *json)
     ffd_json_end(json, '}');
 }
 
+/* Writes how many keys there are, and from when to when, if there are any. */
+static void write_keys(const lattice_spec *spec, json_text *json)
+{
+    const spec_keys *const keys = &spec->keys;
+    if (keys->count == 0)
+        return;
+    ffd_json_object(json, "keys", false);
+    ffd_json_string(json, "kind", keys->kind == KEYS_VALUES ? "set" : "points");
+    ffd_json_count(json, "count", keys->count);
+    ffd_json_number(json, "first", keys->list[0].time);
+    ffd_json_number(json, "last", keys->list[keys->count - 1].time);
+    ffd_json_end(json, '}');
+}
+
 static void write_moves(const ffd_lattice *lattice, json_text *json)
 {
     static const char *const unknown[] = {"moved", "largest_move", "weights_moved"};
@@ -255,6 +269,7 @@ ffd_status ffd_info_lattice(const ffd_info_desc *desc, json_text *json, ffd_erro
     ffd_json_string(json, "rest", rest_word(lattice->spec));
     write_parameters(lattice->spec, json);
     write_open(&lattice->spec->open, json);
+    write_keys(lattice->spec, json);
     ffd_status status;
     TRY_END(ffd_info_box(lattice, &desc->file, fits, &box, json, error));
     ffd_info_layers(lattice, &box, json);

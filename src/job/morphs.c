@@ -42,10 +42,24 @@ end:
     return status;
 }
 
+/* Takes the content of a clip that was made for the job. */
+static ffd_status take_clip(deform_job *job, morph_clip *clip, ffd_error *error)
+{
+    job->clips = ffd_alloc(1, sizeof *job->clips);
+    if (!job->clips)
+        return ffd_fail_memory(error);
+    job->clip_count = 1;
+    job->clips[0] = *clip;
+    *clip = (morph_clip){0};
+    return FFD_OK;
+}
+
 ffd_status ffd_morphs_begin(deform_job *job, ffd_error *error)
 {
     const ffd_deform_desc *const desc = job->desc;
     TRY(desc->morphs ? check_names(desc, error) : FFD_OK);
+    if (job->animation && job->animation->clip)
+        return take_clip(job, job->animation->clip, error);
     if (desc->clip_count == 0)
         return FFD_OK;
     job->clips = ffd_alloc_zero(desc->clip_count, sizeof *job->clips);
@@ -91,6 +105,7 @@ static ffd_status begin(deform_job *job, ffd_error *error)
         return FFD_OK;
     job->base.budget = &job->document->budget;
     const ffd_status status = job->document->format->model(job->document, MESH_STORED, &job->base, error);
+    job->base.drops_still = job->animation;
     job->base.clips = job->clips;
     job->base.clip_count = job->clip_count;
     return status;
@@ -132,6 +147,22 @@ static void name_target(const char *name, size_t count, ffd_error *error)
     memcpy(error->message, message, sizeof message);
 }
 
+/* A log of one target of an animation: what was said of an earlier one, as of vertices that are outside, is
+   true of all. */
+typedef struct said_log {
+    mesh_log log;
+    intern_table *said;
+} said_log;
+
+static void say_once(void *user, ffd_log_level level, const char *line)
+{
+    const said_log *const once = user;
+    const uint32_t before = once->said->count;
+    uint32_t index;
+    if (!ffd_intern(once->said, line, strlen(line), &index) || index == before)
+        once->log.function(once->log.user, level, line);
+}
+
 /* Runs the pass for one target. Its warnings name it; warnings about the file come with the first one
    only. */
 static ffd_status add_target(deform_job *job, size_t k, const morph_steps *steps, const mesh_log *log,
@@ -147,6 +178,9 @@ static ffd_status add_target(deform_job *job, size_t k, const morph_steps *steps
     ffd_result_clear(result);
     job->desc = &one;
     job->log = all->lattice_count > 1 ? ffd_log_morph(log, name, &label) : *log;
+    said_log once = {job->log, job->animation ? &job->animation->said : NULL};
+    if (job->animation)
+        job->log = (mesh_log){job->log.function ? say_once : NULL, &once};
     job->file_log = k == 0 ? *log : (mesh_log){0};
     lattice_chain whole = job->chain;
     job->chain = ffd_chain_link_alone(&whole, k);
@@ -224,9 +258,22 @@ ffd_status ffd_morphs_run_each(deform_job *job, const morph_steps *steps, ffd_jo
     return status;
 }
 
+/* Normals do not add up as positions do. */
+static void warn_of_normals(const deform_job *job)
+{
+    size_t with_normals = 0;
+    for (size_t i = 0; i < job->document->part_count; i++)
+        with_normals += job->document->parts[i].normal_count > 0;
+    if (job->animation && with_normals > 0 && job->desc->normals != FFD_NORMALS_KEEP)
+        ffd_log_line(&job->log, FFD_LOG_WARNING,
+                     "normals are those of each morph target alone, mixed by its weight: an approximation "
+                     "between them ({normals=keep} leaves them out)");
+}
+
 ffd_status ffd_morphs_run(deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     const morph_steps steps = {.before = keep_base, .after = keep_shape};
+    warn_of_normals(job);
     TRY(keep_clips(job, error));
     TRY(begin(job, error));
     return ffd_morphs_run_each(job, &steps, result, error);

@@ -75,6 +75,17 @@ bool ffd_job_reads_embedding(const ffd_deform_desc *desc, const char *path)
     return embedding->path && !embedding->bytes.data && ffd_file_same(path, embedding->path);
 }
 
+const char *ffd_job_weight_file(const ffd_deform_desc *desc)
+{
+    return desc->weight.source && !desc->weight.bytes.data ? ffd_weight_file(desc->weight.source) : NULL;
+}
+
+bool ffd_job_reads_weights(const ffd_deform_desc *desc, const char *path)
+{
+    const char *const file = ffd_job_weight_file(desc);
+    return file && ffd_file_same(path, file);
+}
+
 bool ffd_job_reads_lattice(const ffd_lattice_source *lattices, size_t count, const char *path)
 {
     for (size_t i = 0; i < count && lattices; i++) {

@@ -10,6 +10,10 @@
 bool ffd_job_reads_mesh(const ffd_source *source, const char *path);
 /* Returns whether the embedding of a job is that file. */
 bool ffd_job_reads_embedding(const ffd_deform_desc *desc, const char *path);
+/* Returns the file of the job's weights; NULL: there is none. */
+const char *ffd_job_weight_file(const ffd_deform_desc *desc);
+/* Returns whether it is that file. */
+bool ffd_job_reads_weights(const ffd_deform_desc *desc, const char *path);
 /* Returns whether one of the lattices (NULL: there are none) is the file at a path. */
 bool ffd_job_reads_lattice(const ffd_lattice_source *lattices, size_t count, const char *path);
 /* Refuses (FFD_E_EXISTS) an output in the place of a file that a mesh names: a buffer, an image, a material

@@ -3,7 +3,7 @@
 #include "base/text/number.h"
 #include "base/text/words.h"
 #include "mesh/bounds.h"
-#include "mesh/positions.h"
+#include "mesh/twins.h"
 #include "picture/image/image.h"
 #include "view/view_cages.h"
 #include "view/view_dots.h"
@@ -468,7 +468,7 @@ static ffd_status prepare(picture_work *w)
     if (!w->twins || !w->white)
         return ffd_fail_memory(w->error);
     log_omissions(w);
-    TRY(ffd_positions_twins(scene->before, scene->vertex_count, w->twins, w->error));
+    TRY(ffd_positions_twins(scene->before, scene->vertex_count, options->threads, w->twins, w->error));
     TRY(look_at(w));
     if (options->frame)
         w->frame = *options->frame;

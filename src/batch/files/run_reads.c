@@ -38,7 +38,8 @@ typedef struct named_read {
     bool is_lattice;
 } named_read;
 
-/* Returns one of these, by its index: the mesh, the lattices, the embedding. path NULL: behind the last. */
+/* Returns one of these, by its index: the mesh, the lattices, the weights, the embedding. path NULL: behind
+   the last. */
 static named_read read_of(const batch_job *job, size_t index)
 {
     const ffd_deform_desc *const desc = &job->desc;
@@ -46,7 +47,10 @@ static named_read read_of(const batch_job *job, size_t index)
         return (named_read){"the mesh ", desc->input.path, true, false};
     if (index <= desc->lattice_count)
         return (named_read){"the lattice ", desc->lattices[index - 1].path, true, true};
-    const bool is_last = index == desc->lattice_count + 1;
+    const char *const weights = desc->weight.source ? ffd_weight_file(desc->weight.source) : NULL;
+    if (weights && index == desc->lattice_count + 1)
+        return (named_read){"the weights ", weights, false, false};
+    const bool is_last = index == desc->lattice_count + (weights ? 2 : 1);
     return (named_read){"the embedding ", is_last ? desc->embedding.path : NULL, false, false};
 }
 

@@ -10,23 +10,19 @@
 #include "mesh/mesh_log.h"
 #include <ffd/job.h>
 
-/* The members that their descriptions share (ffd_lattice_refine_desc). */
+/* A job, as the library has it. */
 typedef struct author_job {
-    const ffd_lattice_source *lattices; /* lattice_count: the one that changes, then others that it needs */
+    ffd_author_desc desc;               /* what is in memory has names */
+    ffd_source *meshes;                 /* desc.meshes, which belong to the job */
+    const ffd_lattice_source *lattices; /* lattice_count: desc.lattice, then others that the job needs */
     size_t lattice_count;
-    const ffd_setting *set;
-    size_t set_count;
-    const ffd_source *meshes;
-    size_t mesh_count;
-    const char *const *only;
-    size_t only_count;
-    const ffd_source *reading;
-    const char *output;
-    bool force;
-    ffd_output_set *output_set;
+    const ffd_lattice_source *tables; /* table_count lattices in other formats, which it reads itself */
+    size_t table_count;
+    bool writes_formats;        /* the output may be of another format than JSON: the job checks its ending */
+    const ffd_shared_box *laid; /* the box that lattices go round; NULL: that of the meshes */
+    bool meshes_cut; /* the meshes also tell which faces are held, so that no box has to go round them */
     mesh_log log;
-    ffd_sink_function sink;
-    void *sink_user;
+    job_memory memory;
 } author_job;
 
 /* The lattices that are read. All zeros: none yet. */
@@ -37,10 +33,10 @@ typedef struct author_input {
     memory_budget memory; /* what is left for the one that is made */
 } author_input;
 
-/* Registers meshes that are in memory under paths, in a copy of their array, which the caller frees; NULL:
-   there are none. */
-ffd_status ffd_author_take_meshes(job_memory *memory, const ffd_source *meshes, size_t count,
-                                  ffd_source **copy, ffd_error *error);
+/* Takes a caller's description. Call ffd_author_leave in every case. Errors: FFD_E_ARGUMENT, FFD_E_MEMORY. */
+ffd_status ffd_author_take(const ffd_author_desc *callers, author_job *job, ffd_error *error);
+/* Frees what belongs to the job. Returns status, or the failure of a callback that reads. */
+ffd_status ffd_author_leave(author_job *job, ffd_status status, ffd_error *error);
 /* Checks the description and the output. Errors: those of ffd_lattice_refine_run before it reads. */
 ffd_status ffd_author_check(const author_job *job, ffd_error *error);
 /* Checks the output, reads the lattices, and lays their boxes round the meshes. Errors: those of

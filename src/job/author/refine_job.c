@@ -1,7 +1,6 @@
 /* refine_job.c - the job of `ffd lattice refine`. */
 #include "author/difference.h"
 #include "author/refine.h"
-#include "base/memory/memory.h"
 #include "base/struct_size.h"
 #include "base/system/clock.h"
 #include "base/system/thread.h"
@@ -10,12 +9,6 @@
 #include "lattice/file/lattice_source.h"
 #include <inttypes.h>
 #include <string.h>
-
-void ffd_lattice_refine_desc_init(ffd_lattice_refine_desc *desc, size_t size)
-{
-    const ffd_lattice_refine_desc defaults = {.struct_size = sizeof defaults};
-    ffd_struct_give(&defaults, sizeof defaults, desc, size);
-}
 
 static void note_shape(const ffd_lattice *lattice, size_t size[3], int degree[3])
 {
@@ -46,27 +39,28 @@ static void tell(const author_job *job, const ffd_refine_result *r)
 }
 
 /* Measures how far the maps differ, by as many threads as the memory that is left allows. */
-static ffd_status measure(const ffd_lattice_refine_desc *desc, const author_input *input,
-                          const ffd_lattice *made, double *largest, ffd_error *error)
+static ffd_status measure(const author_job *job, const author_input *input, const ffd_lattice *made,
+                          double *largest, ffd_error *error)
 {
     const uint64_t each = ffd_lattice_difference_bytes(input->lattices[0], made);
-    const int threads = ffd_budget_threads(&input->memory, ffd_threads_for(desc->threads, UINT64_MAX), each);
+    const int threads =
+        ffd_budget_threads(&input->memory, ffd_threads_for(job->desc.threads, UINT64_MAX), each);
     TRY(ffd_budget_check(&input->memory, 1, each, error));
     return ffd_lattice_difference(input->lattices[0], made, threads, largest, error);
 }
 
-/* Makes the lattice and measures it. */
-static ffd_status make(const ffd_lattice_refine_desc *desc, author_input *input, ffd_lattice **made,
-                       ffd_refine_result *result, ffd_error *error)
+/* Makes the lattice and, if asked to, measures it. */
+static ffd_status make(const author_job *job, const ffd_refine_desc *refine, author_input *input,
+                       ffd_lattice **made, ffd_refine_result *result, bool measures, ffd_error *error)
 {
-    TRY(take_memory_of(input->lattices[0], desc->refine, input, error));
-    TRY(ffd_lattice_refine(input->lattices[0], desc->refine, made, error));
+    TRY(take_memory_of(input->lattices[0], refine, input, error));
+    TRY(ffd_lattice_refine(input->lattices[0], refine, made, error));
     note_shape(*made, result->size, result->degree);
-    return desc->measure ? measure(desc, input, *made, &result->largest_difference, error) : FFD_OK;
+    return measures ? measure(job, input, *made, &result->largest_difference, error) : FFD_OK;
 }
 
-static ffd_status refine(const author_job *job, const ffd_lattice_refine_desc *desc,
-                         ffd_refine_result *result, ffd_error *error)
+static ffd_status run(const author_job *job, const ffd_refine_desc *refine, ffd_refine_result *result,
+                      bool measures, ffd_error *error)
 {
     const double start = ffd_clock_seconds();
     author_input input = {0};
@@ -76,64 +70,34 @@ static ffd_status refine(const author_job *job, const ffd_lattice_refine_desc *d
     note_shape(input.lattices[0], result->size_before, result->degree_before);
     const double read = ffd_clock_seconds();
     result->seconds.read = read - start;
-    TRY_END(make(desc, &input, &made, result, error));
+    TRY_END(make(job, refine, &input, &made, result, measures, error));
     const double refined = ffd_clock_seconds();
     result->seconds.refine = refined - read;
     TRY_END(ffd_author_write(job, made, error));
     result->seconds.write = ffd_clock_seconds() - refined;
-    if (desc->measure)
+    if (measures)
         tell(job, result);
 end:
     if (status && status != FFD_E_ARGUMENT)
-        ffd_fail_name_file(error, desc->lattice.path);
+        ffd_fail_name_file(error, job->desc.lattice.path);
     ffd_lattice_destroy(&made);
     ffd_author_end(&input);
     return status;
 }
 
-static ffd_status run(ffd_lattice_refine_desc *desc, job_memory *memory, ffd_refine_result *result,
-                      ffd_error *error)
+ffd_status ffd_lattice_refine_run(const ffd_author_desc *callers, const ffd_refine_desc *refine,
+                                  ffd_refine_result *callers_result, ffd_error *error)
 {
-    ffd_source *meshes = NULL;
-    ffd_status status;
-    TRY_END(desc->refine ? ffd_threads_check(desc->threads, error)
-                         : ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete"));
-    TRY_END(ffd_in_memory_lattice(&desc->lattice, "the lattice", "lattice", error));
-    TRY_END(ffd_author_take_meshes(memory, desc->meshes, desc->mesh_count, &meshes, error));
-    TRY_END(ffd_in_memory_output(desc->sink, desc->output, error));
-    const author_job job = {.lattices = &desc->lattice,
-                            .lattice_count = 1,
-                            .set = desc->set,
-                            .set_count = desc->set_count,
-                            .meshes = meshes,
-                            .mesh_count = desc->mesh_count,
-                            .only = desc->only,
-                            .only_count = desc->only_count,
-                            .reading = &desc->reading,
-                            .output = desc->output,
-                            .force = desc->force,
-                            .output_set = desc->output_set,
-                            .log = {desc->log, desc->log_user},
-                            .sink = desc->sink,
-                            .sink_user = desc->sink_user};
-    TRY_END(refine(&job, desc, result, error));
-end:
-    ffd_free(meshes);
-    return status;
-}
-
-ffd_status ffd_lattice_refine_run(const ffd_lattice_refine_desc *callers, ffd_refine_result *callers_result,
-                                  ffd_error *error)
-{
-    ffd_lattice_refine_desc desc;
     ffd_refine_result result = {.struct_size = sizeof result, .largest_difference = -1};
-    ffd_lattice_refine_desc_init(&desc, sizeof desc);
-    TRY(ffd_struct_take(&desc, sizeof desc, callers, "ffd_lattice_refine_desc", error));
+    author_job job;
+    ffd_status status;
     if (callers_result)
         TRY(ffd_struct_check(sizeof result, callers_result, "ffd_refine_result", error));
-    job_memory memory = {0};
-    const ffd_status status = run(&desc, &memory, &result, &result.error);
-    result.status = ffd_in_memory_end(&memory, status, &result.error);
+    TRY_END(ffd_author_take(callers, &job, &result.error));
+    TRY_END(refine ? run(&job, refine, &result, callers_result, &result.error)
+                   : ffd_fail(&result.error, FFD_E_ARGUMENT, "the job's description is not complete"));
+end:
+    result.status = ffd_author_leave(&job, status, &result.error);
     if (result.status && error)
         *error = result.error;
     if (callers_result)

@@ -110,7 +110,7 @@ ffd_status ffd_blocks_part(const block_place *own, const block_place *next, cons
     for (int b = 0; b < 2 && !found; b++)
         TRY(find_there(both[1 - b]->link, at[b], off, uvw[1 - b], &found, error));
     for (int b = 0; b < 2; b++) {
-        ffd_displacement(both[b]->link->lattice, uvw[b], delta[b], gradient);
+        ffd_displacement(ffd_link_mover(both[b]->link), uvw[b], delta[b], gradient);
         limit += change_of(gradient, off);
     }
     const double length = distance(delta[0], delta[1]);

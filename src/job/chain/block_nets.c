@@ -196,7 +196,7 @@ ffd_status ffd_blocks_join(const lattice_chain *chain, bool *join, ffd_error *er
     net_work work = {.chain = chain, .agree = true};
     *join = false;
     for (size_t l = 0; l < chain->count; l++)
-        if (!chain->links[l].is_convex || chain->links[l].lattice->weights_moved)
+        if (!chain->links[l].is_convex || ffd_link_mover(&chain->links[l])->weights_moved)
             return FFD_OK;
     work.faces = ffd_alloc_zero(chain->count, FACES * sizeof *work.faces);
     work.groups = ffd_alloc(chain->count, sizeof *work.groups);
@@ -205,7 +205,7 @@ ffd_status ffd_blocks_join(const lattice_chain *chain, bool *join, ffd_error *er
     for (size_t l = 0; l < chain->count; l++) {
         work.groups[l] = (uint32_t)l;
         for (int n = 0; n < FACES && work.agree; n++)
-            work.agree = make_face(chain->links[l].lattice, n, &work.faces[FACES * l + (size_t)n]);
+            work.agree = make_face(ffd_link_mover(&chain->links[l]), n, &work.faces[FACES * l + (size_t)n]);
     }
     for (size_t l = 1; l < chain->count && work.agree; l++) {
         work.block = (uint32_t)l;

@@ -335,7 +335,7 @@ static ffd_status extend(const block_work *work, size_t i, ffd_error *error)
     ffd_mark_owner(chain, run, i, block | OWNER_NEAREST);
     ffd_mark_part(chain, block, run, i, nearest.uvw);
     run->outcomes[i].extended = nearest.distance < reach || !(falloff > 0);
-    const ffd_lattice *const lattice = chain->links[block].lattice;
+    const ffd_lattice *const lattice = ffd_link_mover(&chain->links[block]);
     double *const gradient = run->gradient && !run->only_turns ? run->gradient + 9 * i : NULL;
     run->outcomes[i].moved =
         ffd_extension_displacement(lattice, &nearest, falloff, run->delta + 3 * i, gradient);
@@ -403,7 +403,7 @@ static void displace(const block_work *work)
     for (size_t k = 0; k < count; k += batch.count) {
         batch.which = sorted + k;
         batch.count = same_block(scratch->owners, batch.which, count - k);
-        const ffd_lattice *const lattice = chain->links[scratch->owners[sorted[k]]].lattice;
+        const ffd_lattice *const lattice = ffd_link_mover(&chain->links[scratch->owners[sorted[k]]]);
         const size_t before = run->turns ? run->turns->count : 0;
         ffd_displacements(lattice, chain->isa, &batch, &scratch->displacement);
         if (run->turns)
@@ -411,6 +411,13 @@ static void displace(const block_work *work)
     }
     for (size_t k = 0; k < count; k++)
         run->outcomes[sorted[k]].moved = scratch->moves[sorted[k]];
+}
+
+ffd_status ffd_blocks_locate(const lattice_chain *chain, chain_run *run, ffd_error *error)
+{
+    block_work work = {.chain = chain, .run = run};
+    run->first_only = true; /* what other blocks do there does not matter */
+    return locate(&work, error);
 }
 
 ffd_status ffd_blocks_apply(const lattice_chain *chain, chain_run *run, ffd_error *error)

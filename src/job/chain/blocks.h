@@ -11,6 +11,10 @@
    moves it differently (chain_run). Requires ffd_chain_boxes. */
 ffd_status ffd_blocks_apply(const lattice_chain *chain, chain_run *run, ffd_error *error);
 
+/* Finds the block of each point of a run and its location there, as ffd_blocks_apply does, and fills no more
+   than outcomes. */
+ffd_status ffd_blocks_locate(const lattice_chain *chain, chain_run *run, ffd_error *error);
+
 /* Finds the first block that holds p, without a rounding and a snap, and the location there. *block:
    BLOCK_NONE if none does. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
 ffd_status ffd_blocks_holding(const lattice_chain *chain, const double p[3], uint32_t *block,

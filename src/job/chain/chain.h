@@ -35,9 +35,18 @@ typedef struct link_parts {
     int count;
 } link_parts;
 
+/* Faces of all lattices that are held still (`--seam`). */
+typedef struct chain_seal {
+    int layers;     /* the continuity plus 1; 0: none are held */
+    unsigned faces; /* as of ffd_lattice_seal; FFD_FACES_CUT: those that the mesh cuts */
+    bool closes;    /* the chain has one link, whose volume all edges of the mesh leave by held faces */
+} chain_seal;
+
 typedef struct chain_link {
-    ffd_lattice *lattice;
-    ffd_locator *locator;                  /* NULL until the lattice is fitted to the mesh */
+    ffd_lattice *lattice; /* as given: vertices have its u,v,w */
+    ffd_lattice *sealed;  /* the same at rest, with held faces, which moves points in its place; NULL: none */
+    unsigned held;        /* these faces: bit 2 a + side, as of ffd_lattice_seal */
+    ffd_locator *locator; /* NULL until the lattice is fitted to the mesh */
     bool lattice_is_lent, locator_is_lent; /* owned by the chain's share */
     const char *path; /* of the lattice file, the caller's; NULL if values are set in it */
     file_stamp stamp; /* of the file at path, taken before it was read */
@@ -48,7 +57,7 @@ typedef struct chain_link {
     double snap;            /* in world units; set with the locator */
     path_list box_files;    /* files of the meshes that the lattice file names for its box */
     bool has_folds;         /* folds are known: */
-    ffd_folds folds;        /* of the lattice, which was already fitted */
+    ffd_folds folds;        /* of the lattice, which was already fitted; never of `sealed` */
     /* Set by ffd_seams_find: */
     bool is_convex;  /* the rest volume is a box: its displacement is continuous, also as it is extended */
     bool opens_axis; /* ffd_lattice_opens_axis */
@@ -87,9 +96,16 @@ typedef struct lattice_chain {
     mark_layout marks;    /* of the points of a pass (marks.h) */
     memory_budget memory; /* charged with the lattices */
     chain_outside outside;
+    chain_seal seal;
     ffd_isa isa;          /* of the kernels; does not change results */
     ffd_job_cache *cache; /* cache shared with the jobs before and after, or NULL */
 } lattice_chain;
+
+/* Returns the lattice whose control points move what is in the link. */
+static inline const ffd_lattice *ffd_link_mover(const chain_link *link)
+{
+    return link->sealed ? link->sealed : link->lattice;
+}
 
 /* The number of u,v,w that a point may have in this chain: one in each link, or one in all blocks. */
 static inline size_t ffd_chain_layers(const lattice_chain *chain)

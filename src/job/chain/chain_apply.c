@@ -12,6 +12,7 @@
 #include "job/chain/point_outcome.h"
 #include "job/chain/point_rounding.h"
 #include "lattice/lattice.h"
+#include <math.h>
 #include <string.h>
 
 /* F = F2 F1, written with E = F - I: E = E1 + E2 + E2 E1. Zeros stay exact. */
@@ -68,9 +69,10 @@ static ffd_status extend(const lattice_chain *chain, size_t l, chain_run *run,
     ffd_mark_part(chain, l, run, i, nearest.uvw);
     run->outcomes[i].extended |= nearest.distance < reach || !(link->falloff > 0);
     run->scratch->moves[i] =
-        (uint8_t)ffd_extension_displacement(link->lattice, &nearest, link->falloff, delta, gradient);
+        (uint8_t)ffd_extension_displacement(ffd_link_mover(link), &nearest, link->falloff, delta, gradient);
     if (gradient)
-        ffd_outcome_note_extension(link->lattice, &nearest, link->falloff, gradient, &run->outcomes[i]);
+        ffd_outcome_note_extension(ffd_link_mover(link), &nearest, link->falloff, gradient,
+                                   &run->outcomes[i]);
     return FFD_OK;
 }
 
@@ -147,9 +149,9 @@ static ffd_status apply_link(const lattice_chain *chain, size_t links, size_t l,
     TRY(note_locations(chain, l, run, &batch, error));
     if (ffd_common_wanted(chain))
         ffd_common_note(chain, l, run);
-    ffd_displacements(link->lattice, chain->isa, &batch, &scratch->displacement);
+    ffd_displacements(ffd_link_mover(link), chain->isa, &batch, &scratch->displacement);
     if (batch.turns)
-        ffd_outcomes_note_collapse(link->lattice, &batch, 0, run->outcomes);
+        ffd_outcomes_note_collapse(ffd_link_mover(link), &batch, 0, run->outcomes);
     if (batch.turns == &scratch->turns)
         note_turns(batch.gradient, scratch);
     arrays->add(batch.delta, 3 * run->count, run->x);
@@ -191,4 +193,61 @@ ffd_status ffd_chain_apply(const lattice_chain *chain, size_t links, chain_run *
         if (run->scratch->is_turned[i] || run->outcomes[i].collapsed)
             run->turns->points[run->turns->count++] = (uint32_t)i;
     return FFD_OK;
+}
+
+/* Points that are looked at together: a row of a mesh is longer, and crosses the border of a link at few
+   places. */
+#define TOGETHER ((size_t)128)
+
+/* Locates points [first, end) in a link; those that it misses by their rounding or the snap are inside. */
+static ffd_status locate_some(const lattice_chain *chain, size_t l, chain_run *run, size_t first, size_t end,
+                              ffd_error *error)
+{
+    const chain_link *const link = &chain->links[l];
+    ffd_location *const locations = run->scratch->locations;
+    const bool is_first = l == 0, is_known = is_first && run->located;
+    if (!is_known)
+        TRY(ffd_pace_find(link, run->x + 3 * first, end - first, run->pace, locations + first, error));
+    for (size_t i = first; i < end; i++) {
+        if (!is_known && !ffd_location_is_placed(&locations[i]) && locations[i].status != FFD_VERTEX_INVALID)
+            TRY(ffd_retry_near_border(link, link->snap, is_first, run, i, run->x + 3 * i, &locations[i],
+                                      error));
+        ffd_outcome_make(link->lattice, &locations[i], &run->outcomes[i]);
+    }
+    return FFD_OK;
+}
+
+/* Whether a link certainly holds points [first, end). */
+static bool holds_all(const lattice_chain *chain, size_t l, const chain_run *run, size_t first, size_t end)
+{
+    double min[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, max[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    return ffd_array_kernel(chain->isa)->widen(run->x + 3 * first, end - first, min, max) &&
+           ffd_locator_holds_box(chain->links[l].locator, min, max);
+}
+
+static ffd_status locate_in(const lattice_chain *chain, size_t l, bool locates, chain_run *run,
+                            ffd_error *error)
+{
+    for (size_t first = 0, end; first < run->count; first = end) {
+        end = run->count - first < TOGETHER ? run->count : first + TOGETHER;
+        if (locates || !holds_all(chain, l, run, first, end)) {
+            TRY(locate_some(chain, l, run, first, end, error));
+            continue;
+        }
+        for (size_t i = first; i < end; i++) {
+            run->outcomes[i].located = true;
+            run->outcomes[i].outside = false;
+        }
+    }
+    return FFD_OK;
+}
+
+ffd_status ffd_chain_locate(const lattice_chain *chain, size_t links, bool locates, chain_run *run,
+                            ffd_error *error)
+{
+    if (chain->blocks)
+        return ffd_blocks_locate(chain, run, error);
+    if (links > 0)
+        TRY(ffd_chain_apply(chain, links, run, error));
+    return locate_in(chain, links, locates, run, error);
 }

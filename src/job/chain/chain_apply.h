@@ -8,4 +8,10 @@
    FFD_E_MEMORY, FFD_E_LIMIT. */
 ffd_status ffd_chain_apply(const lattice_chain *chain, size_t links, chain_run *run, ffd_error *error);
 
+/* Sends the points through the first `links` links, and finds whether the link behind them, or, of blocks,
+   any of them holds the points: of outcomes located and outside are of that alone, all else is undefined.
+   locates: fill scratch->locations, too. Errors: as above. */
+ffd_status ffd_chain_locate(const lattice_chain *chain, size_t links, bool locates, chain_run *run,
+                            ffd_error *error);
+
 #endif

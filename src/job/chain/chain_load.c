@@ -1,6 +1,7 @@
 #include "job/chain/chain_load.h"
 #include "base/memory/memory.h"
 #include "base/spelling.h"
+#include "embed/frame/frame.h"
 #include "embed/locator.h"
 #include "embed/locator_border.h"
 #include "job/chain/job_cache.h"
@@ -9,21 +10,20 @@
 #include "job/input/embedding_file.h"
 #include "job/input/shown_box.h"
 #include "lattice/file/lattice_source.h"
+#include "lattice/file/lattice_time.h"
 #include "lattice/file/spec_set.h"
 #include "lattice/lattice.h"
 #include "lattice/rest_hash.h"
 #include <stdio.h>
 #include <string.h>
 
-/* The most lattices in a job. */
-#define MOST_LATTICES 1024
-
 /* Takes the lattice from the cache, if an earlier job has loaded the same file. */
 static void borrow_lattice(const chain_files *files, lattice_chain *chain, size_t i)
 {
     chain_link *const link = &chain->links[i];
     const char *const path = ffd_lattice_file(&files->lattices[i]);
-    if (!chain->cache || files->set_count > 0 || !path || !ffd_file_stamp(path, &link->stamp))
+    if (!chain->cache || files->set_count > 0 || files->time || files->made || !path ||
+        !ffd_file_stamp(path, &link->stamp))
         return;
     link->path = path;
     ffd_job_cache_lend_lattice(chain->cache, link);
@@ -73,11 +73,21 @@ static void name_open_placeholders(const chain_files *files, size_t i, bool *use
 }
 
 /* Copies the caller's lattice, charged to the job's memory budget. */
-static ffd_status copy_object(const ffd_lattice *object, memory_budget *memory, ffd_lattice **lattice,
-                              ffd_error *error)
+static ffd_status copy_object(const ffd_lattice *object, const double *time, memory_budget *memory,
+                              ffd_lattice **lattice, ffd_error *error)
 {
     TRY(object->spec ? ffd_lattice_memory_take(memory, object->spec, 0, error) : FFD_OK);
-    return ffd_lattice_copy(object, lattice, error);
+    TRY(ffd_lattice_copy(object, lattice, error));
+    return time && ffd_lattice_has_keys(*lattice) ? ffd_lattice_set_time(*lattice, *time, error) : FFD_OK;
+}
+
+/* Takes a lattice that the caller has made. */
+static ffd_status take_made(ffd_lattice **made, memory_budget *memory, ffd_lattice **lattice,
+                            ffd_error *error)
+{
+    *lattice = *made;
+    *made = NULL;
+    return ffd_lattice_memory_take(memory, (*lattice)->spec, 0, error);
 }
 
 /* file_size: of a lattice taken from the cache. */
@@ -87,10 +97,13 @@ static ffd_status load_lattice(const chain_files *files, bool *used, size_t i, u
     const spec_settings settings = {.values = files->set,
                                     .used = used,
                                     .count = files->set_count,
+                                    .time = files->time,
                                     .may_be_open = files->rest_only,
                                     .derives = files->derives};
     const ffd_lattice_source *const source = &files->lattices[i];
-    const ffd_status status = source->object ? copy_object(source->object, memory, lattice, error)
+    const ffd_status status = files->made ? take_made(&files->made[i], memory, lattice, error)
+                              : source->object
+                                  ? copy_object(source->object, files->time, memory, lattice, error)
                               : *lattice ? ffd_lattice_memory_take(memory, (*lattice)->spec, file_size, error)
                                          : ffd_lattice_memory_load(source, &settings, memory, lattice, error);
     if (status == FFD_E_INVALID && !files->rest_only && error)
@@ -114,6 +127,16 @@ end:
     if (status)
         ffd_fail_name_file(error, files->lattices[i].path);
     return status;
+}
+
+/* Refuses a time where no lattice has keys. */
+static ffd_status refuse_time(const chain_files *files, bool has_keys, ffd_error *error)
+{
+    return !files->time || has_keys
+               ? FFD_OK
+               : ffd_fail_file(error, FFD_E_ARGUMENT, files->lattices[0].path,
+                               "%s keys: {time} is for lattices that have \"keys\"",
+                               files->count == 1 ? "has no" : "neither this nor another lattice has");
 }
 
 /* Refuses the values that no lattice has a placeholder for, all in one message. */
@@ -143,6 +166,7 @@ void ffd_chain_free(lattice_chain *chain)
             ffd_locator_destroy(&chain->links[i].locator);
         if (!chain->links[i].lattice_is_lent)
             ffd_lattice_destroy(&chain->links[i].lattice);
+        ffd_lattice_destroy(&chain->links[i].sealed);
         ffd_paths_free(&chain->links[i].box_files);
     }
     ffd_free(chain->links);
@@ -159,8 +183,9 @@ static memory_budget budget_of(const chain_files *files)
 
 ffd_status ffd_chain_check_count(size_t count, ffd_error *error)
 {
-    if (count > MOST_LATTICES)
-        return ffd_fail(error, FFD_E_LIMIT, "a job has at most %d lattices, not %zu", MOST_LATTICES, count);
+    if (count > FFD_LATTICES_MOST)
+        return ffd_fail(error, FFD_E_LIMIT, "a job has at most %d lattices, not %zu", FFD_LATTICES_MOST,
+                        count);
     return FFD_OK;
 }
 
@@ -178,14 +203,18 @@ ffd_status ffd_chain_load(const chain_files *files, const chain_outside *outside
     TRY(check_count(files, error));
     bool *const used = ffd_alloc_zero(files->set_count, sizeof *used);
     chain->links = ffd_alloc_zero(files->count, sizeof *chain->links);
+    bool has_keys = false;
     ffd_status status;
     TRY_END(used && chain->links ? FFD_OK : ffd_fail_memory(error));
     chain->count = files->count;
     for (size_t i = 0; i < chain->count; i++)
         borrow_lattice(files, chain, i);
     ffd_job_cache_evict_lattices(cache);
-    for (size_t i = 0; i < chain->count; i++)
+    for (size_t i = 0; i < chain->count; i++) {
         TRY_END(load_link(files, used, chain, i, error));
+        has_keys = has_keys || ffd_lattice_has_keys(chain->links[i].lattice);
+    }
+    TRY_END(refuse_time(files, has_keys, error));
     TRY_END(refuse_unused(files, used, error));
 end:
     ffd_free(used);
@@ -197,7 +226,7 @@ end:
 ffd_status ffd_chain_load_lattices(const chain_files *files, memory_budget *memory, ffd_lattice **lattices,
                                    path_list *box_files, ffd_error *error)
 {
-    bool *const used = ffd_alloc_zero(files->set_count, sizeof *used), fitted;
+    bool *const used = ffd_alloc_zero(files->set_count, sizeof *used), fitted, has_keys = false;
     size_t loaded = 0;
     ffd_status status;
     memset(lattices, 0, files->count * sizeof *lattices);
@@ -205,7 +234,9 @@ ffd_status ffd_chain_load_lattices(const chain_files *files, memory_budget *memo
     for (; loaded < files->count; loaded++) {
         TRY_END(load_lattice(files, used, loaded, 0, memory, &lattices[loaded], error));
         TRY_END(fit(files, NULL, lattices[loaded], box_files, &fitted, error));
+        has_keys = has_keys || ffd_lattice_has_keys(lattices[loaded]);
     }
+    TRY_END(refuse_time(files, has_keys, error));
     TRY_END(refuse_unused(files, used, error));
 end:
     ffd_free(used);
@@ -219,14 +250,17 @@ end:
 ffd_status ffd_chain_check(const chain_files *files, ffd_error *error)
 {
     memory_budget memory = budget_of(files);
+    bool has_keys = false;
     bool *const used = ffd_alloc_zero(files->set_count, sizeof *used);
     ffd_status status;
     TRY_END(used ? check_count(files, error) : ffd_fail_memory(error));
     for (size_t i = 0; i < files->count; i++) {
         ffd_lattice *lattice = NULL;
         TRY_END(load_lattice(files, used, i, 0, &memory, &lattice, error));
+        has_keys = has_keys || ffd_lattice_has_keys(lattice);
         ffd_lattice_destroy(&lattice);
     }
+    TRY_END(refuse_time(files, has_keys, error));
     TRY_END(refuse_unused(files, used, error));
 end:
     ffd_free(used);
@@ -281,4 +315,9 @@ ffd_status ffd_chain_prepare(lattice_chain *chain, size_t link, ffd_error *error
         return status;
     made->falloff = chain->outside.falloff;
     return ffd_locator_border(made->locator, &made->border, error);
+}
+
+bool ffd_link_searches(const chain_link *link)
+{
+    return link->locator->method == METHOD_GENERAL;
 }

@@ -11,6 +11,8 @@ typedef struct chain_files {
     size_t count;
     const ffd_setting *set; /* set_count entries, or NULL */
     size_t set_count;
+    ffd_lattice **made;           /* count lattices in place of those; the chain takes them; or NULL */
+    const double *time;           /* of lattices that have keys; NULL: that of their first */
     bool rest_only;               /* allow placeholders without a value (ffd_lattice_load_rest) */
     bool derives;                 /* keep the derivatives by placeholders */
     const ffd_source *mesh;       /* the job's mesh: meshes that lattices name are read with its options, and
@@ -51,5 +53,7 @@ void ffd_chain_end_alone(lattice_chain *alone);
 /* Makes the locator of a link whose lattice is fitted, and its border if the chain extends. Uses the
    cache. */
 ffd_status ffd_chain_prepare(lattice_chain *chain, size_t link, ffd_error *error);
+/* Returns whether u,v,w of a link take a search, as the volume is no box. It has its locator. */
+bool ffd_link_searches(const chain_link *link);
 
 #endif

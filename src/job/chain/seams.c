@@ -12,10 +12,10 @@ ffd_status ffd_seams_find(lattice_chain *chain, ffd_error *error)
     for (size_t l = 0; l < chain->count; l++) {
         chain_link *const link = &chain->links[l];
         link->is_convex = link->locator->method != METHOD_GENERAL;
-        link->is_still = ffd_lattice_is_still(link->lattice);
-        link->opens_axis = !link->is_convex && ffd_lattice_opens_axis(link->lattice);
+        link->is_still = ffd_lattice_is_still(ffd_link_mover(link));
+        link->opens_axis = !link->is_convex && ffd_lattice_opens_axis(ffd_link_mover(link));
         for (int a = 0; a < 3; a++) {
-            if (!ffd_locator_has_seam(link->locator, a) || !ffd_lattice_opens_seam(link->lattice, a))
+            if (!ffd_locator_has_seam(link->locator, a) || !ffd_lattice_opens_seam(ffd_link_mover(link), a))
                 continue;
             if (!ffd_grow((void **)&chain->seams, &capacity, chain->seam_count + 1, sizeof *chain->seams))
                 return ffd_fail_memory(error);

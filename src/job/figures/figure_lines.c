@@ -75,6 +75,7 @@ static void put_tear_reason(const figure_text *text)
         [FFD_TEAR_AXIS] = "control points at one place on a lattice's axis are moved apart",
         [FFD_TEAR_BORDER] = "along it the nearest part of the lattice's border changes",
         [FFD_TEAR_OVERLAP] = "it leads from one part of a lattice that overlaps itself to another",
+        [FFD_TEAR_WEIGHTS] = "vertices at one position have different weights",
     };
     const uint64_t faces = result->shared_faces.disagreeing, stay = result->tear.stays;
     if (result->tear.cause == FFD_TEAR_BLOCKS && faces)

@@ -164,6 +164,17 @@ static void join_behind(const ffd_job_result *target, ffd_job_result *all)
             all->behind[kind] = target->behind[kind];
 }
 
+/* Lists the faces of one more target. */
+static void join_seam(const ffd_seam_figures *target, ffd_seam_figures *all)
+{
+    const uint64_t before = all->count;
+    if (!target->is_there || before == FFD_LATTICES_MOST)
+        return;
+    *all = before == 0 ? *target : *all;
+    all->faces[before] = target->faces[0];
+    all->count = before + 1;
+}
+
 /* Joins target `number` of count. before: all before that. taken: of the figure before. */
 static bool join_target(const figure *f, const ffd_job_result *target, size_t index, size_t count,
                         const ffd_job_result *before, bool taken, ffd_job_result *all)
@@ -179,6 +190,9 @@ static bool join_target(const figure *f, const ffd_job_result *target, size_t in
         return false;
     case JOIN_BEHIND:
         join_behind(target, all);
+        return false;
+    case JOIN_SEAM:
+        join_seam(&target->seam, &all->seam);
         return false;
     case JOIN_ALL:
         *(bool *)to = *(const bool *)from && (is_first || *((const bool *)before + f->result.at));

@@ -14,10 +14,12 @@
     uint64_t *: FIGURE_STATUSES, \
     ffd_fold_verdict: FIGURE_VERDICT, \
     ffd_fold_reference: FIGURE_REFERENCE, \
+    ffd_seam: FIGURE_SEAM, \
     ffd_tear_cause: FIGURE_CAUSE, \
     ffd_behind *: FIGURE_BEHIND, \
     ffd_flaw *: FIGURE_FLAWS, \
-    const ffd_job_result *: FIGURE_MORPHS)
+    const ffd_job_result *: FIGURE_MORPHS, \
+    uint8_t *: FIGURE_FACES)
 #define MEMBER(type, member) {TYPE_OF(((type *)0)->member), offsetof(type, member)}
 #define RESULT(member) MEMBER(ffd_job_result, member)
 
@@ -118,6 +120,13 @@ const figure ffd_figures[] = {
         {FIGURE(skin_weights.farthest), FROM(weights.farthest, JOIN_LARGEST), TARGETS(JOIN_LARGEST)},
         {FIGURE(skin_weights.none), FROM(weights.none, JOIN_SUM), TARGETS(JOIN_LARGEST)},
     END,
+    {GROUP(weight), OF_JOB, ABSENT_UNLESS(weight.is_there)},
+        {HELD_BACK(weight.is_there), TARGETS(JOIN_ANY)},
+        {FIGURE(weight.zero), TARGETS(JOIN_LARGEST)},
+        {FIGURE(weight.one), TARGETS(JOIN_LARGEST)},
+        {FIGURE(weight.clamped), TARGETS(JOIN_LARGEST)},
+        {FIGURE(weight.mean), TARGETS(JOIN_SAME)},
+    END,
     {GROUP(precision), OF_JOB, ABSENT_UNLESS(precision.side)},
         {FIGURE(precision.error), FROM(lost.error, JOIN_NONE)},
         {FIGURE(precision.side), FROM(lost.side, JOIN_NONE)},
@@ -153,6 +162,11 @@ const figure ffd_figures[] = {
         {HELD_BACK(rig.lagging_joints)},
     END,
     {.name = "morphs", .result = RESULT(morphs.results), OF_JOB, ABSENT_UNLESS(morphs.results)},
+    {GROUP(seam), OF_JOB, TARGETS(JOIN_SEAM), ABSENT_UNLESS(seam.is_there)},
+        {FIGURE(seam.continuity)},
+        {HELD_BACK(seam.count)},
+        {FIGURE(seam.faces)},
+    END,
     {FIGURE(indices_left), OF_JOB, ABSENT_UNLESS(indices_left)},
     {FIGURE(bytes_left), OF_JOB, ABSENT_UNLESS(bytes_left)},
     {FIGURE(bounds_left), OF_JOB, ABSENT_UNLESS(bounds_left)},

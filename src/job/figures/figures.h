@@ -17,10 +17,12 @@ typedef enum figure_type {
     FIGURE_STATUSES,  /* counts by ffd_vertex_status: a member of the report for each */
     FIGURE_VERDICT,   /* ffd_fold_verdict, by its name */
     FIGURE_REFERENCE, /* ffd_fold_reference, by its name */
+    FIGURE_SEAM,      /* ffd_seam, by its name */
     FIGURE_CAUSE,     /* ffd_tear_cause; not a member of the report */
     FIGURE_BEHIND,    /* an array: ffd_behind of each kind */
     FIGURE_FLAWS,     /* an array: ffd_flaw */
     FIGURE_MORPHS,    /* an array: the results of morph targets */
+    FIGURE_FACES,     /* an array: of each lattice an array of the names of faces */
     FIGURE_GROUP,     /* an object: the figures that follow, up to FIGURE_END */
     FIGURE_END
 } figure_type;
@@ -41,7 +43,8 @@ typedef enum figure_join {
     JOIN_FEWEST,  /* that of the target with the fewest vertices inside */
     JOIN_GROUP,   /* a whole group: that of the target in which figure.by is largest */
     JOIN_FOLDS,
-    JOIN_BEHIND
+    JOIN_BEHIND,
+    JOIN_SEAM /* the faces of all, one after the other */
 } figure_join;
 
 /* What the report has if not all figures.needs are set: a flag is true, a count or number is above 0, a

@@ -82,6 +82,7 @@ ffd_status ffd_in_memory_desc(job_memory *memory, ffd_deform_desc *desc, ffd_err
     TRY_END(ffd_in_memory_source(memory, &desc->input, error));
     TRY_END(name_lattices(memory, desc, error));
     TRY_END(ffd_in_memory_bytes(desc->embedding.bytes, "embedding", &desc->embedding.path, error));
+    TRY_END(ffd_in_memory_bytes(desc->weight.bytes, "weight.npy", &desc->weight.source, error));
     TRY_END(ffd_in_memory_output(desc->sink, desc->output, error));
 end:
     if (desc->sink)

@@ -50,6 +50,20 @@ static void append_pieces(const ffd_deform_desc *desc, const ffd_member *member,
         ffd_buffer_append(bytes, (const char *)desc + pieces[i].offset, pieces[i].size);
 }
 
+static bool is_text(const ffd_member *member)
+{
+    return member->kind == FFD_MEMBER_TEXT || member->kind == FFD_MEMBER_WEIGHT;
+}
+
+/* has_files: with the names of files. */
+static void append_member_text(const ffd_member *member, const char *text, bool has_files, byte_buffer *bytes)
+{
+    const char *const file = member->kind == FFD_MEMBER_WEIGHT ? ffd_weight_file(text) : NULL;
+    if (file && !has_files)
+        ffd_buffer_append(bytes, text, (size_t)(file - text));
+    append_text(bytes, has_files || !(file || member->traits & FFD_MEMBER_IS_PATH) ? text : "");
+}
+
 void ffd_settings_write(const ffd_deform_desc *desc, settings_use use, byte_buffer *bytes)
 {
     const unsigned char end = END;
@@ -63,10 +77,10 @@ void ffd_settings_write(const ffd_deform_desc *desc, settings_use use, byte_buff
         ffd_buffer_append(bytes, &index, 1);
         if (ffd_member_is_list(member)) {
             append_list(desc, member, is_all, bytes);
-        } else if (member->kind == FFD_MEMBER_TEXT) {
+        } else if (is_text(member)) {
             const char *text;
             memcpy(&text, (const char *)desc + member->offset, sizeof text);
-            append_text(bytes, is_all || !(member->traits & FFD_MEMBER_IS_PATH) ? text : "");
+            append_member_text(member, text, is_all, bytes);
         } else {
             append_pieces(desc, member, bytes);
         }
@@ -117,7 +131,7 @@ ffd_status ffd_settings_take(const char **at, ffd_deform_desc *desc, ffd_error *
         if (ffd_member_is_list(member)) {
             if (!take_list(at, member, desc))
                 return ffd_fail_memory(error);
-        } else if (member->kind == FFD_MEMBER_TEXT) {
+        } else if (is_text(member)) {
             const char *const text = take_text(at);
             memcpy((char *)desc + member->offset, &text, sizeof text);
         } else {

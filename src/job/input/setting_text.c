@@ -79,6 +79,16 @@ static ffd_status read_distance(const reading *r)
     return refuse(r, ": ", "\"%s\" is not a number of at least 0, alone or followed by r", r->text);
 }
 
+static ffd_status read_moment(const reading *r)
+{
+    double number;
+    if (!parse_number(r->text, &number))
+        return refuse(r, ": ", "\"%s\" is not a number of seconds", r->text);
+    *(double *)(void *)r->at = number;
+    *(bool *)(r->base + r->member->second) = true;
+    return FFD_OK;
+}
+
 static ffd_status read_count(const reading *r)
 {
     char *end;
@@ -127,6 +137,42 @@ static ffd_status read_format(const reading *r)
     return FFD_OK;
 }
 
+/* Reads "u-,v+", "all" or "cut". Returns false if they are no faces. */
+static bool parse_faces(const char *text, unsigned *faces)
+{
+    *faces = strcmp(text, "all") == 0 ? FFD_FACES_ALL : FFD_FACES_CUT;
+    if (strcmp(text, "all") == 0 || strcmp(text, "cut") == 0)
+        return true;
+    for (;; text += 3) {
+        const char *const direction = *text ? strchr("uvw", text[0]) : NULL;
+        if (!direction || (text[1] != '-' && text[1] != '+') || (text[2] && text[2] != ','))
+            return false;
+        *faces |= 1u << (2 * (*direction - 'u') + (text[1] == '+'));
+        if (!text[2])
+            return true;
+    }
+}
+
+/* Reads "C1" or "C1:u-,v+". */
+static ffd_status read_seam(const reading *r)
+{
+    const size_t length = strcspn(r->text, ":");
+    const char *const *const words = r->member->words;
+    unsigned faces = FFD_FACES_CUT;
+    int seam = 0;
+    while (words[seam] && (strlen(words[seam]) != length || memcmp(words[seam], r->text, length) != 0))
+        seam++;
+    if (!words[seam] || (r->text[length] && !parse_faces(r->text + length + 1, &faces)))
+        return refuse(
+            r, ": ",
+            "\"%.100s\" is not C0, C1, C2 or none, alone or with faces (u-,v+,.. or all or cut), like "
+            "C1:u-,v+",
+            r->text);
+    *(int *)(void *)r->at = seam;
+    *(unsigned *)(void *)(r->base + r->member->second) = faces;
+    return FFD_OK;
+}
+
 static ffd_status read_text(const reading *r)
 {
     const char **const text = (const char **)(void *)r->at;
@@ -136,6 +182,12 @@ static ffd_status read_text(const reading *r)
         return refuse(r, " ", "is given twice: \"%s\" and \"%s\"", *text, r->text);
     *text = r->text;
     return FFD_OK;
+}
+
+static ffd_status read_weight(const reading *r)
+{
+    TRY(*r->text ? ffd_weight_check(r->text, r->error) : FFD_OK);
+    return read_text(r);
 }
 
 /* Gates */
@@ -351,14 +403,25 @@ static ffd_status read_morph(const reading *r)
 ffd_status ffd_member_read(const ffd_member *member, void *desc, const char *text, ffd_error *error)
 {
     static ffd_status (*const readers[])(const reading *) = {
-        [FFD_MEMBER_CHOICE] = read_choice,      [FFD_MEMBER_FORMAT] = read_format,
-        [FFD_MEMBER_COUNT] = read_count,        [FFD_MEMBER_LENGTH] = read_positive,
-        [FFD_MEMBER_DISTANCE] = read_distance,  [FFD_MEMBER_TIME] = read_positive,
-        [FFD_MEMBER_BYTES] = read_bytes,        [FFD_MEMBER_GATES] = read_gates,
-        [FFD_MEMBER_TEXT] = read_text,          [FFD_MEMBER_TEXTS] = read_name,
-        [FFD_MEMBER_SELECTORS] = read_selector, [FFD_MEMBER_CLIPS] = read_clip,
-        [FFD_MEMBER_VALUES] = read_value,       [FFD_MEMBER_LATTICES] = read_lattice,
-        [FFD_MEMBER_MORPHS] = read_morph,       [FFD_MEMBER_OBJECT] = NULL,
+        [FFD_MEMBER_CHOICE] = read_choice,
+        [FFD_MEMBER_FORMAT] = read_format,
+        [FFD_MEMBER_COUNT] = read_count,
+        [FFD_MEMBER_LENGTH] = read_positive,
+        [FFD_MEMBER_DISTANCE] = read_distance,
+        [FFD_MEMBER_TIME] = read_positive,
+        [FFD_MEMBER_MOMENT] = read_moment,
+        [FFD_MEMBER_BYTES] = read_bytes,
+        [FFD_MEMBER_GATES] = read_gates,
+        [FFD_MEMBER_TEXT] = read_text,
+        [FFD_MEMBER_TEXTS] = read_name,
+        [FFD_MEMBER_SELECTORS] = read_selector,
+        [FFD_MEMBER_CLIPS] = read_clip,
+        [FFD_MEMBER_VALUES] = read_value,
+        [FFD_MEMBER_LATTICES] = read_lattice,
+        [FFD_MEMBER_MORPHS] = read_morph,
+        [FFD_MEMBER_OBJECT] = NULL,
+        [FFD_MEMBER_WEIGHT] = read_weight,
+        [FFD_MEMBER_SEAM] = read_seam,
     };
     char *const base = desc;
     const reading r = {member, base + member->offset, base, text, error};

@@ -15,6 +15,7 @@ static const char *const resources_words[] = {"copy", "reference", "refresh", NU
 static const char *const isa_words[] = {"auto", "scalar", "sse2", "avx2", "avx512", "neon", NULL};
 static const char *const format_words[] = {"auto", "obj", "gltf", "glb", "ply", "off", "stl", NULL};
 
+static const char *const seam_words[] = {"none", "C0", "C1", "C2", NULL};
 static const char *const gate_words[] = {"folds", "outside", "multiple", "singular", "invalid", "tear",
                                          "tear=", "flipped", "flipped=", "edges=",   NULL};
 
@@ -57,6 +58,9 @@ static const ffd_member members[] = {
     {"depfile", NULL, FFD_MEMBER_OBJECT, AT(depfile), 0, NULL, FFD_MEMBER_IS_IDLE},
     {"positions", NULL, FFD_MEMBER_OBJECT, AT(positions), 0, NULL, 0},
     {"timeout", "timeout", FFD_MEMBER_TIME, AT(timeout), 0, NULL, FFD_MEMBER_IS_IDLE},
+    {"time", "time", FFD_MEMBER_MOMENT, AT(time), AT(has_time), NULL, 0},
+    {"weight", "weight", FFD_MEMBER_WEIGHT, AT(weight.source), 0, NULL, 0},
+    {"seam", "seam", FFD_MEMBER_SEAM, AT(seam), AT(seam_faces), seam_words, 0},
 };
 enum { MEMBERS = sizeof members / sizeof *members };
 
@@ -65,6 +69,8 @@ const job_rule ffd_job_rules[] = {
     {"rig=follow", JOB_EXCLUDES, "as_morph", "{rig=follow} moves the shape itself, which {as_morph} leaves"},
     {"rig=follow", JOB_EXCLUDES, "input.space=mesh",
      "{rig=follow} moves nodes, which have no place with {input.space=mesh}"},
+    {"rig=follow", JOB_EXCLUDES, "weight",
+     "{rig=follow} cannot be used with {weight}: joints have no weights, and would leave the mesh"},
     {"embedding", JOB_EXCLUDES, "blocks", "{embedding} works with one lattice, and not with {blocks}"},
     {"embedding", JOB_EXCLUDES, "morphs=several",
      "{embedding} works with one lattice, but several {morphs} are given"},
@@ -98,6 +104,11 @@ const ffd_member *ffd_deform_member_of(const char *option)
     while (m < MEMBERS && !(members[m].option && strcmp(members[m].option, option) == 0))
         m++;
     return m < MEMBERS ? &members[m] : NULL;
+}
+
+const char *ffd_seam_name(ffd_seam seam)
+{
+    return (int)seam >= 0 && seam <= FFD_SEAM_C2 ? seam_words[seam] : NULL;
 }
 
 bool ffd_member_is_list(const ffd_member *member)
@@ -134,12 +145,13 @@ static bool is_number(const ffd_member *member)
 
 /* By kind. */
 static const size_t sizes[] = {
-    [FFD_MEMBER_FLAG] = sizeof(bool),          [FFD_MEMBER_CHOICE] = sizeof(int),
-    [FFD_MEMBER_FORMAT] = sizeof(int),         [FFD_MEMBER_COUNT] = sizeof(int),
-    [FFD_MEMBER_LENGTH] = sizeof(double),      [FFD_MEMBER_DISTANCE] = sizeof(double),
-    [FFD_MEMBER_TIME] = sizeof(double),        [FFD_MEMBER_BYTES] = sizeof(uint64_t),
-    [FFD_MEMBER_GATES] = sizeof(unsigned),     [FFD_MEMBER_TEXT] = sizeof(const char *),
-    [FFD_MEMBER_OBJECT] = sizeof(const void *)};
+    [FFD_MEMBER_FLAG] = sizeof(bool),           [FFD_MEMBER_CHOICE] = sizeof(int),
+    [FFD_MEMBER_FORMAT] = sizeof(int),          [FFD_MEMBER_COUNT] = sizeof(int),
+    [FFD_MEMBER_LENGTH] = sizeof(double),       [FFD_MEMBER_DISTANCE] = sizeof(double),
+    [FFD_MEMBER_TIME] = sizeof(double),         [FFD_MEMBER_MOMENT] = sizeof(double),
+    [FFD_MEMBER_BYTES] = sizeof(uint64_t),      [FFD_MEMBER_GATES] = sizeof(unsigned),
+    [FFD_MEMBER_TEXT] = sizeof(const char *),   [FFD_MEMBER_OBJECT] = sizeof(const void *),
+    [FFD_MEMBER_WEIGHT] = sizeof(const char *), [FFD_MEMBER_SEAM] = sizeof(int)};
 
 #define PIECE(member) ((member_piece){AT(member), sizeof((ffd_deform_desc *)0)->member})
 
@@ -147,8 +159,10 @@ size_t ffd_member_pieces(const ffd_member *member, member_piece pieces[MEMBER_PI
 {
     size_t count = 0;
     pieces[count++] = (member_piece){member->offset, sizes[member->kind]};
-    if (member->kind == FFD_MEMBER_DISTANCE)
+    if (member->kind == FFD_MEMBER_DISTANCE || member->kind == FFD_MEMBER_MOMENT)
         pieces[count++] = (member_piece){member->second, sizeof(bool)};
+    if (member->kind == FFD_MEMBER_SEAM)
+        pieces[count++] = (member_piece){member->second, sizeof(unsigned)};
     if (member->kind == FFD_MEMBER_GATES) {
         pieces[count++] = PIECE(tear_most);
         pieces[count++] = PIECE(flipped_most);
@@ -178,6 +192,8 @@ bool ffd_member_is_set(const ffd_deform_desc *desc, const ffd_member *member)
     const char *const at = (const char *)desc + member->offset;
     if (is_number(member))
         return value_of(desc, member) > 0;
+    if (member->kind == FFD_MEMBER_MOMENT)
+        return *((const bool *)desc + member->second);
     if (ffd_member_is_list(member))
         return choice_or_count(desc, member) > 0 && !is_zero(at, sizeof(const void *));
     return !is_zero(at, sizes[member->kind]);
@@ -226,6 +242,10 @@ static ffd_status check_range(const ffd_deform_desc *desc, const ffd_member *mem
     if (words > 0 && choice_or_count(desc, member) >= words)
         return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a value of %s", (int)choice_or_count(desc, member),
                         member->name);
+    if (member->kind == FFD_MEMBER_MOMENT && ffd_member_is_set(desc, member) &&
+        !isfinite(value_of(desc, member)))
+        return ffd_fail(error, FFD_E_ARGUMENT, "the %s %g is not finite", member->name,
+                        value_of(desc, member));
     if (!is_number(member))
         return FFD_OK;
     const double value = value_of(desc, member);
@@ -266,18 +286,31 @@ static ffd_status check_rule(const set_members *set, const ffd_deform_desc *desc
     return ffd_fail(error, FFD_E_ARGUMENT, "%s", SPELLED(rule->why ? rule->why : text));
 }
 
+static ffd_status check_weight(const ffd_weight_source *weight, ffd_error *error)
+{
+    TRY(weight->source ? ffd_weight_check(weight->source, error) : FFD_OK);
+    return !weight->bytes.data || ffd_weight_file(weight->source)
+               ? FFD_OK
+               : ffd_fail(error, FFD_E_ARGUMENT, "{weight}: bytes are those of a FILE.npy, not of \"%s\"",
+                          weight->source);
+}
+
 ffd_status ffd_deform_desc_check(const ffd_deform_desc *callers, ffd_error *error)
 {
     ffd_deform_desc desc;
     TRY(ffd_deform_desc_take(callers, &desc, error));
     if (desc.embedding.bytes.data && !desc.embedding.path)
         desc.embedding.path = "embedding";
+    if (desc.weight.bytes.data && !desc.weight.source)
+        desc.weight.source = "weight.npy";
     for (size_t m = 0; m < MEMBERS; m++)
         TRY(check_range(&desc, &members[m], error));
     TRY(check_gates(&desc, error));
+    if (desc.seam_faces > FFD_FACES_ALL)
+        return ffd_fail(error, FFD_E_ARGUMENT, "there are no faces 0x%x", desc.seam_faces);
     set_members set;
     find_set(&desc, &set);
     for (const job_rule *rule = ffd_job_rules; rule->setting; rule++)
         TRY(check_rule(&set, &desc, rule, error));
-    return FFD_OK;
+    return check_weight(&desc.weight, error);
 }

@@ -73,6 +73,17 @@ static void widen_shape(const mesh_document *document, size_t part, const part_b
     }
 }
 
+void ffd_shown_box_add_document(shown_box *box, const mesh_document *document)
+{
+    for (size_t i = 0; i < document->part_count; i++) {
+        part_box of = {&document->parts[i], box};
+        if (of.part->repeats_positions)
+            continue;
+        ffd_source_visit_places(document, i, widen, &of);
+        widen_shape(document, i, &of);
+    }
+}
+
 ffd_status ffd_shown_box_add(shown_box *box, const ffd_source *source, const char *const *only,
                              size_t only_count, path_list *files, const mesh_log *log, ffd_error *error)
 {
@@ -85,13 +96,7 @@ ffd_status ffd_shown_box_add(shown_box *box, const ffd_source *source, const cha
     TRY_END(ffd_selection_apply(only, only_count, ffd_source_name(source), document, error));
     TRY_END(ffd_mesh_check(document, error));
     TRY_END(ffd_mesh_mark_used(document, error));
-    for (size_t i = 0; i < document->part_count; i++) {
-        part_box of = {&document->parts[i], box};
-        if (of.part->repeats_positions)
-            continue;
-        ffd_source_visit_places(document, i, widen, &of);
-        widen_shape(document, i, &of);
-    }
+    ffd_shown_box_add_document(box, document);
     if (files)
         TRY_END(ffd_source_files(source, document, files, error));
     ffd_flaws_warn(&document->flaws, ffd_source_name(source), log);

@@ -5,7 +5,7 @@
 
 #include "base/file/path_list.h"
 #include "lattice/lattice.h"
-#include "mesh/mesh_log.h"
+#include "mesh/mesh.h"
 #include <ffd/job.h>
 
 /* Accumulated by ffd_shown_box_add, mesh by mesh. */
@@ -38,6 +38,8 @@ static inline fit_extent ffd_fit_extent(const ffd_bounds *all, const ffd_bounds 
 void ffd_shown_box_clear(shown_box *box);
 /* Widens the box to include another one. */
 void ffd_shown_box_join(shown_box *box, const shown_box *other);
+/* Widens the box by the selected vertices of an open mesh, whose used vertices are marked. */
+void ffd_shown_box_add_document(shown_box *box, const mesh_document *document);
 /* Widens the box by the selected vertices of a mesh (only_count selectors). Adds its files to `files`, and
    logs its flaws, with its name, in `log`; each may be NULL. Errors: those of reading the mesh. */
 ffd_status ffd_shown_box_add(shown_box *box, const ffd_source *source, const char *const *only,

@@ -32,6 +32,7 @@ static bool is_input(const ffd_jacobian_desc *desc)
     bool found = ffd_job_reads_mesh(&desc->job->input, desc->output);
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
         found = found || (arrays[i] && ffd_file_same(arrays[i], desc->output));
+    found = found || ffd_job_reads_weights(desc->job, desc->output);
     return found || ffd_job_reads_lattice(desc->job->lattices, desc->job->lattice_count, desc->output);
 }
 

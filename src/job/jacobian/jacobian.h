@@ -14,6 +14,7 @@
 typedef struct jacobian_link {
     size_t index;             /* in the chain */
     ffd_embedding *embedding; /* of the vertices as the earlier links leave them */
+    row_seal seal;            /* if faces are held */
     double *later;            /* 9 a vertex: gradient F of all later links; NULL: there are none */
     lattice_tangents tangents;
     size_t *columns; /* of each column of tangents: its column in the whole matrix */
@@ -32,6 +33,12 @@ typedef struct jacobian {
     char **names; /* of the columns, if by parameters */
     chain_pace pace;
 } jacobian;
+
+/* Returns the seal of a link; NULL: no face is held. */
+static inline const row_seal *ffd_jacobian_seal(const jacobian_link *link)
+{
+    return link->seal.sealed ? &link->seal : NULL;
+}
 
 /* Prepares the rows. Errors: those of the job. */
 ffd_status ffd_jacobian_prepare(jacobian *j, ffd_error *error);
@@ -68,6 +75,13 @@ void ffd_jacobian_rows_fill(const jacobian *j, size_t vertex, jacobian_rows *row
 static inline const double *ffd_jacobian_weights(const jacobian *j, const jacobian_link *link)
 {
     return j->job.chain.links[link->index].lattice->deformed_weights;
+}
+
+/* Returns the weight of a vertex, by which its rows are multiplied. */
+static inline double ffd_jacobian_weight(const jacobian *j, size_t vertex)
+{
+    const vertex_weights *const weights = &j->job.weights;
+    return weights->values ? ffd_vertex_weight(weights, vertex) : 1;
 }
 
 /* Counts the stored values of the matrix. starts: filled with rows + 1 offsets, where each row begins and the

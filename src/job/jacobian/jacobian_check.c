@@ -1,12 +1,15 @@
 /* jacobian_check.c - compares rows of the derivative with central differences. */
 #include "base/memory/memory.h"
+#include "base/system/deadline.h"
 #include "base/text/buffer.h"
 #include "base/vector/vec.h"
 #include "deform/extension.h"
 #include "job/chain/chain_apply.h"
 #include "job/chain/chain_load.h"
+#include "job/chain/seals.h"
 #include "job/jacobian/jacobian.h"
 #include "points/embedding.h"
+#include <ffd/author.h>
 #include <ffd/deform.h>
 #include <math.h>
 #include <string.h>
@@ -25,10 +28,9 @@ typedef struct check_work {
     double worst;
 } check_work;
 
-/* Evaluates the displacement of a vertex by a lattice with other control points, at the embedding's u,v,w or
-   border point. */
-static void displace(const ffd_embedding *embedding, const ffd_lattice *lattice, size_t vertex,
-                     double delta[3])
+/* Evaluates the displacement of a vertex by a lattice, at the embedding's u,v,w or border point. */
+static void displace_by(const ffd_embedding *embedding, const ffd_lattice *lattice, size_t vertex,
+                        double delta[3])
 {
     memset(delta, 0, 3 * sizeof *delta);
     if (ffd_embedding_has(embedding, vertex)) {
@@ -38,6 +40,20 @@ static void displace(const ffd_embedding *embedding, const ffd_lattice *lattice,
     const size_t e = ffd_embedding_first_extended(embedding, vertex);
     if (e < embedding->extended_count && embedding->extended[e].point == vertex)
         ffd_extension_displacement(lattice, &embedding->extended[e].nearest, embedding->falloff, delta, NULL);
+}
+
+/* The same by a link whose lattice has other control points, before its faces are held. */
+static ffd_status displace(const jacobian *j, const jacobian_link *link, const ffd_lattice *lattice,
+                           size_t vertex, double delta[3], ffd_error *error)
+{
+    const lattice_chain *const chain = &j->job.chain;
+    ffd_lattice *sealed = NULL;
+    if (link->seal.sealed)
+        TRY(ffd_lattice_seal(lattice, chain->seal.layers - 1, chain->links[link->index].held, &sealed,
+                             error));
+    displace_by(link->embedding, sealed ? sealed : lattice, vertex, delta);
+    ffd_lattice_destroy(&sealed);
+    return ffd_deadline_check(error);
 }
 
 /* Sends a position through the links from number `from` on. */
@@ -104,13 +120,13 @@ static ffd_status differ_point(check_work *work, ffd_lattice *lattice, const dou
     for (int side = 0; side < 2; side++) {
         offset[coordinate] = side ? kept + h : kept - h;
         TRY_END(ffd_lattice_set_offsets(lattice, &point, 1, offset, error));
-        displace(link->embedding, lattice, vertex, at[side]);
+        TRY_END(displace(work->j, link, lattice, vertex, at[side], error));
         for (int c = 0; c < 3; c++)
             at[side][c] += base[c];
         TRY_END(send(work, &work->j->job.chain, link->index + 1, at[side], error));
     }
     for (int c = 0; c < 3; c++)
-        difference[c] = (at[1][c] - at[0][c]) / (2 * h);
+        difference[c] = ffd_jacobian_weight(work->j, vertex) * (at[1][c] - at[0][c]) / (2 * h);
 end:
     to_file(work->j, vertex, difference);
     offset[coordinate] = kept;
@@ -126,7 +142,8 @@ static ffd_status check_points(check_work *work, size_t vertex, const double bas
     ffd_lattice *lattice;
     size_t next = ffd_embedding_first_extended(link->embedding, vertex);
     TRY(ffd_lattice_copy(of, &lattice, error));
-    ffd_basis_row(link->embedding, ffd_jacobian_weights(j, link), vertex, &next, &work->rows.basis);
+    ffd_basis_row(link->embedding, ffd_jacobian_weights(j, link), ffd_jacobian_seal(link), vertex, &next,
+                  &work->rows.basis);
     ffd_status status = FFD_OK;
     for (size_t e = 0; e < work->rows.basis.count; e++)
         for (int b = 0; b < 3; b++) {
@@ -172,7 +189,8 @@ static const spec_variable *variable_of(const jacobian *j, size_t column, size_t
     return NULL;
 }
 
-/* Loads all lattices with a changed placeholder, and fits them to the same boxes as the job's. */
+/* Loads all lattices with a changed placeholder, fits them to the same boxes as the job's, and holds the same
+   faces. */
 static ffd_status load_changed(const jacobian *j, const spec_variable *variable, const char *text,
                                lattice_chain *chain, ffd_error *error)
 {
@@ -189,15 +207,18 @@ static ffd_status load_changed(const jacobian *j, const spec_variable *variable,
                                .count = desc->lattice_count,
                                .set = set,
                                .set_count = count,
+                               .time = desc->has_time ? &desc->time : NULL,
                                .mesh = &desc->input};
     ffd_status status;
     TRY_END(ffd_chain_load(&files, &j->job.chain.outside, desc->isa, NULL, chain, error));
+    chain->seal = j->job.chain.seal;
     for (size_t l = 0; l < chain->count; l++) {
-        const ffd_lattice *const like = j->job.chain.links[l].lattice;
-        if (chain->links[l].locator)
-            continue;
-        TRY_END(ffd_lattice_fit_extent(chain->links[l].lattice, &like->fitted, error));
-        TRY_END(ffd_chain_prepare(chain, l, error));
+        const chain_link *const like = &j->job.chain.links[l];
+        if (!chain->links[l].locator) {
+            TRY_END(ffd_lattice_fit_extent(chain->links[l].lattice, &like->lattice->fitted, error));
+            TRY_END(ffd_chain_prepare(chain, l, error));
+        }
+        TRY_END(ffd_seal_link(chain, l, like->held, error));
     }
 end:
     ffd_free(set);
@@ -237,7 +258,8 @@ static ffd_status check_parameter(check_work *work, size_t column, const size_t 
         ffd_jacobian_rows_fill(work->j, vertices[i], &work->rows);
         for (int a = 0; a < 3; a++) {
             found[a] = number_at(work, a, column);
-            difference[a] = (at[1][3 * i + (size_t)a] - at[0][3 * i + (size_t)a]) / (2 * h);
+            difference[a] = ffd_jacobian_weight(work->j, vertices[i]) *
+                            (at[1][3 * i + (size_t)a] - at[0][3 * i + (size_t)a]) / (2 * h);
         }
         to_file(work->j, vertices[i], difference);
         compare(work, found, difference, largest_of(work));

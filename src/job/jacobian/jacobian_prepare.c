@@ -6,8 +6,8 @@
 #include "job/chain/chain_apply.h"
 #include "job/chain/lattice_memory.h"
 #include "job/jacobian/jacobian.h"
+#include "job/job_fit.h"
 #include "job/judge/warnings.h"
-#include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
 #include "job/pass/vertex_rounding.h"
 #include "points/embedding.h"
@@ -94,10 +94,15 @@ static ffd_status fill_embedding(jacobian *j, jacobian_link *link, pass_totals *
 {
     const chain_link *const of = &j->job.chain.links[link->index];
     TRY(ffd_embedding_make(of->lattice, j->count, &link->embedding, error));
+    if (of->sealed)
+        TRY(ffd_row_seal_make(of->lattice, of->sealed, j->job.chain.seal.layers - 1, of->held, &link->seal,
+                              error));
     mesh_pass pass = pass_of(j, link->index + 1);
     pass.pace = &j->pace;
     pass.uvw = link->embedding->uvw;
     pass.statuses = link->embedding->status;
+    pass.locations = j->job.locations;
+    pass.is_located = j->job.is_located;
     TRY(ffd_pass_over_mesh(&pass, totals, error));
     return of->border ? extend(j, link->index, link->embedding, error) : FFD_OK;
 }
@@ -288,7 +293,8 @@ ffd_status ffd_jacobian_prepare(jacobian *j, ffd_error *error)
     pass_totals totals = {0};
     j->count = (size_t)ffd_mesh_vertex_count(j->job.document);
     TRY(ffd_mesh_check(j->job.document, error));
-    TRY(ffd_chain_fit(&j->job.chain, j->job.document, j->job.threads, error));
+    TRY(ffd_deform_job_load_weights(&j->job, error));
+    TRY(ffd_job_fit(&j->job, error));
     TRY(choose_links(j, error));
     TRY(take_vertices(j, error));
     j->pace = (chain_pace){.points = (double)j->count,
@@ -318,6 +324,7 @@ void ffd_jacobian_free(jacobian *j)
 {
     for (size_t l = 0; l < j->link_count; l++) {
         ffd_embedding_destroy(&j->links[l].embedding);
+        ffd_row_seal_free(&j->links[l].seal);
         ffd_free(j->links[l].later);
         ffd_free(j->links[l].columns);
         ffd_lattice_tangents_free(&j->links[l].tangents);

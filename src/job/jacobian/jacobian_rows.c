@@ -58,11 +58,13 @@ static void fill_by_points(const jacobian *j, size_t vertex, jacobian_rows *rows
 {
     const jacobian_link *const link = &j->links[0];
     double product[9];
-    ffd_basis_row(link->embedding, ffd_jacobian_weights(j, link), vertex, &rows->next[0], &rows->basis);
+    ffd_basis_row(link->embedding, ffd_jacobian_weights(j, link), ffd_jacobian_seal(link), vertex,
+                  &rows->next[0], &rows->basis);
     const double *const block = block_of(j, link, vertex, product);
+    const double weight = ffd_jacobian_weight(j, vertex);
     for (size_t e = 0; e < rows->basis.count; e++) {
         const uint64_t column = rows->basis.columns[e];
-        const double value = rows->basis.values[e];
+        const double value = weight * rows->basis.values[e];
         if (!j->blocks)
             add(rows, 0, column, value);
         for (int a = 0; a < 3 && j->blocks; a++)
@@ -102,20 +104,32 @@ static void find_place(const ffd_lattice *lattice, const basis_row *basis, doubl
         x[c] /= sum;
 }
 
+/* The same of a sealed lattice, whose row does not have all of the volume. */
+static void find_sealed_place(const jacobian_link *link, size_t vertex, size_t next, double x[3])
+{
+    double uvw[3];
+    if (ffd_basis_uvw(link->embedding, vertex, next, uvw))
+        ffd_lattice_evaluate(link->seal.sealed, FFD_VOLUME_DEFORMED, uvw, x, NULL);
+}
+
 static void add_link(const jacobian *j, size_t index, size_t vertex, jacobian_rows *rows)
 {
     const jacobian_link *const link = &j->links[index];
     const ffd_lattice *const lattice = j->job.chain.links[link->index].lattice;
     double product[9], x[3];
-    ffd_basis_row(link->embedding, ffd_jacobian_weights(j, link), vertex, &rows->next[index], &rows->basis);
+    ffd_basis_row(link->embedding, ffd_jacobian_weights(j, link), ffd_jacobian_seal(link), vertex,
+                  &rows->next[index], &rows->basis);
     const double *const block = block_of(j, link, vertex, product);
+    const double weight = ffd_jacobian_weight(j, vertex);
     find_place(lattice, &rows->basis, x);
+    if (link->seal.sealed)
+        find_sealed_place(link, vertex, rows->next[index], x);
     for (size_t k = 0; k < link->tangents.columns && rows->basis.count > 0; k++) {
         double tangent[3];
         find_tangent(lattice, &link->tangents, k, &rows->basis, x, tangent);
         mat_apply(block, tangent, tangent);
         for (size_t c = 0; c < 3; c++)
-            rows->sums[3 * link->columns[k] + c] += tangent[c];
+            rows->sums[3 * link->columns[k] + c] += weight * tangent[c];
     }
 }
 

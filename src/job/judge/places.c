@@ -69,12 +69,11 @@ static void warn_of_missed(const ffd_lattice *lattice, const mesh_log *log)
     if (!(missed->miss > 0))
         return;
     ffd_name_shown(lattice->spec->name, name, sizeof name);
-    ffd_log_line(
-        log, FFD_LOG_WARNING,
-        "%s: /moves/%zu: the control points cannot take all places as far as the drag asks: the largest "
-        "miss is %.3g of %.3g, at %g %g %g",
-        name, missed->move, missed->miss, missed->asked, missed->place[0], missed->place[1],
-        missed->place[2]);
+    ffd_log_line(log, FFD_LOG_WARNING,
+                 "%s: %s: the control points cannot take all places as far as the drag asks: the largest "
+                 "miss is %.3g of %.3g, at %g %g %g",
+                 name, missed->pointer, missed->miss, missed->asked, missed->place[0], missed->place[1],
+                 missed->place[2]);
 }
 
 ffd_status ffd_places_warn(const lattice_chain *chain, const mesh_log *log, bool *falls_short,

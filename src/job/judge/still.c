@@ -1,4 +1,5 @@
 /* still.c - says why moves move nothing. */
+#include "base/spelling.h"
 #include "base/text/words.h"
 #include "job/judge/warnings.h"
 #include "lattice/lattice.h"
@@ -74,12 +75,13 @@ static bool is_explained(const pass_totals *totals)
     return totals->located + totals->extended == 0 || totals->transforms_singular > 0;
 }
 
-void ffd_still_warn(const pass_totals *totals, const lattice_chain *chain, const ffd_bounds *box,
-                    bool is_target, bool is_written, const mesh_log *log)
+void ffd_still_warn(const pass_totals *totals, const lattice_chain *chain, const ffd_weight_figures *weights,
+                    const ffd_bounds *box, bool is_target, bool is_written, const mesh_log *log)
 {
     const bool still = totals->moved == 0;
     /* Saving warns of a morph target whose offsets are zero; the reason is given here. */
     const bool is_logged = is_target && is_written;
+    const bool is_held = still && weights->zero == totals->vertices;
     char where[200] = "";
     lattice_group idle = {0}, active = {0};
     uint64_t points = 0;
@@ -88,10 +90,10 @@ void ffd_still_warn(const pass_totals *totals, const lattice_chain *chain, const
     warn_of_factor(chain, log);
     for (size_t l = 0; l < chain->count; l++) {
         const chain_link *const link = &chain->links[l];
-        const uint64_t moved = count_moved(link->lattice);
+        const uint64_t moved = count_moved(ffd_link_mover(link));
         if (moved > 0)
             add_lattice(link, &active);
-        else if (link->lattice->spec->move_count > 0 && !link->lattice->edited)
+        else if (!link->sealed && link->lattice->spec->move_count > 0 && !link->lattice->edited)
             add_lattice(link, &idle);
         points += moved;
     }
@@ -104,7 +106,10 @@ void ffd_still_warn(const pass_totals *totals, const lattice_chain *chain, const
                      still && active.count == 0 && !is_logged ? "no vertex moves: " : "",
                      ffd_plural(idle.moves, "the move", "the moves"), idle.names,
                      ffd_plural(idle.moves, "moves", "move"), active.count == 0 ? where : "");
-    if (still && !is_logged && active.count > 0 && !is_explained(totals))
+    if (is_held && active.count > 0)
+        ffd_log_line(log, FFD_LOG_WARNING, "%s%s",
+                     is_logged ? "" : "no vertex moves: ", SPELLED("all weights are 0 ({weight})"));
+    else if (still && !is_logged && active.count > 0 && !is_explained(totals))
         ffd_log_line(log, FFD_LOG_WARNING, "no vertex moves, though %s %s %" PRIu64 " control %s%s",
                      active.names, ffd_plural(active.count, "moves", "move"), points,
                      ffd_plural(points, "point", "points"), where);

@@ -40,10 +40,10 @@ ffd_status ffd_places_warn(const lattice_chain *chain, const mesh_log *log, bool
                            ffd_error *error);
 
 /* Warns of lattices whose moves move no control point; and if no vertex moves, though lattices hold vertices
-   and move control points, that none of these acts on a vertex, or that the floats of the output are too
-   coarse for it. box: the bounds of the mesh at rest; is_target: it becomes a morph target; is_written: an
-   output is. */
-void ffd_still_warn(const pass_totals *totals, const lattice_chain *chain, const ffd_bounds *box,
-                    bool is_target, bool is_written, const mesh_log *log);
+   and move control points, that none of these acts on a vertex, that all weights are 0, or that the floats of
+   the output are too coarse for it. box: the bounds of the mesh at rest; is_target: it becomes a morph
+   target; is_written: an output is. */
+void ffd_still_warn(const pass_totals *totals, const lattice_chain *chain, const ffd_weight_figures *weights,
+                    const ffd_bounds *box, bool is_target, bool is_written, const mesh_log *log);
 
 #endif

@@ -77,7 +77,7 @@ static bool translates(const ffd_lattice *lattice)
 static bool only_translates(const lattice_chain *chain)
 {
     for (size_t l = 0; l < chain->count; l++)
-        if (!translates(chain->links[l].lattice))
+        if (!translates(ffd_link_mover(&chain->links[l])))
             return false;
     return !(chain->outside.extend && chain->outside.falloff > 0);
 }

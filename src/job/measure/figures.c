@@ -136,9 +136,15 @@ ffd_status ffd_figures_folds(lattice_chain *chain, int threads, ffd_job_result *
 {
     for (size_t l = 0; l < chain->count; l++) {
         chain_link *const link = &chain->links[l];
+        ffd_folds own = {.struct_size = sizeof own};
+        if (link->sealed) { /* with other faces held in the next job */
+            TRY(ffd_folds_find(link->sealed, threads, &own, error));
+            ffd_folds_join(&own, l, &result->folds);
+            continue;
+        }
         if (!link->has_folds) {
-            link->folds.struct_size = sizeof link->folds;
-            TRY(ffd_folds_find(link->lattice, threads, &link->folds, error));
+            TRY(ffd_folds_find(link->lattice, threads, &own, error));
+            link->folds = own;
             link->has_folds = true;
         }
         ffd_folds_join(&link->folds, l, &result->folds);
@@ -184,7 +190,7 @@ ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_j
     if (!wants_edges(job))
         return FFD_OK;
     TRY(ffd_quality_edges(job->document, ffd_job_judged(job), &arrays->faces, arrays->deformed, &job->chain,
-                          job->threads, &edges, error));
+                          ffd_job_weights(job), job->threads, &edges, error));
     result->edges.is_known = true;
     result->edges.count = edges.edges;
     result->edges.deviation.max = edges.deviation_max;

@@ -35,7 +35,8 @@
 typedef struct sampled_edge {
     double start[3], along[3]; /* position at rest: start + t along */
     double start_delta[3],
-        along_delta[3]; /* displacement of the straight deformed edge: start_delta + t along_delta */
+        along_delta[3];          /* displacement of the straight deformed edge: start_delta + t along_delta */
+    double weight, along_weight; /* weight + t along_weight at t */
     double chord[3], chord_square; /* from end to end of the straight deformed edge, and its squared length */
     double first, share;           /* the window: t from first to first + share */
     double length;                 /* of the window at rest */
@@ -77,6 +78,7 @@ typedef struct edge_work {
     mesh_state state;     /* what the faces are of */
     vertex_owners owners; /* for rounding cells; document NULL: coordinates are exact */
     const double *deformed;
+    const vertex_weights *weights;
     const lattice_chain *chain;
     size_t layers;
     bounds *reach; /* of each layer: a box outside of which nothing moves */
@@ -214,6 +216,8 @@ static void begin_edge(const edge_work *work, uint64_t key, sampled_edge *edge)
     static const double none[3] = {0, 0, 0};
     double size = 0, half[3];
     memset(edge, 0, sizeof *edge);
+    edge->weight = work->weights ? ffd_vertex_weight(work->weights, a) : 1;
+    edge->along_weight = work->weights ? ffd_vertex_weight(work->weights, b) - edge->weight : 0;
     for (int c = 0; c < 3; c++) {
         edge->start[c] = rest[0][c];
         edge->along[c] = rest[1][c] - rest[0][c];
@@ -248,13 +252,17 @@ static void find_offset(const sampled_edge *edge, double t, const double delta[3
         offset[a] -= shift * edge->chord[a];
 }
 
+/* delta: by the lattices, not weighted. */
 static void keep_sample(const sample_request *request, const double delta[3], edge_scratch *scratch)
 {
     sampled_edge *edge = &scratch->edges[request->edge];
-    double *offset = scratch->offset[request->edge][request->slot];
+    double *offset = scratch->offset[request->edge][request->slot], weighted[3];
+    const double t = parameter_of(edge, request->slot), weight = edge->weight + t * edge->along_weight;
     if (is_end(edge, request->slot)) /* only its u,v,w are needed */
         return;
-    find_offset(edge, parameter_of(edge, request->slot), delta, offset);
+    for (int a = 0; a < 3; a++)
+        weighted[a] = weight * delta[a];
+    find_offset(edge, t, weighted, offset);
     const double deviation = vec_length(offset);
     if (request->slot < PIECES)
         edge->sampled |= (uint64_t)1 << request->slot;
@@ -571,12 +579,14 @@ static edge_scratch *make_scratch(size_t workers, size_t layers)
 }
 
 ffd_status ffd_quality_edges(const mesh_document *document, mesh_state state, const mesh_faces *faces,
-                             const double *deformed, const lattice_chain *chain, int threads,
-                             edge_quality *result, ffd_error *error)
+                             const double *deformed, const lattice_chain *chain,
+                             const vertex_weights *weights, int threads, edge_quality *result,
+                             ffd_error *error)
 {
     edge_work work = {.state = state,
                       .faces = faces,
                       .deformed = deformed,
+                      .weights = weights,
                       .chain = chain,
                       .layers = ffd_chain_layers(chain)};
     size_t workers = 0, tiles = 0;

@@ -249,9 +249,13 @@ static ffd_status judge_axis(const shape_walk *shape, const ffd_lattice *lattice
 
 static bool mirrors(const lattice_spec *spec, int axis)
 {
-    for (size_t i = 0; i < spec->move_count; i++)
-        if (spec->moves[i].mirror.kind == MIRROR_MIDDLE && spec->moves[i].mirror.normal[axis] != 0)
-            return true;
+    for (size_t list = 0; list <= spec->keys.count; list++) {
+        size_t count;
+        const lattice_move *const moves = ffd_spec_moves(spec, list, &count);
+        for (size_t i = 0; i < count; i++)
+            if (moves[i].mirror.kind == MIRROR_MIDDLE && moves[i].mirror.normal[axis] != 0)
+                return true;
+    }
     return false;
 }
 

@@ -89,6 +89,9 @@ ffd_status ffd_tear_blocks_find(const tear_field *field, field_place *places, si
     for (size_t i = 0; i < count; i++) {
         field_place *const place = &places[i];
         field_foot foot;
+        place->exits[0] = -HUGE_VAL;
+        place->exits[1] = HUGE_VAL;
+        place->holder = 0;
         if (is_held(field, place, scratch->chain.owners[i])) {
             memcpy(place->delta, scratch->delta + 3 * i, sizeof place->delta);
             memcpy(place->gradient, scratch->gradient + 9 * i, sizeof place->gradient);

@@ -15,7 +15,7 @@
 /* A part is narrow enough to be measured, relative to the edge; about 20 halvings. */
 #define NARROW 1.05e-6
 /* Where the slopes differ so much that the step is not known to this part of it, */
-#define EXACT 1e-12
+#define EXACT 1e-9
 /* cutting goes on to this width. */
 #define NARROWEST 1e-12
 /* A place farther from a border than this many eps of the coordinates is on one side of it, whatever the
@@ -26,6 +26,12 @@
 /* The most parts of an edge that wait while another one is cut; of more those with the smallest defects are
    left out. */
 #define PARTS 16
+/* A cut before a border leaves this part of the way to it, or as many times less as that way is short; */
+#define ASIDE (1.0 / 64)
+/* from here a cut goes behind it. */
+#define NEAR (NARROW / 8)
+/* After so many cuts in a row that left most of a part it is halved. */
+#define SLOW 4
 /* A part whose defect is at most this part of the step that was found is left: it hardly has a larger one. */
 #define PROMISING 0.5
 
@@ -33,6 +39,8 @@
 typedef struct cut_place {
     double t;                  /* 0 at the first end, 1 at the second */
     double delta[3], slope[3]; /* the displacement, and its derivative by t */
+    double exits[2];           /* as of field_place, */
+    size_t holder;             /* likewise */
 } cut_place;
 
 /* A part of an edge along which the displacement may jump. */
@@ -40,6 +48,8 @@ typedef struct cut_part {
     cut_place low, high;
     double defect;   /* how much the displacement differs from what the slopes say */
     bool is_half;    /* of another part */
+    int slow;        /* so many cuts in a row have left more than half of one */
+    bool is_judged;  /* measured since it was made */
     tear_step known; /* the jump along it, as far as it was measured; 0: it was not */
 } cut_part;
 
@@ -48,13 +58,18 @@ typedef struct cut_edge {
                          that moves, if that goes on */
     bool moves_last;  /* what goes on is that of the place t = 1, not of t = 0 */
     double start[3], along[3], length;
-    double margin; /* of t: farther from a border than the rounding of places on it */
-    cut_part part; /* what is being cut, */
-    bool is_cut;   /* if something is */
-    cut_part waiting[PARTS];
-    size_t count; /* of these */
+    double margin;     /* of t: farther from a border than the rounding of places on it */
+    cut_part part;     /* what is being cut, */
+    bool is_cut;       /* if something is */
+    cut_part *waiting; /* the first part that waits; CUT_RUN behind it the next one: most edges have few */
+    size_t count;      /* of these, at most PARTS */
     tear_step step;
 } cut_edge;
+
+/* Where an edge that links have bent meets a border is found in so many turns, */
+#define BEND_TURNS 2
+/* and is known to this part of the edge if that is short beside the links' cells. */
+#define BEND_MARGIN (NARROW / 64)
 
 /* The most places that an edge is cut at first: its ends, and where it meets borders of lattices. */
 #define FIRST_PLACES 64
@@ -68,18 +83,23 @@ typedef struct place_list {
 /* An edge on its way through links one after the other. */
 typedef struct edge_way {
     double x[2][3], last[2][3]; /* its ends: as links that move both have moved them; as all have */
+    double slope[2][3];         /* the derivatives of these by t, if it bends */
     bool follows;               /* the last link moves both */
+    bool bends;                 /* some link has moved both ends, and none has moved one alone */
+    bool parts;                 /* some link has moved one end alone */
 } edge_way;
 
 struct tear_cuts {
     field_scratch *field;
     cut_edge edges[CUT_RUN];
+    cut_part waiting[PARTS][CUT_RUN];
     place_list lists[CUT_RUN];
     edge_way ways[CUT_RUN];
     cut_place low[CUT_RUN], high[CUT_RUN]; /* their ends */
     field_place places[FIELD_RUN];
 };
 
+_Static_assert(CUT_RUN <= FIELD_PAIRS, "more edges at once than pairs");
 _Static_assert(sizeof(struct tear_cuts) + sizeof(field_scratch) - sizeof(kept_cells) < THREAD_BYTES,
                "a thread takes more than is counted");
 
@@ -156,6 +176,7 @@ static void place_at(const tear_field *field, const cut_edge *edge, double t, fi
                 : t <= 0         ? FIELD_FIRST
                 : t >= 1         ? FIELD_SECOND
                                  : FIELD_BETWEEN;
+    place->along = edge->along;
     for (int a = 0; a < 3; a++)
         place->x[a] = edge->start[a] + t * edge->along[a];
 }
@@ -164,6 +185,8 @@ static cut_place take(const cut_edge *edge, double t, const field_place *from)
 {
     cut_place place = {.t = t};
     memcpy(place.delta, from->delta, sizeof place.delta);
+    memcpy(place.exits, from->exits, sizeof place.exits);
+    place.holder = from->holder;
     mat_apply(from->gradient, edge->along, place.slope);
     return place;
 }
@@ -176,18 +199,23 @@ static bool make_part(const cut_edge *edge, const cut_place *low, const cut_plac
     return part->defect > NEGLIGIBLE * edge->length;
 }
 
+static cut_part *waiting_at(const cut_edge *edge, size_t p)
+{
+    return edge->waiting + CUT_RUN * p;
+}
+
 static void let_wait(cut_edge *edge, const cut_part *part)
 {
     size_t at = 0;
     if (edge->count < PARTS) {
-        edge->waiting[edge->count++] = *part;
+        *waiting_at(edge, edge->count++) = *part;
         return;
     }
     for (size_t p = 1; p < PARTS; p++)
-        if (edge->waiting[p].defect < edge->waiting[at].defect)
+        if (waiting_at(edge, p)->defect < waiting_at(edge, at)->defect)
             at = p;
-    if (part->defect > edge->waiting[at].defect)
-        edge->waiting[at] = *part;
+    if (part->defect > waiting_at(edge, at)->defect)
+        *waiting_at(edge, at) = *part;
 }
 
 /* Takes the waiting part with the largest defect, if it is promising. */
@@ -195,13 +223,13 @@ static void take_next(cut_edge *edge)
 {
     size_t at = 0;
     for (size_t p = 1; p < edge->count; p++)
-        if (edge->waiting[p].defect > edge->waiting[at].defect)
+        if (waiting_at(edge, p)->defect > waiting_at(edge, at)->defect)
             at = p;
-    edge->is_cut = edge->count > 0 && edge->waiting[at].defect > PROMISING * edge->step.length;
+    edge->is_cut = edge->count > 0 && waiting_at(edge, at)->defect > PROMISING * edge->step.length;
     if (!edge->is_cut)
         return;
-    edge->part = edge->waiting[at];
-    edge->waiting[at] = edge->waiting[--edge->count];
+    edge->part = *waiting_at(edge, at);
+    *waiting_at(edge, at) = *waiting_at(edge, --edge->count);
 }
 
 static bool precedes(const double a[3], const double b[3])
@@ -212,13 +240,17 @@ static bool precedes(const double a[3], const double b[3])
     return false;
 }
 
-static void begin_edge(const cut_work *work, uint64_t key, cut_edge *edge)
+static void begin_edge(const cut_work *work, uint64_t key, size_t e)
 {
+    cut_edge *const edge = &work->cuts->edges[e];
     const uint32_t of_key[2] = {(uint32_t)(key >> 32), (uint32_t)(key & UINT32_MAX)};
     const double *const a = work->field->faces->positions + 3 * (size_t)of_key[0];
     const double *const b = work->field->faces->positions + 3 * (size_t)of_key[1];
     const int first = precedes(b, a);
-    memset(edge, 0, sizeof *edge);
+    edge->is_cut = false;
+    edge->waiting = &work->cuts->waiting[0][e];
+    edge->count = 0;
+    edge->step = (tear_step){0, FFD_TEAR_NONE};
     edge->ends[0] = of_key[work->field->continues ? 1 : first];
     edge->ends[1] = of_key[work->field->continues ? 1 : 1 - first];
     edge->moves_last = !first;
@@ -242,24 +274,66 @@ static void add_place(place_list *list, double t)
     list->t[at] = t;
 }
 
-/* Adds places of an edge where a link begins or ends: just before and behind the borders of a box. Other
-   volumes are somewhere within their bounds. way: the edge as the links before leave it. */
+/* The tangent at t of the cubic with the ends of a way that bends, and with their derivatives: the points
+   start + s along, of which that with s = t touches. */
+static void find_tangent(const edge_way *way, double t, double start[3], double along[3])
+{
+    for (int a = 0; a < 3; a++) {
+        const double chord = way->x[1][a] - way->x[0][a];
+        const double low = way->slope[0][a] - chord, high = way->slope[1][a] - chord;
+        const double bulge = t * (1 - t) * ((1 - t) * low - t * high);
+        along[a] = chord + (1 - t) * (1 - 3 * t) * low + t * (3 * t - 2) * high;
+        start[a] = way->x[0][a] + t * chord + bulge - t * along[a];
+    }
+}
+
+/* Follows a way that bends from where its chord meets the border of a box to where it does itself: by
+   Newton's method. last: that where it leaves the box, else where it enters. */
+static double follow_bend(const chain_link *link, const edge_way *way, double t, bool last)
+{
+    double start[3], along[3], from, to;
+    for (int turn = 0; turn < BEND_TURNS && t > 0 && t < 1; turn++) {
+        find_tangent(way, t, start, along);
+        if (!ffd_link_clip(link, start, along, &from, &to))
+            break;
+        t = last ? to : from;
+    }
+    return t;
+}
+
+/* Adds places of an edge just before and behind the border of a box. A way that bends is known less well. */
+static void add_borders(const chain_link *link, const cut_edge *edge, const edge_way *way, double from,
+                        double to, place_list *list)
+{
+    const double margin =
+        way->bends ? larger_of(4 * edge->margin, BEND_MARGIN) : larger_of(4 * edge->margin, NARROWEST / 2);
+    const double enters = way->bends ? follow_bend(link, way, from, false) : from;
+    const double leaves = way->bends ? follow_bend(link, way, to, true) : to;
+    if (from > 0) {
+        add_place(list, enters - margin);
+        add_place(list, enters + margin);
+    }
+    if (to < 1) {
+        add_place(list, leaves - margin);
+        add_place(list, leaves + margin);
+    }
+}
+
+/* Adds places of an edge where a link begins or ends: beside the borders of a box, and within one that it may
+   lead through. Of other volumes only the bounds are known. way: the edge as the links before leave it. */
 static void add_crossings(const chain_link *link, const cut_edge *edge, const edge_way *way, place_list *list)
 {
-    const double margin = larger_of(4 * edge->margin, NARROWEST / 2);
     const int pieces = link->is_convex ? 1 : PIECES;
     double from, to, along[3];
     for (int a = 0; a < 3; a++)
         along[a] = way->x[1][a] - way->x[0][a];
-    if (!ffd_link_clip(link, way->x[0], along, &from, &to) || (link->is_convex && from <= 0 && to >= 1))
+    if (!ffd_link_clip(link, way->x[0], along, &from, &to))
         return;
-    for (int piece = 0; piece < pieces; piece++)
-        add_place(list, from + (piece + FIRST_CUT) / pieces * (to - from));
-    for (int end = 0; end < 2 && link->is_convex; end++)
-        if (end ? to < 1 : from > 0) {
-            add_place(list, (end ? to : from) - margin);
-            add_place(list, (end ? to : from) + margin);
-        }
+    if (link->is_convex)
+        add_borders(link, edge, way, from, to, list);
+    if (!link->is_convex || way->parts || (from > 0 && to < 1))
+        for (int piece = 0; piece < pieces; piece++)
+            add_place(list, from + (piece + FIRST_CUT) / pieces * (to - from));
 }
 
 /* Context of visit_link and visit_block. */
@@ -268,6 +342,24 @@ typedef struct crossing_work {
     tear_cuts *cuts;
     size_t edges; /* visit_link: how many; visit_block: which */
 } crossing_work;
+
+/* Moves the ends of a way to where the last link has moved them, if it has moved both. x: the ends now;
+   places: theirs, with what all links before have done. */
+static void move_way(const cut_edge *edge, const double x[6], const field_place places[2], edge_way *way)
+{
+    way->bends = (way->bends || way->follows) && !way->parts;
+    for (size_t end = 0; end < 2; end++) {
+        for (size_t a = 0; a < 3; a++) {
+            way->x[end][a] += way->follows ? x[3 * end + a] - way->last[end][a] : 0;
+            way->last[end][a] = x[3 * end + a];
+        }
+        if (!way->bends)
+            continue;
+        mat_apply(places[end].gradient, edge->along, way->slope[end]);
+        for (size_t a = 0; a < 3; a++)
+            way->slope[end][a] += edge->along[a];
+    }
+}
 
 /* Lists where edges meet a link. What only one end gets from the links before does not count: the places
    between mostly do not get it. */
@@ -278,16 +370,13 @@ static void visit_link(void *context, size_t link, const double *x)
     for (size_t e = 0; e < work->edges; e++) {
         cut_edge *const edge = &work->cuts->edges[e];
         edge_way *const way = &work->cuts->ways[e];
-        for (int end = 0; end < 2; end++)
-            for (size_t a = 0; a < 3; a++) {
-                const double now = x[3 * (2 * e + (size_t)end) + a];
-                way->x[end][a] += way->follows ? now - way->last[end][a] : 0;
-                way->last[end][a] = now;
-            }
-        way->follows = ffd_marks_take(&work->field->marks, edge->ends[0], link) &&
-                       ffd_marks_take(&work->field->marks, edge->ends[1], link);
-        if (!of->is_still)
+        move_way(edge, x + 6 * e, &work->cuts->places[2 * e], way);
+        const bool first = ffd_marks_take(&work->field->marks, edge->ends[0], link);
+        const bool second = ffd_marks_take(&work->field->marks, edge->ends[1], link);
+        if (!of->is_still && (!(first && second) || work->field->parts))
             add_crossings(of, edge, way, &work->cuts->lists[e]);
+        way->follows = first && second;
+        way->parts = way->parts || (!of->is_still && first != second);
     }
 }
 
@@ -314,7 +403,7 @@ static ffd_status begin_ends(const cut_work *work, size_t count)
             place_at(field, &cuts->edges[e], (double)end, &cuts->places[2 * e + end]);
             memcpy(cuts->ways[e].x[end], cuts->places[2 * e + end].x, sizeof cuts->ways[e].x[end]);
         }
-        cuts->ways[e].follows = false;
+        cuts->ways[e].follows = cuts->ways[e].bends = cuts->ways[e].parts = false;
     }
     TRY(ffd_tear_field_find(field, cuts->places, 2 * count, &visitor, cuts->field, work->error));
     for (size_t e = 0; e < count; e++) {
@@ -390,28 +479,85 @@ static bool is_narrow(const cut_part *part)
     return width <= NARROWEST || doubt_of(&part->low, &part->high) <= EXACT * part->known.length;
 }
 
-/* Measures the jump along a narrow part: the difference of both displacements at its middle, where their
-   slopes lead. *settled: there is none, or it is exact. */
-static ffd_status measure(const cut_work *work, const cut_edge *edge, cut_part *part, bool *settled)
+/* The two places between which a narrow part is measured. */
+static void place_pair(const cut_work *work, const cut_edge *edge, field_place pair[2])
 {
-    const double from = part->low.t - edge->margin, to = part->high.t + edge->margin;
-    const double t[2] = {from > 0 ? from : 0, to < 1 ? to : 1};
-    field_place pair[2];
-    cut_place place[2];
-    tear_step step;
-    for (int i = 0; i < 2; i++)
-        place_at(work->field, edge, t[i], &pair[i]);
-    const ffd_status status =
-        ffd_tear_field_compare(work->field, pair, work->cuts->field, &step.cause, work->error);
-    for (int i = 0; i < 2; i++)
-        place[i] = take(edge, t[i], &pair[i]);
-    step.length = find_defect(place[0].delta, place[1].delta, place[0].slope, place[1].slope, t[1] - t[0]);
-    const double doubt = doubt_of(&place[0], &place[1]);
+    const double from = edge->part.low.t - edge->margin, to = edge->part.high.t + edge->margin;
+    place_at(work->field, edge, from > 0 ? from : 0, &pair[0]);
+    place_at(work->field, edge, to < 1 ? to : 1, &pair[1]);
+}
+
+static void settle(cut_edge *edge)
+{
+    if (edge->part.known.length > edge->step.length)
+        edge->step = edge->part.known;
+    take_next(edge);
+}
+
+/* Judges the jump along a narrow part, by two places round it: the difference of both displacements in the
+   middle between them, where their slopes lead. Goes on if there is none, or if it is exact. */
+static void judge(cut_edge *edge, const cut_place *low, const cut_place *high, ffd_tear_cause cause)
+{
+    cut_part *const part = &edge->part;
+    const tear_step step = {find_defect(low->delta, high->delta, low->slope, high->slope, high->t - low->t),
+                            cause};
+    const double doubt = doubt_of(low, high);
     const bool jumps = step.length > NEGLIGIBLE * edge->length;
+    part->is_judged = true;
     if (jumps && step.length > doubt) /* else it may be a kink */
         part->known = step;
-    *settled = !jumps || doubt <= EXACT * step.length || part->high.t - part->low.t <= NARROWEST;
-    return status;
+    if (!jumps || doubt <= EXACT * step.length || part->high.t - part->low.t <= NARROWEST)
+        settle(edge);
+}
+
+static void judge_pair(cut_edge *edge, const field_place pair[2], ffd_tear_cause cause)
+{
+    const double from = edge->part.low.t - edge->margin, to = edge->part.high.t + edge->margin;
+    const cut_place low = take(edge, from > 0 ? from : 0, &pair[0]);
+    const cut_place high = take(edge, to < 1 ? to : 1, &pair[1]);
+    judge(edge, &low, &high, cause);
+}
+
+/* Whether one end of a part is held by a link that does not move both ends of the edge, and the other end by
+   none: the jump between them is that link's. If others follow, they get the two places of a pair apart. */
+static bool leaves_link(const tear_field *field, const cut_part *part)
+{
+    const lattice_chain *const chain = field->chain;
+    size_t link = part->low.holder + part->high.holder;
+    const bool leaves = link > 0 && (part->low.holder == 0 || part->high.holder == 0);
+    while (leaves && link < chain->count && chain->links[link].is_still)
+        link++;
+    return leaves && link == chain->count;
+}
+
+static bool is_to_be_judged(const cut_edge *edge)
+{
+    return edge->is_cut && !edge->part.is_judged && is_narrow(&edge->part);
+}
+
+/* Judges the parts at hand that are narrow, until none is. */
+static ffd_status judge_all(const cut_work *work, size_t count)
+{
+    tear_cuts *const cuts = work->cuts;
+    ffd_tear_cause causes[CUT_RUN];
+    uint32_t judged[CUT_RUN];
+    size_t pairs;
+    do {
+        pairs = 0;
+        for (size_t e = 0; e < count; e++) {
+            cut_edge *const edge = &cuts->edges[e];
+            while (is_to_be_judged(edge) && leaves_link(work->field, &edge->part))
+                judge(edge, &edge->part.low, &edge->part.high, FFD_TEAR_LATTICES);
+            if (is_to_be_judged(edge)) {
+                place_pair(work, edge, &cuts->places[2 * pairs]);
+                judged[pairs++] = (uint32_t)e;
+            }
+        }
+        TRY(ffd_tear_field_compare(work->field, cuts->places, pairs, cuts->field, causes, work->error));
+        for (size_t i = 0; i < pairs; i++)
+            judge_pair(&cuts->edges[judged[i]], &cuts->places[2 * i], causes[i]);
+    } while (pairs > 0);
+    return FFD_OK;
 }
 
 /* Goes on with the half of a part that has the larger defect; the other one waits. Returns false if the
@@ -419,11 +565,13 @@ static ffd_status measure(const cut_work *work, const cut_edge *edge, cut_part *
 static bool go_on(cut_edge *edge, const cut_place *middle)
 {
     const cut_part whole = edge->part;
+    const double half = (whole.high.t - whole.low.t) / 2;
     cut_part halves[2];
     bool jumps[2];
     for (int h = 0; h < 2; h++) {
         jumps[h] = make_part(edge, h ? middle : &whole.low, h ? &whole.high : middle, &halves[h]);
         halves[h].is_half = true;
+        halves[h].slow = halves[h].high.t - halves[h].low.t > 1.01 * half ? whole.slow + 1 : 0;
         halves[h].known = whole.known;
     }
     const int next = halves[1].defect > halves[0].defect;
@@ -433,19 +581,31 @@ static bool go_on(cut_edge *edge, const cut_place *middle)
     return jumps[next];
 }
 
-/* Cuts the part at hand, or measures it if it is narrow. */
-static ffd_status cut(const cut_work *work, cut_edge *edge, const cut_place *middle)
+/* Where to cut a part whose one end, at `from`, is inside, and should leave the lattice on the way to the
+   other end after `exit`: ever closer before that border, and then once behind it. A search close behind a
+   border takes long. Returns false if the border should not be in the part. */
+static bool aim(const cut_edge *edge, double from, double to, double exit, double *t)
 {
-    bool settled = false;
-    if (is_narrow(&edge->part))
-        TRY(measure(work, edge, &edge->part, &settled));
-    const tear_step known = edge->part.known;
-    if (!settled && go_on(edge, middle))
-        return FFD_OK;
-    if (known.length > edge->step.length)
-        edge->step = known;
-    take_next(edge);
-    return FFD_OK;
+    const double way = fabs(exit), whole = fabs(to - from);
+    const double aside = larger_of(way, larger_of(4 * edge->margin, NARROWEST));
+    const double next = way > NEAR ? way - way * lesser_of(ASIDE, way) : way + aside;
+    *t = from + copysign(next, to - from);
+    return way < whole && next < whole;
+}
+
+/* Where the part at hand is cut: beside the border of a lattice, if the derivatives lead to one in it, else
+   in halves. Where jumps within volumes count too, a place in its middle may show others first. */
+static double choose_cut(const tear_field *field, const cut_edge *edge)
+{
+    const cut_part *const part = &edge->part;
+    const cut_place *const low = &part->low, *const high = &part->high;
+    const bool by_high = -high->exits[0] < low->exits[1];
+    double t;
+    const bool aims = part->slow < SLOW && (part->is_half || !field->parts);
+    if (aims && (by_high ? aim(edge, high->t, low->t, high->exits[0], &t)
+                         : aim(edge, low->t, high->t, low->exits[1], &t)))
+        return t;
+    return low->t + (high->t - low->t) * (part->is_half ? 0.5 : FIRST_CUT);
 }
 
 /* Cuts the parts at hand of all edges. *some: whether there are any. */
@@ -454,12 +614,11 @@ static ffd_status cut_all(const cut_work *work, size_t count, bool *some)
     tear_cuts *const cuts = work->cuts;
     double t[CUT_RUN];
     size_t places = 0;
-    for (size_t e = 0; e < count; e++) {
-        const cut_part *const part = &cuts->edges[e].part;
-        t[e] = part->low.t + (part->high.t - part->low.t) * (part->is_half ? 0.5 : FIRST_CUT);
-        if (cuts->edges[e].is_cut)
+    for (size_t e = 0; e < count; e++)
+        if (cuts->edges[e].is_cut) {
+            t[e] = choose_cut(work->field, &cuts->edges[e]);
             place_at(work->field, &cuts->edges[e], t[e], &cuts->places[places++]);
-    }
+        }
     *some = places > 0;
     TRY(*some ? ffd_tear_field_find(work->field, cuts->places, places, NULL, cuts->field, work->error)
               : FFD_OK);
@@ -467,7 +626,8 @@ static ffd_status cut_all(const cut_work *work, size_t count, bool *some)
     for (size_t e = 0; e < count; e++)
         if (cuts->edges[e].is_cut) {
             const cut_place middle = take(&cuts->edges[e], t[e], &cuts->places[places++]);
-            TRY(cut(work, &cuts->edges[e], &middle));
+            if (!go_on(&cuts->edges[e], &middle))
+                settle(&cuts->edges[e]);
         }
     return FFD_OK;
 }
@@ -483,10 +643,12 @@ ffd_status ffd_tear_cut(const tear_field *field, const uint64_t *edges, size_t c
             work.size = larger_of(work.size, larger_of(fabs(chain->links[l].locator->hull.lo[a]),
                                                        fabs(chain->links[l].locator->hull.hi[a])));
     for (size_t e = 0; e < count; e++)
-        begin_edge(&work, edges[e], &cuts->edges[e]);
+        begin_edge(&work, edges[e], e);
     TRY(begin_edges(&work, count));
-    while (some)
+    while (some) {
+        TRY(judge_all(&work, count));
         TRY(cut_all(&work, count, &some));
+    }
     for (size_t e = 0; e < count; e++)
         steps[e] = cuts->edges[e].step;
     return FFD_OK;

@@ -16,7 +16,7 @@ typedef struct tear_step {
 } tear_step;
 
 /* The most edges at once. */
-#define CUT_RUN ((size_t)128)
+#define CUT_RUN ((size_t)256)
 
 typedef struct tear_cuts tear_cuts; /* scratch memory of a thread */
 

@@ -53,24 +53,40 @@ bool ffd_tear_is_hidden(const tear_mesh *mesh, uint32_t of_faces)
     return at < count && hidden[at].first <= vertex;
 }
 
+/* Undoes what a weight above 0 does to a displacement and its gradient: d' = w d, E' = w E + d g^T. */
+static void undo_weight(double weight, const double *slope, double delta[3], double gradient[9])
+{
+    for (size_t r = 0; r < 3; r++) {
+        delta[r] /= weight;
+        for (size_t c = 0; c < 3; c++)
+            gradient[3 * r + c] = (gradient[3 * r + c] - (slope ? delta[r] * slope[c] : 0)) / weight;
+    }
+}
+
 /* Whether the displacement may jump between two vertices in different parts of the volumes that move them.
    The ends' displacements, where they are known, rule most edges out. */
 static bool may_jump(const list_work *work, uint32_t a, uint32_t b)
 {
     const tear_mesh *const mesh = work->mesh;
     const uint32_t ends[2] = {a, b};
-    double along[3], delta[2][3];
-    const double *gradients[2];
+    double along[3], delta[2][3], gradients[2][9], slope[3];
     if (!mesh->deformed || !mesh->gradients)
         return true;
     for (int end = 0; end < 2; end++) {
         const size_t index = ffd_faces_document_vertex(mesh->faces, ends[end]);
+        const double weight = ffd_tear_weight(mesh, ends[end]);
         for (int c = 0; c < 3; c++)
             delta[end][c] = mesh->deformed[3 * index + (size_t)c] - position_of(work, ends[end])[c];
-        gradients[end] = mesh->gradients + 9 * index;
+        memcpy(gradients[end], mesh->gradients + 9 * index, sizeof gradients[end]);
+        if (!(weight > 0)) /* what it would have been is not known */
+            return true;
+        if (weight < 1)
+            undo_weight(weight, ffd_vertex_slope(mesh->weights, mesh->state, index, slope), delta[end],
+                        gradients[end]);
     }
     ffd_tear_along(work->mesh->faces, a, b, along);
-    return ffd_tear_may_jump(along, (const double *const[]){delta[0], delta[1]}, gradients);
+    return ffd_tear_may_jump(along, (const double *const[]){delta[0], delta[1]},
+                             (const double *const[]){gradients[0], gradients[1]});
 }
 
 /* Edges on their way through the lattices. */
@@ -103,6 +119,12 @@ static bool visit_block(void *context, uint32_t block)
     return !ffd_link_clip(&chain->links[block], position_of(work, way->corners[0]), along, &from, &to);
 }
 
+/* Whether it is known where the links move the vertices: with weights these end elsewhere. */
+static bool knows_deformed(const list_work *work)
+{
+    return work->mesh->deformed && !work->mesh->weights;
+}
+
 static const double *deformed_of(const list_work *work, uint32_t vertex)
 {
     return work->mesh->deformed + 3 * (size_t)ffd_faces_document_vertex(work->mesh->faces, vertex);
@@ -114,7 +136,7 @@ static bool may_meet(const edge_way *way, size_t link)
 {
     const list_work *const work = way->work;
     const chain_link *const of = &work->mesh->chain->links[link];
-    const bool deformed = work->mesh->deformed && work->behind[link] < work->before[link];
+    const bool deformed = knows_deformed(work) && work->behind[link] < work->before[link];
     const double reach = deformed ? work->behind[link] : work->before[link];
     bounds box = deformed ? way->deformed : way->box;
     double from, to, along[3];
@@ -172,7 +194,7 @@ static bool may_pass(const list_work *work, const uint32_t *corners, size_t coun
     if (!some)
         return false;
     way.box = box_of(work, corners, count, false);
-    if (work->mesh->deformed && !chain->blocks)
+    if (knows_deformed(work) && !chain->blocks)
         way.deformed = box_of(work, corners, count, true);
     for (size_t l = 0; l < chain->count && !chain->blocks; l++)
         if (may_meet(&way, l))
@@ -219,7 +241,8 @@ static bool is_cut(const list_work *work, uint32_t a, uint32_t b)
     if (chain->marks.owners && (ffd_marks_owner(chain, &work->mesh->marks, a) & ~OWNER_NEAREST) !=
                                    (ffd_marks_owner(chain, &work->mesh->marks, b) & ~OWNER_NEAREST))
         return true;
-    return (!ffd_marks_are_near(chain, &work->mesh->marks, a, b) && may_jump(work, a, b)) ||
+    return (work->mesh->planes > chain->marks.parts && !ffd_marks_are_near(chain, &work->mesh->marks, a, b) &&
+            may_jump(work, a, b)) ||
            may_pass(work, (const uint32_t[]){a, b}, 2, true);
 }
 
@@ -238,7 +261,7 @@ static bool make_key(const list_work *work, uint32_t a, uint32_t b, uint64_t *ke
 static bool is_uniform(const list_work *work, const uint32_t *corners, size_t count)
 {
     for (size_t c = 1; c < count; c++)
-        if (!ffd_tear_alike(work->mesh, corners[c], corners[0], work->mesh->chain->marks.planes))
+        if (!ffd_tear_alike(work->mesh, corners[c], corners[0], work->mesh->planes))
             return false;
     return true;
 }
@@ -344,9 +367,9 @@ static ffd_status find_others(list_work *work, ffd_error *error)
     }
     for (size_t l = 0; l < chain->count && !chain->blocks; l++) {
         work->before[l] = before;
-        before += reach_of(chain->links[l].lattice);
+        before += reach_of(ffd_link_mover(&chain->links[l]));
         work->behind[chain->count - 1 - l] = behind;
-        behind += reach_of(chain->links[chain->count - 1 - l].lattice);
+        behind += reach_of(ffd_link_mover(&chain->links[chain->count - 1 - l]));
     }
     return FFD_OK;
 }

@@ -3,6 +3,7 @@
 #define FFD_JOB_MEASURE_TEAR_EDGES_H
 
 #include "job/chain/marks.h"
+#include "job/input/weights.h"
 #include "job/measure/edge_list.h"
 #include "mesh/mesh.h"
 
@@ -22,6 +23,7 @@ typedef struct tear_mesh {
     const mesh_faces *faces; /* at rest; all faces, or all whose corners differ in marks */
     const lattice_chain *chain;
     mark_planes marks; /* of the vertices of faces (job/chain/marks.h) */
+    size_t planes;     /* edges whose ends are alike in these first planes are not torn */
     bool stays;        /* some vertices stay */
     /* Also list edges whose ends have equal marks, and which lead through another lattice. */
     bool passes;
@@ -29,6 +31,8 @@ typedef struct tear_mesh {
     bool continues;
     /* As in mesh_pass, of the document's vertices; NULL: not known. They rule out most edges. */
     const double *deformed, *gradients;
+    const vertex_weights *weights; /* of the document's vertices, in this state; NULL: all are 1 */
+    mesh_state state;
     const vertex_range
         *hidden; /* hidden_count ranges of vertices of the document, ascending: hidden edges are not listed */
     size_t hidden_count;
@@ -53,6 +57,12 @@ static inline void ffd_tear_along(const mesh_faces *faces, uint32_t a, uint32_t 
 
 /* Whether two vertices have equal marks in the first planes. */
 bool ffd_tear_alike(const tear_mesh *mesh, uint32_t a, uint32_t b, size_t planes);
+/* Returns the weight of a vertex of faces. */
+static inline double ffd_tear_weight(const tear_mesh *mesh, uint32_t vertex)
+{
+    return mesh->weights ? ffd_vertex_weight(mesh->weights, ffd_faces_document_vertex(mesh->faces, vertex))
+                         : 1;
+}
 /* Whether a vertex of faces is hidden. */
 bool ffd_tear_is_hidden(const tear_mesh *mesh, uint32_t vertex);
 

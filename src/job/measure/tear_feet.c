@@ -35,11 +35,46 @@ void ffd_foot_displacement(const tear_field *field, const field_foot *foot, doub
     memset(delta, 0, 3 * sizeof *delta);
     memset(gradient, 0, 9 * sizeof *gradient);
     if (foot->found && foot->inside)
-        ffd_displacement(of->lattice, foot->point.uvw, delta, gradient);
+        ffd_displacement(ffd_link_mover(of), foot->point.uvw, delta, gradient);
     else if (foot->found)
-        ffd_extension_displacement(of->lattice, &foot->point, of->falloff, delta, gradient);
+        ffd_extension_displacement(ffd_link_mover(of), &foot->point, of->falloff, delta, gradient);
     if (foot->on_seam)
         memset(gradient, 0, 9 * sizeof *gradient);
+}
+
+/* How u,v,w change along a direction. Returns false where the volume is not invertible. */
+static bool find_speed(const ffd_lattice *lattice, const double uvw[3], const double along[3],
+                       double speed[3])
+{
+    double x[3], jacobian[9], inverse[9];
+    if (!lattice->has_uvw_by_p) {
+        ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, uvw, x, jacobian);
+        if (!mat_invert(jacobian, inverse))
+            return false;
+    }
+    mat_apply(lattice->has_uvw_by_p ? lattice->uvw_by_p : inverse, along, speed);
+    return true;
+}
+
+void ffd_foot_exits(const tear_field *field, const field_foot *foot, field_place *place)
+{
+    const ffd_lattice *const lattice = field->chain->links[foot->link].lattice;
+    double along[3], speed[3];
+    mat_apply(place->gradient, place->along, along); /* the links before bend the edge */
+    for (int c = 0; c < 3; c++)
+        along[c] += place->along[c];
+    place->holder = foot->link + 1;
+    if (!find_speed(lattice, foot->point.uvw, along, speed))
+        return;
+    for (int d = 0; d < 3; d++) {
+        const knot_vector *const knots = &lattice->knots[d];
+        if (ffd_knots_closed(knots) || speed[d] == 0)
+            continue;
+        const double to_first = (ffd_knots_first(knots) - foot->point.uvw[d]) / speed[d];
+        const double to_last = (ffd_knots_last(knots) - foot->point.uvw[d]) / speed[d];
+        place->exits[0] = larger_of(place->exits[0], lesser_of(to_first, to_last));
+        place->exits[1] = lesser_of(place->exits[1], larger_of(to_first, to_last));
+    }
 }
 
 /* Moves two feet onto the seams that are between them, and that they are beside. */

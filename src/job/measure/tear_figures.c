@@ -6,6 +6,7 @@
 #include "job/chain/block_nets.h"
 #include "job/chain/marks.h"
 #include "job/measure/tears.h"
+#include "job/measure/weight_tears.h"
 #include "lattice/lattice.h"
 #include "mesh/mixed_faces.h"
 #include "mesh/selector.h"
@@ -23,6 +24,9 @@
    so many anyway. */
 #define SHARE_OF_SEARCH (1.0 / 8)
 #define FREE_EVALUATIONS 5e4
+
+/* With fewer vertices a block than this it takes longer to compare the nets of blocks than to cut edges. */
+#define LEAST_FOR_NETS 16
 
 /* Memory of the arrays for each vertex, in bytes. */
 #define ARRAY_BYTES (12 * sizeof(double))
@@ -55,8 +59,8 @@ ffd_status ffd_tear_figures_prepare(deform_job *job, figure_arrays *arrays, ffd_
     const size_t count = count_vertices(job);
     if (count == 0)
         return FFD_OK;
-    TRY(job->chain.blocks && !is_asked_for(job) ? ffd_blocks_join(&job->chain, &job->blocks_join, error)
-                                                : FFD_OK);
+    if (job->chain.blocks && !is_asked_for(job) && count >= LEAST_FOR_NETS * job->chain.count)
+        TRY(ffd_blocks_join(&job->chain, &job->blocks_join, error));
     ffd_marks_lay_out(&job->chain, !job->blocks_join || job->chain.outside.extend);
     /* Zeroed pages that are never written to take no memory. */
     job->kept = ffd_alloc_zero(count, job->chain.marks.planes);
@@ -76,6 +80,23 @@ static void mark_left(const deform_job *job)
     }
 }
 
+/* The first planes of the marks. */
+static vertex_marks marks_of(const deform_job *job, size_t planes)
+{
+    return (vertex_marks){job->kept, planes, count_vertices(job)};
+}
+
+/* Whether some vertices may not be moved by any link. They may share a position with vertices that move, so
+   then all faces are read, not only those with mixed marks. */
+static bool some_may_not_move(const deform_job *job)
+{
+    const vertex_marks marks = marks_of(job, 1);
+    unsigned any = 0;
+    for (size_t v = ffd_marks_next(&marks, 0); v < marks.vertices; v = ffd_marks_next(&marks, v + 1))
+        any |= job->kept[v];
+    return any & KEPT_ALWAYS;
+}
+
 /* Whether some vertices have marks that lead to torn edges: planes is set to how many planes tell. */
 static bool may_tear(const deform_job *job, size_t *planes)
 {
@@ -85,10 +106,12 @@ static bool may_tear(const deform_job *job, size_t *planes)
     for (size_t l = 0; l < chain->count; l++)
         opens = opens || chain->links[l].opens_axis;
     const bool parts = chain->marks.parted_count > 0 && opens;
+    /* Where an edge leaves the volume by a held face, the displacement there is 0. */
+    const bool stays =
+        totals->kept > 0 && (!chain->seal.closes || is_asked_for(job) || some_may_not_move(job));
     *planes = parts ? chain->marks.planes : chain->marks.owners ? chain->marks.parts : chain->marks.kept;
     return totals->located + totals->extended > 0 &&
-           (totals->kept > 0 || parts ||
-            (chain->marks.owners && !(job->blocks_join && totals->extended == 0)) ||
+           (stays || parts || (chain->marks.owners && !(job->blocks_join && totals->extended == 0)) ||
             (is_asked_for(job) && chain->count > 1));
 }
 
@@ -110,12 +133,6 @@ static ffd_status list_hidden(const deform_job *job, vertex_range **ranges, size
         end += part->vertex_count;
     }
     return FFD_OK;
-}
-
-/* The first planes of the marks. */
-static vertex_marks marks_of(const deform_job *job, size_t planes)
-{
-    return (vertex_marks){job->kept, planes, count_vertices(job)};
 }
 
 /* Reduces the marks to one byte a vertex: whether it stays and is visible, as in messages about vertices
@@ -185,8 +202,15 @@ static bool may_part(const lattice_chain *chain)
     return parts;
 }
 
-/* marks: of the vertices of faces. */
-static ffd_status count_marked(const deform_job *job, const mesh_faces *faces, uint8_t *marks,
+/* The first planes of marks in which the ends of an edge have to differ, or what lies between them. Of blocks
+   that are no boxes the parts tell what leads through other blocks. */
+static size_t count_telling(const deform_job *job, size_t planes)
+{
+    return is_asked_for(job) && job->chain.blocks ? job->chain.marks.planes : planes;
+}
+
+/* marks: of the vertices of faces; planes: how many of theirs tell. */
+static ffd_status count_marked(const deform_job *job, const mesh_faces *faces, uint8_t *marks, size_t planes,
                                const figure_arrays *arrays, const memory_budget *budget,
                                ffd_job_result *result, ffd_error *error)
 {
@@ -195,11 +219,14 @@ static ffd_status count_marked(const deform_job *job, const mesh_faces *faces, u
     tear_question question = {.mesh = {.faces = faces,
                                        .chain = &job->chain,
                                        .marks = {marks, faces->vertex_count},
+                                       .planes = count_telling(job, planes),
                                        .stays = job->totals.kept > 0,
                                        .passes = is_asked_for(job) && job->chain.count > 1,
                                        .continues = is_asked_for(job) && may_part(&job->chain),
                                        .deformed = arrays->deformed,
                                        .gradients = arrays->gradients,
+                                       .weights = ffd_job_weights(job),
+                                       .state = ffd_job_judged(job),
                                        .budget = budget},
                               .marks = marks,
                               .torn = job->details ? &job->details->tears : NULL,
@@ -214,34 +241,24 @@ static ffd_status count_marked(const deform_job *job, const mesh_faces *faces, u
     return status;
 }
 
-static ffd_status count_torn(const deform_job *job, const mesh_faces *faces, const figure_arrays *arrays,
-                             const memory_budget *budget, ffd_job_result *result, ffd_error *error)
+/* planes: the first planes of marks that tell. */
+static ffd_status count_torn(const deform_job *job, const mesh_faces *faces, size_t planes,
+                             const figure_arrays *arrays, const memory_budget *budget, ffd_job_result *result,
+                             ffd_error *error)
 {
-    const size_t planes = job->chain.marks.planes, vertices = count_vertices(job),
-                 count = faces->vertex_count;
+    const size_t all = job->chain.marks.planes, vertices = count_vertices(job), count = faces->vertex_count;
     if (!faces->vertices)
-        return count_marked(job, faces, job->kept, arrays, budget, result, error);
-    TRY(ffd_budget_check(budget, count, planes, error));
-    uint8_t *const marks = ffd_alloc(count, planes);
+        return count_marked(job, faces, job->kept, planes, arrays, budget, result, error);
+    TRY(ffd_budget_check(budget, count, all, error));
+    uint8_t *const marks = ffd_alloc(count, all);
     if (!marks)
         return ffd_fail_memory(error);
-    for (size_t p = 0; p < planes; p++)
+    for (size_t p = 0; p < all; p++)
         for (size_t v = 0; v < count; v++)
             marks[p * count + v] = job->kept[p * vertices + faces->vertices[v]];
-    ffd_status status = count_marked(job, faces, marks, arrays, budget, result, error);
+    ffd_status status = count_marked(job, faces, marks, planes, arrays, budget, result, error);
     ffd_free(marks);
     return status;
-}
-
-/* Whether some vertices may not be moved by any link. They may share a position with vertices that move, so
-   then all faces are read, not only those with mixed marks. */
-static bool some_may_not_move(const deform_job *job)
-{
-    const vertex_marks marks = marks_of(job, 1);
-    unsigned any = 0;
-    for (size_t v = ffd_marks_next(&marks, 0); v < marks.vertices; v = ffd_marks_next(&marks, v + 1))
-        any |= job->kept[v];
-    return any & KEPT_ALWAYS;
 }
 
 /* planes: those in which the corners of faces have to differ. */
@@ -257,14 +274,19 @@ static ffd_status read_and_count(deform_job *job, size_t planes, const figure_ar
             : format->mixed_faces(job->document, ffd_job_judged(job), &marks, &faces, error));
     ffd_status status;
     TRY_END(ffd_mesh_faces_take(&faces, faces.start[faces.face_count], &budget, error));
-    TRY_END(count_torn(job, &faces, arrays, &budget, result, error));
+    TRY_END(count_torn(job, &faces, planes, arrays, &budget, result, error));
 end:
     ffd_mesh_faces_free(&faces);
     return status;
 }
 
-ffd_status ffd_tear_figures_find(deform_job *job, figure_arrays *arrays, ffd_job_result *result,
-                                 ffd_error *error)
+bool ffd_tear_figures_count_splits(const deform_job *job)
+{
+    return is_asked_for(job) || count_vertices(job) <= UNASKED_VERTICES;
+}
+
+/* Counts the edges that the lattices tear. */
+static ffd_status find_torn(deform_job *job, figure_arrays *arrays, ffd_job_result *result, ffd_error *error)
 {
     ffd_error own;
     char line[1024];
@@ -276,9 +298,9 @@ ffd_status ffd_tear_figures_find(deform_job *job, figure_arrays *arrays, ffd_job
     }
     mark_left(job);
     if (arrays->has_faces && is_asked_for(job))
-        return count_torn(job, &arrays->faces, arrays, &arrays->budget, result, error);
+        return count_torn(job, &arrays->faces, planes, arrays, &arrays->budget, result, error);
     if (arrays->has_faces)
-        status = count_torn(job, &arrays->faces, arrays, &arrays->budget, result, &own);
+        status = count_torn(job, &arrays->faces, planes, arrays, &arrays->budget, result, &own);
     else if (!is_asked_for(job) && count_vertices(job) > UNASKED_VERTICES)
         status =
             ffd_fail(&own, FFD_E_LIMIT, "more than %" PRIu64 " vertices (see {quality})", UNASKED_VERTICES);
@@ -294,5 +316,21 @@ ffd_status ffd_tear_figures_find(deform_job *job, figure_arrays *arrays, ffd_job
     ffd_error_format(&own, line, sizeof line);
     ffd_log_line(&job->log, FFD_LOG_WARNING, "torn edges %sare not counted: %s",
                  result->tear.edges > 0 ? "of which both ends move " : "", line);
+    return FFD_OK;
+}
+
+ffd_status ffd_tear_figures_find(deform_job *job, figure_arrays *arrays, ffd_job_result *result,
+                                 ffd_error *error)
+{
+    bool is_largest;
+    TRY(find_torn(job, arrays, result, error));
+    TRY(ffd_weight_tears_add(job, result, &is_largest, error));
+    if (!is_largest)
+        return FFD_OK;
+    const mesh_selector_calls *const selectors = job->document->format->selectors;
+    *result->tear.part = 0;
+    if (selectors)
+        selectors->name_owner(job->document, result->tear.vertex, job->kept, result->tear.part,
+                              sizeof result->tear.part);
     return FFD_OK;
 }

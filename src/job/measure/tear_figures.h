@@ -15,4 +15,8 @@ ffd_status ffd_tear_figures_prepare(deform_job *job, figure_arrays *arrays, ffd_
 ffd_status ffd_tear_figures_find(deform_job *job, figure_arrays *arrays, ffd_job_result *result,
                                  ffd_error *error);
 
+/* Whether vertices at one position with different weights are counted as torn: where that is asked for, or
+   the mesh is not too large. */
+bool ffd_tear_figures_count_splits(const deform_job *job);
+
 #endif

@@ -43,7 +43,19 @@ static ffd_status add_jumps(const tear_work *work, const uint64_t *keys, size_t 
     tear_step jumps[CUT_RUN];
     TRY(ffd_tear_cut(&work->continued, keys, count, jumps, worker->cuts, &worker->error));
     for (size_t i = 0; i < count; i++)
-        steps[i].length = larger_of(steps[i].length, jumps[i].length);
+        steps[i].length = larger_of(steps[i].length,
+                                    jumps[i].length * ffd_tear_weight(work->mesh, ffd_tear_second(keys[i])));
+    return FFD_OK;
+}
+
+/* Where both ends move, the larger of their weights counts. */
+static ffd_status find_moves(const tear_work *work, const uint64_t *keys, size_t count, tear_step *steps,
+                             tear_worker *worker)
+{
+    TRY(ffd_tear_cut(&work->field, keys, count, steps, worker->cuts, &worker->error));
+    for (size_t i = 0; i < count; i++)
+        steps[i].length *= larger_of(ffd_tear_weight(work->mesh, ffd_tear_first(keys[i])),
+                                     ffd_tear_weight(work->mesh, ffd_tear_second(keys[i])));
     return FFD_OK;
 }
 
@@ -66,7 +78,8 @@ static ffd_status find_stays(const tear_work *work, const uint64_t *keys, size_t
                             &worker->error));
     for (size_t i = 0; i < count; i++) {
         of += i > 0 && !is_repeated(work, keys[i - 1], keys[i]);
-        steps[i].length = vec_length(places[of].delta);
+        steps[i].length =
+            vec_length(places[of].delta) * ffd_tear_weight(work->mesh, ffd_tear_second(keys[i]));
         steps[i].cause = work->mesh->marks.bytes[ffd_tear_first(keys[i])] & KEPT_ALWAYS ? FFD_TEAR_UNSELECTED
                                                                                         : FFD_TEAR_STAYS;
     }
@@ -84,8 +97,7 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     if (own->status)
         return;
     own->status = work->kind == TEAR_STAYS ? find_stays(work, keys, last - first, work->steps + first, own)
-                                           : ffd_tear_cut(&work->field, keys, last - first,
-                                                          work->steps + first, own->cuts, &own->error);
+                                           : find_moves(work, keys, last - first, work->steps + first, own);
 }
 
 /* Finds the steps of all edges of the kind at hand. */
@@ -194,7 +206,8 @@ ffd_status ffd_tears_count(const tear_question *question, tear_count *count, ffd
     atomic_llong left;
     tear_work work = {.question = question,
                       .mesh = mesh,
-                      .field = ffd_tear_field_make(mesh->chain, mesh->faces, &mesh->marks),
+                      .field = ffd_tear_field_make(mesh->chain, mesh->faces, &mesh->marks,
+                                                   mesh->passes || mesh->planes > mesh->chain->marks.parts),
                       .count = count};
     work.continued = ffd_tear_field_continue(&work.field, &work.room);
     *count = (tear_count){.vertex = UINT32_MAX};

@@ -95,18 +95,28 @@ end:
     return status;
 }
 
-ffd_status ffd_chain_fit(lattice_chain *chain, mesh_document *document, int threads, ffd_error *error)
+static ffd_status fit_to_mesh(lattice_chain *chain, size_t l, mesh_document *document, int threads,
+                              ffd_error *error)
+{
+    fit_extent extent;
+    TRY(check_reach(NULL, l, document, error));
+    TRY(find_extent(chain, l, document, threads, &extent, error));
+    return fit_link(chain, l, &extent, error);
+}
+
+ffd_status ffd_chain_fit(lattice_chain *chain, mesh_document *document, int threads, const fit_seals *seals,
+                         ffd_error *error)
 {
     const int usable = ffd_pass_threads(&document->budget, 0, threads);
     for (size_t l = 0; l < chain->count; l++) {
-        if (chain->links[l].locator)
-            continue;
-        fit_extent extent;
-        TRY(check_reach(NULL, l, document, error));
-        TRY(find_extent(chain, l, document, usable, &extent, error));
-        TRY(fit_link(chain, l, &extent, error));
+        if (!chain->links[l].locator)
+            TRY(fit_to_mesh(chain, l, document, usable, error));
+        if (seals && !chain->blocks)
+            TRY(seals->seal(seals->context, l, error));
     }
     TRY(ffd_chain_boxes(chain, error));
+    if (seals && chain->blocks)
+        TRY(seals->seal(seals->context, 0, error));
     TRY(ffd_seams_find(chain, error));
     for (size_t l = 0; l < chain->count; l++)
         TRY(check_reach(chain, l, document, error));

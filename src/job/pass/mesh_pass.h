@@ -4,6 +4,7 @@
 
 #include "job/chain/chain.h"
 #include "job/input/embedding_file.h"
+#include "job/input/weights.h"
 #include "mesh/mesh.h"
 
 /* Fractions of a job that are done (ffd_deadline_done): the mesh is read, its vertices are deformed, the
@@ -19,6 +20,13 @@ typedef enum pass_bounds {
     PASS_BOUNDS_ALL
 } pass_bounds;
 
+/* Where a vertex is, for a pass that only locates. */
+typedef enum pass_place {
+    PASS_INSIDE = 0, /* it has u,v,w */
+    PASS_OUTSIDE,
+    PASS_ELSEWHERE /* not selected, hidden or invalid, or its transform is singular */
+} pass_place;
+
 typedef struct mesh_pass {
     mesh_document *document;
     mesh_state state;  /* what of the document is deformed; MESH_SHOWN: no morph targets then */
@@ -27,6 +35,7 @@ typedef struct mesh_pass {
     const lattice_chain *chain;
     size_t links; /* the number of lattices that act, from the first on */
     int threads;
+    const vertex_weights *weights;   /* of the document's vertices; NULL: all are 1 */
     const embedding_file *embedding; /* of the document in the first link; NULL: search for u,v,w */
     /* Locations in the chain's only link, one a vertex: read if is_located, else filled. Or NULL; must be
        NULL with an embedding. */
@@ -42,6 +51,11 @@ typedef struct mesh_pass {
     /* Output arrays, in the order of `ffd embed` (ffd_mesh_vertex_count), as mesh_faces numbers vertices. */
     double *uvw;       /* 3 a vertex, or NULL: u,v,w in the last link, NaN where there is none */
     uint8_t *statuses; /* ffd_vertex_status of each vertex, or NULL */
+    /* Or NULL. Else the pass only locates: it sends the vertices through the links and fills this with where
+       they are in the link behind them (of blocks, with links 0: in any), a pass_place each; locations and an
+       embedding must be of that link. Of the other arrays it fills deformed alone: of vertices inside or
+       outside, where they reach the link. */
+    uint8_t *places;
     double *deformed;  /* 3 a vertex, or NULL: deformed positions in the lattice's space, unrounded; NaN where
                           the transform is singular */
     double *gradients; /* 9 a vertex, or NULL: F - I of the whole chain, row-major, in the lattice's space;

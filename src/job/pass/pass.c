@@ -91,13 +91,16 @@ static void note_determinants(const pass_tile *tile)
     }
 }
 
-/* Counts the vertices that turn inside out or collapse, of which turns has the candidates (before spread). */
-static void note_turns(const pass_tile *tile)
+/* Counts the vertices that turn inside out or collapse (before spread). turns has those that may by the
+   displacement itself; weights that change along the surface may turn others, where all gradients are known:
+   without them the slopes of the weights are not. */
+static void note_turns(const pass_tile *tile, bool all)
 {
     const tile_points *const base = &tile->scratch->base;
     const turn_list *const turns = &tile->scratch->turns;
-    for (size_t k = 0; k < turns->count; k++) {
-        const size_t i = turns->points[k], v = ffd_tile_vertex(base, i);
+    const size_t count = all ? base->count : turns->count;
+    for (size_t k = 0; k < count; k++) {
+        const size_t i = all ? k : turns->points[k], v = ffd_tile_vertex(base, i);
         const point_outcome *const outcome = &base->outcomes[i];
         double f[9];
         mat_add_identity(base->gradient + 9 * i, f);
@@ -406,7 +409,7 @@ static void take_points(const pass_tile *tile)
                                counts && !tile->part->skipped ? &tile->totals->weights : NULL);
     place_points(tile);
     choose(tile);
-    if (counts)
+    if (counts && !tile->pass->places)
         ffd_totals_count_rest(tile);
 }
 
@@ -441,7 +444,7 @@ static ffd_status send_points(const pass_tile *tile, const gradient_need *need, 
     run.kept = counts ? tile->scratch->kept : NULL;
     turns->count = 0;
     ffd_status status;
-    TRY_END(ffd_chain_apply(pass->chain, pass->links, &run, error));
+    TRY_END(ffd_tile_send(&tile->scratch->base, &run, error));
     if (run.only_turns && turns->count > 0 && pass->links > 1 && !pass->chain->blocks) {
         /* Rare: several lattices turn points inside out, whose gradients only a second run gives. */
         place_points(tile);
@@ -451,7 +454,7 @@ static ffd_status send_points(const pass_tile *tile, const gradient_need *need, 
         run.only_turns = false;
         run.pace = NULL;
         run.moved_twice = run.disagreeing = 0;
-        TRY_END(ffd_chain_apply(pass->chain, pass->links, &run, error));
+        TRY_END(ffd_tile_send(&tile->scratch->base, &run, error));
     }
 end:
     ffd_tile_add_times(tile, &run);
@@ -465,6 +468,43 @@ end:
     if (run.kept)
         mark_kept(tile, run.keeps);
     return counts ? ffd_totals_count_deformed(tile, error) : FFD_OK;
+}
+
+/* Fills the caller's arrays of a pass that only locates. */
+static void fill_places(const pass_tile *tile)
+{
+    const mesh_pass *const pass = tile->pass;
+    const tile_points *const base = &tile->scratch->base;
+    uint8_t *const places = pass->places + tile->first_index;
+    memset(places, PASS_ELSEWHERE, tile->count);
+    for (size_t i = 0; i < base->count && !tile->part->hidden && !tile->part->singular; i++) {
+        const size_t v = ffd_tile_vertex(base, i);
+        const point_outcome *const outcome = &base->outcomes[i];
+        if (tile->part->skinned && tile->scratch->transforms.singular[v])
+            continue;
+        if (outcome->located || outcome->outside)
+            places[v] = outcome->located ? PASS_INSIDE : PASS_OUTSIDE;
+        if (pass->deformed)
+            memcpy(pass->deformed + 3 * (tile->first_index + v), base->position + 3 * i,
+                   3 * sizeof *pass->deformed);
+    }
+}
+
+static ffd_status locate_tile(const pass_tile *tile, ffd_error *error)
+{
+    const mesh_pass *const pass = tile->pass;
+    if (tile->part->repeats_positions)
+        return FFD_OK;
+    take_points(tile);
+    TRY(ffd_deadline_check(error));
+    chain_run run = ffd_tile_run(&tile->scratch->base, false);
+    run.located = recall(tile, &run);
+    run.pace = tile->pace;
+    TRY(ffd_chain_locate(pass->chain, pass->links, pass->locations != NULL, &run, error));
+    if (pass->locations)
+        keep_locations(tile);
+    fill_places(tile);
+    return FFD_OK;
 }
 
 static ffd_status deform_tile(const pass_tile *tile, ffd_error *error)
@@ -481,7 +521,7 @@ static ffd_status deform_tile(const pass_tile *tile, ffd_error *error)
     TRY(ffd_deadline_check(error));
     TRY(send_points(tile, &need, error));
     if (need.turns && !need.determinants && pass->inversions)
-        note_turns(tile);
+        note_turns(tile, need.all && pass->weights);
     spread(tile);
     if (need.determinants)
         note_determinants(tile);
@@ -534,7 +574,8 @@ static void run_tile(void *context, size_t index, size_t first, size_t last, int
     ffd_totals_clear(tile.totals);
     if (atomic_load(&work->stopped))
         return;
-    scratch->status = deform_tile(&tile, &scratch->error);
+    scratch->status =
+        tile.pass->places ? locate_tile(&tile, &scratch->error) : deform_tile(&tile, &scratch->error);
     if (scratch->status)
         atomic_store(&work->stopped, true);
     if (tile.pass->write) /* a pass that only measures is short */

@@ -3,7 +3,6 @@
    tangents likewise (src/maths.md 9.3). */
 #include "base/vector/vec.h"
 #include "deform/attribute.h"
-#include "job/chain/chain_apply.h"
 #include "job/pass/tile.h"
 #include "mesh/morphs.h"
 #include <math.h>
@@ -99,7 +98,7 @@ static ffd_status send_moved(shape_scratch *s, bool gradients, ffd_error *error)
     moved->count = 0;
     list_moved(s, true);
     chain_run run = ffd_tile_run(moved, gradients);
-    const ffd_status status = ffd_chain_apply(tile->pass->chain, tile->pass->links, &run, error);
+    const ffd_status status = ffd_tile_send(moved, &run, error);
     ffd_tile_add_times(tile, &run);
     TRY(status);
     if (moved->shape != SHAPE_SHOWN)

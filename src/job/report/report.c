@@ -27,6 +27,19 @@ void ffd_report_write_outcome(json_text *json, ffd_status status, const ffd_erro
     ffd_json_string(json, "error", line);
 }
 
+void ffd_report_begin_single(json_text *json, const char *input, const char *output, ffd_status status,
+                             const ffd_error *error)
+{
+    ffd_json_object(json, NULL, false);
+    ffd_json_string(json, "input", input);
+    ffd_json_string(json, "output", output);
+    ffd_json_array(json, "outputs", true);
+    if (!status && output && !ffd_output_is_stream(output))
+        ffd_json_string(json, NULL, output);
+    ffd_json_end(json, ']');
+    ffd_report_write_outcome(json, status, error, false);
+}
+
 /* Copies the members of a text that ffd_report_figures has made. Returns false if it is not one. */
 static bool copy_figures(json_text *json, const char *figures, bool stable)
 {

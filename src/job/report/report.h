@@ -37,6 +37,11 @@ void ffd_report_indent_entry(report_entry_writer *write, const void *entry, byte
 /* Writes the members status, exit and error of an entry. */
 void ffd_report_write_outcome(json_text *json, ffd_status status, const ffd_error *error, bool skipped);
 
+/* Begins the entry of a job with one output: input, output, the outputs that were written, and how it ended.
+ */
+void ffd_report_begin_single(json_text *json, const char *input, const char *output, ffd_status status,
+                             const ffd_error *error);
+
 /* Appends the text of an entry. */
 void ffd_report_entry_text(const report_entry *entry, byte_buffer *text);
 /* Appends the figures of a result, including times, as a JSON object on one line. */

@@ -6,6 +6,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* Returns what follows a figure; behind a group, what follows its end. */
 static const figure *after(const figure *f)
@@ -81,6 +82,30 @@ static void write_flaws(json_text *json, const char *key, const ffd_job_result *
     ffd_json_end(json, ']');
 }
 
+typedef struct face_text {
+    char text[3];
+} face_text;
+
+/* The name of the face of a bit, as "u-". */
+static face_text face_name(int bit)
+{
+    return (face_text){{"uvw"[bit / 2], "-+"[bit % 2], 0}};
+}
+
+/* Writes the faces of each lattice that are held. */
+static void write_faces(json_text *json, const char *key, const ffd_seam_figures *seam)
+{
+    ffd_json_array(json, key, true);
+    for (uint64_t l = 0; l < seam->count; l++) {
+        ffd_json_array(json, NULL, true);
+        for (int f = 0; f < 6; f++)
+            if (seam->faces[l] >> f & 1)
+                ffd_json_string(json, NULL, face_name(f).text);
+        ffd_json_end(json, ']');
+    }
+    ffd_json_end(json, ']');
+}
+
 typedef struct lattice_name {
     char text[40];
 } lattice_name;
@@ -151,6 +176,9 @@ static void write_value(json_text *json, const figure *f, const ffd_job_result *
     case FIGURE_REFERENCE:
         ffd_json_string(json, key, ffd_fold_reference_name(*(const ffd_fold_reference *)value));
         break;
+    case FIGURE_SEAM:
+        ffd_json_string(json, key, ffd_seam_name(*(const ffd_seam *)value));
+        break;
     case FIGURE_BEHIND:
         write_behind(json, key, value);
         break;
@@ -159,6 +187,9 @@ static void write_value(json_text *json, const figure *f, const ffd_job_result *
         break;
     case FIGURE_MORPHS:
         write_morphs(json, key, &result->morphs);
+        break;
+    case FIGURE_FACES:
+        write_faces(json, key, &result->seam);
         break;
     case FIGURE_GROUP:
         write_group(json, f, result);
@@ -180,6 +211,14 @@ static void write_figure(json_text *json, const figure *f, const ffd_job_result 
         write_value(json, f, result);
     else if (null)
         ffd_json_null(json, ffd_figure_key(f));
+}
+
+void ffd_figures_write_folds(json_text *json, const ffd_folds *folds)
+{
+    const ffd_job_result result = {.folds = *folds};
+    for (const figure *f = ffd_figures; is_of_report(f); f = after(f))
+        if (strcmp(f->name, "folds") == 0)
+            write_figure(json, f, &result);
 }
 
 void ffd_figures_write(json_text *json, const ffd_job_result *result, bool stable)
@@ -210,16 +249,52 @@ static uint64_t count_of(const json_tree *tree, uint32_t object, const char *key
     return number > 0 && number < 0x1p64 ? (uint64_t)number : 0;
 }
 
+/* Returns the name of a value of an enum; NULL behind the last. */
+static const char *enum_name(figure_type type, int value)
+{
+    return type == FIGURE_VERDICT     ? ffd_fold_verdict_name((ffd_fold_verdict)value)
+           : type == FIGURE_REFERENCE ? ffd_fold_reference_name((ffd_fold_reference)value)
+                                      : ffd_seam_name((ffd_seam)value);
+}
+
 /* Returns the value of the enum that a name stands for; 0 if there is none. */
 static int enum_of(const json_tree *tree, uint32_t value, figure_type type)
 {
     for (int i = 0; value != JSON_NONE; i++) {
-        const char *const name = type == FIGURE_VERDICT ? ffd_fold_verdict_name((ffd_fold_verdict)i)
-                                                        : ffd_fold_reference_name((ffd_fold_reference)i);
+        const char *const name = enum_name(type, i);
         if (!name || ffd_json_tree_string_is(tree, value, name))
             return name ? i : 0;
     }
     return 0;
+}
+
+static bool is_array(const json_tree *tree, uint32_t value)
+{
+    return value != JSON_NONE && tree->values[value].kind == JSON_ARRAY;
+}
+
+static uint8_t read_face_names(const json_tree *tree, uint32_t array)
+{
+    unsigned faces = 0;
+    if (!is_array(tree, array))
+        return 0;
+    for (uint32_t face = ffd_json_tree_first(tree, array); face != JSON_NONE;
+         face = ffd_json_tree_after(tree, face))
+        for (int f = 0; f < 6; f++)
+            if (ffd_json_tree_string_is(tree, face, face_name(f).text))
+                faces |= 1U << f;
+    return (uint8_t)faces;
+}
+
+/* Reads the faces of each lattice, and so the number of lattices. */
+static void read_faces(const json_tree *tree, uint32_t array, ffd_seam_figures *seam)
+{
+    seam->count = 0;
+    if (!is_array(tree, array))
+        return;
+    for (uint32_t l = ffd_json_tree_first(tree, array); l != JSON_NONE && seam->count < FFD_LATTICES_MOST;
+         l = ffd_json_tree_after(tree, l))
+        seam->faces[seam->count++] = read_face_names(tree, l);
 }
 
 /* Reads the figures from f to the end of its group, which object holds. */
@@ -242,6 +317,10 @@ static void read_figures(const json_tree *tree, uint32_t object, const figure *f
             *(ffd_fold_verdict *)value = (ffd_fold_verdict)enum_of(tree, found, f->result.type);
         else if (f->result.type == FIGURE_REFERENCE)
             *(ffd_fold_reference *)value = (ffd_fold_reference)enum_of(tree, found, f->result.type);
+        else if (f->result.type == FIGURE_SEAM)
+            *(ffd_seam *)value = (ffd_seam)enum_of(tree, found, f->result.type);
+        else if (f->result.type == FIGURE_FACES)
+            read_faces(tree, found, &result->seam);
         for (int s = 0; s < FFD_VERTEX_STATUS_COUNT && f->result.type == FIGURE_STATUSES; s++)
             ((uint64_t *)value)[s] = count_of(tree, object, ffd_vertex_status_name((ffd_vertex_status)s));
     }

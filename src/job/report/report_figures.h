@@ -9,6 +9,8 @@
 
 /* Writes all figures; stable: without times. */
 void ffd_figures_write(json_text *json, const ffd_job_result *result, bool stable);
+/* Writes the member `folds` of any entry. */
+void ffd_figures_write_folds(json_text *json, const ffd_folds *folds);
 /* Writes null for the figures that every entry has, of a job that was not run. */
 void ffd_figures_write_unknown(json_text *json);
 /* Reads the counts, numbers and names of an entry. A number that it does not have becomes NaN. Texts and

@@ -7,6 +7,8 @@
 #include "job/report/output_set.h"
 #include "job/report/replace.h"
 #include "job/report/report.h"
+#include "job/report/report_animation.h"
+#include "job/report/report_fit.h"
 #include "job/report/report_refine.h"
 #include "json/json_text.h"
 #include <string.h>
@@ -266,6 +268,26 @@ ffd_status ffd_report_add_refine(ffd_report *report, const char *input, const ch
     byte_buffer text = {0};
     TRY(ffd_struct_take(&result, sizeof result, callers, "ffd_refine_result", error));
     ffd_report_refine_text(input, output, &result, report->stable, &text);
+    return add_last(report, &text, error);
+}
+
+ffd_status ffd_report_add_fit(ffd_report *report, const char *input, const char *output,
+                              const ffd_fit_job_result *callers, ffd_error *error)
+{
+    ffd_fit_job_result result = {.struct_size = sizeof result};
+    byte_buffer text = {0};
+    TRY(ffd_struct_take(&result, sizeof result, callers, "ffd_fit_job_result", error));
+    ffd_report_fit_text(input, output, &result, report->stable, &text);
+    return add_last(report, &text, error);
+}
+
+ffd_status ffd_report_add_animation(ffd_report *report, const char *input, const char *output,
+                                    const ffd_animate_result *callers, ffd_error *error)
+{
+    ffd_animate_result result = {.struct_size = sizeof result};
+    byte_buffer text = {0};
+    TRY(ffd_struct_take(&result, sizeof result, callers, "ffd_animate_result", error));
+    ffd_report_animation_text(input, output, &result, report->stable, &text);
     return add_last(report, &text, error);
 }
 

@@ -1,5 +1,4 @@
 #include "job/report/report_refine.h"
-#include "base/file/output.h"
 #include "job/report/report.h"
 #include "json/json_text.h"
 
@@ -48,14 +47,7 @@ static void write_entry(json_text *json, const void *context)
 {
     const refine_entry *const entry = context;
     const ffd_refine_result *const result = entry->result;
-    ffd_json_object(json, NULL, false);
-    ffd_json_string(json, "input", entry->input);
-    ffd_json_string(json, "output", entry->output);
-    ffd_json_array(json, "outputs", true);
-    if (!result->status && entry->output && !ffd_output_is_stream(entry->output))
-        ffd_json_string(json, NULL, entry->output);
-    ffd_json_end(json, ']');
-    ffd_report_write_outcome(json, result->status, &result->error, false);
+    ffd_report_begin_single(json, entry->input, entry->output, result->status, &result->error);
     if (result->status)
         ffd_json_null(json, "refine");
     else

@@ -250,7 +250,7 @@ static ffd_status load_cages(view_work *work, ffd_error *error)
     TRY(ffd_deform_job_load_chain(job, 0, &outside, NULL, error));
     TRY(ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(&desc->input), job->document,
                             error));
-    TRY(ffd_chain_fit(&job->chain, job->document, job->threads, error));
+    TRY(ffd_chain_fit(&job->chain, job->document, job->threads, NULL, error));
     return work->desc->no_cage ? FFD_OK
                                : ffd_view_add_cages(&job->chain, desc->lattices, &work->scene, error);
 }
@@ -360,7 +360,8 @@ static void judge_color(const view_work *work)
 static void warn_of_unused(const view_work *work)
 {
     const ffd_deform_desc *const job = work->desc->job;
-    static const char *const settings[] = {"set", "outside", "snap", "blocks", "normals", "rig", "as_morph"};
+    static const char *const settings[] = {"set", "outside",  "snap",   "blocks", "normals",
+                                           "rig", "as_morph", "weight", "seam"};
     char names[300] = "";
     const size_t first = job->lattice_count > 0 ? 1 : 0; /* the cages of lattices are shown by set */
     for (size_t i = first; i < sizeof settings / sizeof *settings; i++)

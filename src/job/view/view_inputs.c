@@ -17,6 +17,7 @@ ffd_status ffd_view_check_inputs(const ffd_view_desc *desc, ffd_error *error)
     const bool is_input = ffd_job_reads_mesh(&job->input, desc->output) ||
                           (desc->deformed && ffd_job_reads_mesh(desc->deformed, desc->output)) ||
                           ffd_job_reads_embedding(job, desc->output) ||
+                          ffd_job_reads_weights(job, desc->output) ||
                           ffd_job_reads_lattice(job->lattices, job->lattice_count, desc->output);
     return is_input ? refuse(desc->output, false, error) : FFD_OK;
 }

@@ -132,7 +132,7 @@ ffd_status ffd_view_add_cages(const lattice_chain *chain, const ffd_lattice_sour
     if (!scene->cages)
         return ffd_fail_memory(error);
     for (size_t l = 0; l < chain->count; l++) {
-        const ffd_lattice *const lattice = chain->links[l].lattice;
+        const ffd_lattice *const lattice = ffd_link_mover(&chain->links[l]);
         view_cage *const cage = &scene->cages[scene->cage_count++];
         for (int a = 0; a < 3; a++) {
             cage->size[a] = lattice->size[a];

@@ -171,6 +171,7 @@ static ffd_status deform_targets(const deform_job *job, mesh_document *document,
                             .state = MESH_STORED,
                             .chain = &job->chain,
                             .links = job->chain.count,
+                            .weights = ffd_job_weights(job),
                             .threads = job->threads,
                             .embedding = job->desc->embedding.path ? &job->embedding : NULL,
                             .write = true};
