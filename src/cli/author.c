@@ -1,4 +1,5 @@
 #include "cli/author.h"
+#include "cli/files.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -6,18 +7,7 @@
 static bool add_mesh(void *context, const cli_option *option, const char *value)
 {
     cli_author *const author = context;
-    if (!*value) {
-        cli_complain("--%s is empty", option->name);
-        return false;
-    }
-    ffd_source *const meshes = realloc(author->meshes, (author->mesh_count + 1) * sizeof *meshes);
-    if (!meshes) {
-        cli_complain("out of memory");
-        return false;
-    }
-    meshes[author->mesh_count++] = (ffd_source){.path = value};
-    author->meshes = meshes;
-    return true;
+    return cli_add_file(&author->meshes, &author->mesh_count, option, value);
 }
 
 #define AT(field) offsetof(cli_author, field)
@@ -25,14 +15,14 @@ const cli_option cli_author_options[] = {
     {"output", 'o', "LATTICE", "the file to write; -: standard output", cli_set_text, AT(output), NULL},
     {"set", 0, "NAME=VALUE", "value of the placeholder {\"$\": \"NAME\"} in the moves; repeatable",
      cli_set_member, AT(job), NULL},
+    {"time", 0, "T", "of a lattice that has keys: what it is at T seconds, between them", cli_set_member,
+     AT(job), NULL},
     {"mesh", 0, "MESH", "lay the lattice's \"box\": \"mesh\" round this, repeatable", add_mesh, 0, NULL},
     {"only", 0, "KIND:NAME", "with --mesh: round this only, repeatable, as for ffd lattice new",
      cli_set_member, AT(job), NULL},
     {"space", 0, "scene|mesh", "with --mesh, glTF: the space that the lattice is in; default scene",
      cli_set_member, AT(job), NULL},
-    {"threads", 'j', "N",
-     "number of threads, 1 to 1024; never changes the output; default all usable processors", cli_set_member,
-     AT(job), NULL},
+    {"threads", 'j', "N", CLI_THREADS, cli_set_member, AT(job), NULL},
     {"force", 0, NULL, "overwrite an existing file", cli_set_member, AT(job), NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_member, AT(job), NULL},
     {"strict", 0, NULL, CLI_STRICT, cli_set_member, AT(job), NULL},
@@ -46,9 +36,6 @@ const char *cli_author_mistake(const cli_author *author, const cli_words *words)
 {
     if (words->count != 1)
         return "needs one LATTICE";
-    for (size_t i = 0; i < author->mesh_count; i++)
-        if (strcmp(author->meshes[i].path, "-") == 0)
-            return "--mesh names a file, not standard input";
     if (!author->output)
         return "no output is given (-o LATTICE)";
     if (author->mesh_count == 0 && author->job.only_count > 0)
@@ -66,6 +53,28 @@ bool cli_author_prepare(cli_author *author)
         author->meshes[i].path = path;
     }
     return true;
+}
+
+ffd_author_desc cli_author_describe(const cli_author *author, const char *lattice)
+{
+    ffd_author_desc desc;
+    ffd_author_desc_init(&desc, sizeof desc);
+    desc.lattice.path = lattice;
+    desc.set = author->job.set;
+    desc.set_count = author->job.set_count;
+    desc.time = author->job.time;
+    desc.has_time = author->job.has_time;
+    desc.meshes = author->meshes;
+    desc.mesh_count = author->mesh_count;
+    desc.only = author->job.only;
+    desc.only_count = author->job.only_count;
+    desc.reading = author->job.input;
+    desc.threads = author->job.threads;
+    desc.output = author->output;
+    desc.force = author->job.force;
+    desc.log = cli_log;
+    desc.log_user = (void *)&author->logging;
+    return desc;
 }
 
 void cli_author_end(cli_author *author)

@@ -21,6 +21,8 @@ extern const cli_option cli_author_options[];
 const char *cli_author_mistake(const cli_author *author, const cli_words *words);
 /* Whether the formats of all meshes are known; complains if not. Gives the meshes the options for reading. */
 bool cli_author_prepare(cli_author *author);
+/* Describes the job, with the command's own log. */
+ffd_author_desc cli_author_describe(const cli_author *author, const char *lattice);
 /* Frees the memory of options. */
 void cli_author_end(cli_author *author);
 

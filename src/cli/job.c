@@ -1,4 +1,5 @@
 #include "cli/job.h"
+#include "cli/reported.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,6 +10,7 @@ const cli_option cli_job_options[] = {
     {"set", 0, "NAME=VALUE",
      "value of the placeholder {\"$\": \"NAME\"} in the moves of a lattice; repeatable", cli_set_member,
      AT(desc), NULL},
+    {"time", 0, "T", CLI_TIME, cli_set_member, AT(desc), NULL},
     {"shared-box", 0, NULL,
      "a lattice's \"box\": \"mesh\" goes round all IN (in batch: all jobs), not round each", cli_set_flag,
      AT(shares_box), NULL},
@@ -17,6 +19,7 @@ const cli_option cli_job_options[] = {
      AT(desc), NULL},
     {"falloff", 0, "R", "with --outside extend: the displacement fades to zero over this distance",
      cli_set_member, AT(desc), NULL},
+    {"seam", 0, CLI_SEAM_VALUE, CLI_SEAM, cli_set_member, AT(desc), NULL},
     {"snap", 0, "D|Dr", CLI_SNAP, cli_set_member, AT(desc), NULL},
     {"blocks", 0, NULL,
      "all -l act on the mesh at rest, each vertex in the first that holds it; default in turn",
@@ -38,15 +41,16 @@ const cli_option cli_job_options[] = {
      cli_set_member, AT(desc), NULL},
     {"embedding", 0, "FILE.npy", "u,v,w that ffd embed has written for this mesh and rest lattice",
      cli_set_member, AT(desc), NULL},
+    {"weight", 0, "SOURCE",
+     "vertices move as far: FILE.npy, attribute:, joint:, property:NAME, color:r; 1-SOURCE", cli_set_member,
+     AT(desc), NULL},
     {"fail-on", 0, "GATES",
      "exit 1 if any: folds,outside,multiple,singular,invalid,tear[=D],flipped[=N],edges=D", cli_set_member,
      AT(desc), NULL},
     {"report", 0, "FILE|-", "JSON report; JSON Lines if the name ends in .jsonl", cli_set_text, AT(report),
      NULL},
     {"report-stable", 0, NULL, "leave the seconds out of the report", cli_set_flag, AT(stable), NULL},
-    {"threads", 'j', "N",
-     "number of threads, 1 to 1024; never changes the output; default all usable processors", cli_set_member,
-     AT(desc), NULL},
+    {"threads", 'j', "N", CLI_THREADS, cli_set_member, AT(desc), NULL},
     {"isa", 0, "auto|scalar|sse2|avx2|avx512|neon",
      "instruction set of the kernels; never changes the output; default auto", cli_set_member, AT(desc),
      NULL},
@@ -89,11 +93,6 @@ int cli_job_run(const cli_command *command, cli_job *job, int count, char **argu
     return code;
 }
 
-bool cli_is_stream(const char *path)
-{
-    return strcmp(path, "-") == 0 || strcmp(path, "/dev/stdin") == 0 || strcmp(path, "/dev/stdout") == 0;
-}
-
 static const char *wrong_streams(const cli_job *job, const cli_words *words, size_t inputs)
 {
     size_t meshes = 0, others = job->desc.embedding.path && cli_is_stream(job->desc.embedding.path);
@@ -104,6 +103,11 @@ static const char *wrong_streams(const cli_job *job, const cli_words *words, siz
     if (meshes && job->shares_box)
         return "--shared-box reads each IN twice, but standard input can be read only once";
     return meshes + others > 1 || (others && inputs > 1) ? "standard input can be read only once" : NULL;
+}
+
+static const char *weight_file(const cli_job *job)
+{
+    return job->desc.weight.source ? ffd_weight_file(job->desc.weight.source) : NULL;
 }
 
 /* A report replaces an existing report, but must not be a file of the job. */
@@ -119,7 +123,8 @@ static const char *wrong_report(const cli_job *job, const cli_words *words)
             return "the report would replace a lattice";
     if (job->desc.embedding.path && ffd_paths_meet(job->report, job->desc.embedding.path))
         return "the report would replace the embedding";
-    return NULL;
+    const char *const weights = weight_file(job);
+    return weights && ffd_paths_meet(job->report, weights) ? "the report would replace the weights" : NULL;
 }
 
 bool cli_job_mixes_morphs(const cli_job *job)
@@ -141,6 +146,8 @@ const char *cli_job_option_mistake(cli_job *job, const cli_words *words, size_t 
         return job->refusal.message;
     if (desc.embedding.path && inputs > 1)
         return "--embedding works with one mesh, but several IN are given";
+    if (weight_file(job) && inputs > 1)
+        return "--weight with a FILE.npy works with one mesh, but several IN are given";
     if (job->stable && !job->report)
         return "--report-stable needs --report";
     const char *why = wrong_streams(job, words, inputs);
@@ -220,26 +227,32 @@ static int share_box(cli_job *job, const cli_words *words, size_t inputs)
     return EXIT_DONE;
 }
 
+/* Context of run_inputs. */
+typedef struct inputs_call {
+    cli_job *job;
+    const cli_words *words;
+    size_t inputs;
+    cli_job_function one;
+} inputs_call;
+
+static int run_inputs(void *context, ffd_output_set *files, ffd_report *report)
+{
+    const inputs_call *const call = context;
+    call->job->output_set = files;
+    const int code = share_box(call->job, call->words, call->inputs);
+    return code ? code : run_each(call->job, call->words, call->inputs, call->one, report);
+}
+
 int cli_job_run_all(cli_job *job, const cli_words *words, size_t inputs, cli_job_function one)
 {
-    ffd_report *report = NULL;
+    const cli_report report = {job->report, job->stable};
     ffd_error error;
-    int code = EXIT_DONE;
-    if (ffd_output_set_create(&job->output_set, &error) ||
-        (inputs > 1 && ffd_job_cache_create_for_lattices(&job->cache, &error)) ||
-        (job->report && ffd_output_list_create(&job->outputs, &error)) ||
-        (job->report && ffd_report_create(job->report, job->stable, job->output_set, &report, &error)))
+    int code;
+    if ((inputs > 1 && ffd_job_cache_create_for_lattices(&job->cache, &error)) ||
+        (job->report && ffd_output_list_create(&job->outputs, &error)))
         code = cli_fail(&error);
     else
-        code = share_box(job, words, inputs);
-    if (!code)
-        code = run_each(job, words, inputs, one, report);
-    if (report && ffd_report_write(report, &error)) {
-        const int own = cli_fail(&error);
-        code = code ? code : own;
-    }
-    ffd_report_destroy(&report);
-    ffd_output_set_destroy(&job->output_set);
+        code = cli_run_reported(&report, run_inputs, &(inputs_call){job, words, inputs, one});
     ffd_output_list_destroy(&job->outputs);
     ffd_job_cache_destroy(&job->cache);
     ffd_shared_box_destroy(&job->shared_box);

@@ -3,6 +3,7 @@
 #define FFD_CLI_JOB_H
 
 #include "cli/command.h"
+#include "cli/files.h"
 #include "cli/member.h"
 
 /* Set by cli_job_options. Each command's settings begin with it. */
@@ -60,9 +61,6 @@ const char *cli_job_option_mistake(cli_job *job, const cli_words *words, size_t 
 
 /* Whether the formats of all inputs are known. Complains if not. */
 bool cli_job_knows_formats(const cli_job *job, const cli_words *words, size_t inputs);
-
-/* Whether a path means standard input or output, under any of their names. */
-bool cli_is_stream(const char *path);
 
 /* Fills desc for one mesh, except for its output. */
 void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc);

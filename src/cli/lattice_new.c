@@ -2,7 +2,6 @@
 #include "cli/command.h"
 #include "cli/member.h"
 #include "cli/three.h"
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,86 +16,16 @@ typedef struct settings {
     cli_logging logging;
 } settings;
 
-/* Returns whether a direction has one layer. */
-static bool is_plane(char part[3][CLI_PART])
-{
-    return strcmp(part[0], "1") == 0 || strcmp(part[1], "1") == 0 || strcmp(part[2], "1") == 0;
-}
-
-static bool set_size(void *context, const cli_option *option, const char *value)
-{
-    settings *s = context;
-    char part[3][CLI_PART] = {{0}};
-    long count = 0;
-    bool right = cli_split_three(value, part);
-    for (int a = 0; right && a < 3; a++) {
-        right = cli_parse_count(part[a], 2, LONG_MAX, &count);
-        s->desc.size[a] = (size_t)count;
-    }
-    if (!right)
-        cli_complain("--%s: \"%s\" is not three whole numbers of at least 2, like 4,4,4%s", option->name,
-                     value,
-                     is_plane(part) ? ": a plane needs two layers that move alike: --size 5,5,2 --degree "
-                                      "3,3,1, and \"at\": [i, j, \"all\"]"
-                                    : "");
-    return right;
-}
-
-static bool set_degree(void *context, const cli_option *option, const char *value)
-{
-    settings *s = context;
-    char part[3][CLI_PART];
-    long degree = 0;
-    bool right = cli_split_three(value, part);
-    for (int a = 0; right && a < 3; a++) {
-        right = cli_parse_count(part[a], 1, FFD_MAX_DEGREE, &degree);
-        s->desc.degree[a] = (int)degree;
-    }
-    if (!right)
-        cli_complain("--%s: \"%s\" is not three whole numbers from 1 to %d, like 3,3,3", option->name, value,
-                     FFD_MAX_DEGREE);
-    return right;
-}
-
-static const char *const knots_names[] = {"clamped", "open",     "unclamped", "uniform",
-                                          "closed",  "periodic", NULL};
-
 static bool set_knots(void *context, const cli_option *option, const char *value)
 {
-    static const ffd_knots known[] = {FFD_KNOTS_CLAMPED, FFD_KNOTS_OPEN,   FFD_KNOTS_OPEN,
-                                      FFD_KNOTS_UNIFORM, FFD_KNOTS_CLOSED, FFD_KNOTS_CLOSED};
     settings *s = context;
-    char part[3][CLI_PART];
-    const char *meant = NULL;
-    bool right = cli_split_three(value, part);
-    for (int a = 0; right && a < 3; a++) {
-        right = false;
-        for (int i = 0; !right && knots_names[i]; i++)
-            if (strcmp(part[a], knots_names[i]) == 0) {
-                s->desc.knots[a] = known[i];
-                right = true;
-            }
-        meant =
-            right ? NULL : ffd_word_meant(part[a], knots_names, sizeof knots_names / sizeof *knots_names - 1);
-    }
-    if (!right)
-        cli_complain("--%s: \"%s\" is not three of clamped, open, uniform, closed%s%s%s", option->name, value,
-                     meant ? " (nearest: " : "", meant ? meant : "", meant ? ")" : "");
-    return right;
+    return cli_read_knots(s->desc.knots, option, value);
 }
 
 static bool set_margin(void *context, const cli_option *option, const char *value)
 {
     settings *s = context;
-    char part[3][CLI_PART];
-    bool right = cli_split_three(value, part);
-    s->has_margins = strchr(value, ',') != NULL;
-    for (int a = 0; right && a < 3; a++)
-        right = cli_parse_number(part[a], &s->desc.margin[a]) && s->desc.margin[a] >= 0;
-    if (!right)
-        cli_complain("--%s: \"%s\" is not a number of at least 0, nor three like 0.1,0,0.1", option->name,
-                     value);
-    return right;
+    return cli_read_margin(s->desc.margin, option, value, &s->has_margins);
 }
 
 /* The hint at a word that is no axis: with a sign it means a direction. */
@@ -153,12 +82,12 @@ static const char *const spacing_names[] = {"greville", "uniform", NULL};
 #define AT(field) offsetof(settings, field)
 static const cli_option options[] = {
     {"output", 'o', "LATTICE", "the file to write", cli_set_text, AT(output), NULL},
-    {"size", 0, "N,M,O", "control points along u, v, w, or one number for all; default 4,4,4", set_size, 0,
-     NULL},
+    {"size", 0, "N,M,O", "control points along u, v, w, or one number for all; default 4,4,4", cli_set_sizes,
+     AT(desc.size), NULL},
     {"degree", 0, "N,M,O", "1 to 14, three or one for all; default 3, or less where there are fewer points",
-     set_degree, 0, NULL},
+     cli_set_degrees, AT(desc.degree), NULL},
     {"knots", 0, "K,K,K", "clamped, open, uniform or closed, three or one for all; default clamped",
-     set_knots, 0, knots_names},
+     set_knots, 0, cli_knots_names},
     {"margin", 0, "F|X,Y,Z",
      "space on both sides, as a fraction of the extent; three: along a box's axes; default 0.05", set_margin,
      0, NULL},

@@ -1,8 +1,8 @@
 /* lattice_refine.c - ffd lattice refine: the same map with more control points, or of higher degree. */
 #include "cli/author.h"
+#include "cli/reported.h"
 #include "cli/three.h"
 #include <ffd/author.h>
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,41 +13,8 @@ typedef struct settings {
     cli_author author;
     ffd_refine_desc refine;
     double *insert[3];
-    const char *report;
-    bool stable;
+    cli_report report;
 } settings;
-
-static bool set_size(void *context, const cli_option *option, const char *value)
-{
-    settings *const s = context;
-    char part[3][CLI_PART];
-    long count = 0;
-    bool right = cli_split_three(value, part);
-    for (int a = 0; right && a < 3; a++) {
-        right = cli_parse_count(part[a], 2, LONG_MAX, &count);
-        s->refine.size[a] = (size_t)count;
-    }
-    if (!right)
-        cli_complain("--%s: \"%s\" is not three whole numbers of at least 2, like 8,8,8", option->name,
-                     value);
-    return right;
-}
-
-static bool set_degree(void *context, const cli_option *option, const char *value)
-{
-    settings *const s = context;
-    char part[3][CLI_PART];
-    long degree = 0;
-    bool right = cli_split_three(value, part);
-    for (int a = 0; right && a < 3; a++) {
-        right = cli_parse_count(part[a], 1, FFD_MAX_DEGREE, &degree);
-        s->refine.degree[a] = (int)degree;
-    }
-    if (!right)
-        cli_complain("--%s: \"%s\" is not three whole numbers from 1 to %d, like 3,3,3", option->name, value,
-                     FFD_MAX_DEGREE);
-    return right;
-}
 
 /* Adds a knot to a direction. The array doubles. */
 static bool add_knot(settings *s, int a, double knot)
@@ -92,80 +59,51 @@ static bool add_knots(void *context, const cli_option *option, const char *value
 #define AT(field) offsetof(settings, field)
 static const cli_option options[] = {
     {"size", 0, "N,M,O", "so many control points along u, v, w, or one number for all; not fewer than now",
-     set_size, 0, NULL},
+     cli_set_sizes, AT(refine.size), NULL},
     {"insert", 0, "u:A,B,...", "a knot at each of these parameters of a direction, u, v or w; repeatable",
      add_knots, 0, NULL},
-    {"degree", 0, "N,M,O", "1 to 14, three or one for all; not less than now", set_degree, 0, NULL},
-    {"report", 0, "FILE|-", "JSON report; JSON Lines if the name ends in .jsonl", cli_set_text, AT(report),
-     NULL},
-    {"report-stable", 0, NULL, "leave the seconds out of the report", cli_set_flag, AT(stable), NULL},
+    {"degree", 0, "N,M,O", "1 to 14, three or one for all; not less than now", cli_set_degrees,
+     AT(refine.degree), NULL},
+    {"report", 0, "FILE|-", "JSON report; JSON Lines if the name ends in .jsonl", cli_set_text,
+     AT(report.path), NULL},
+    {"report-stable", 0, NULL, "leave the seconds out of the report", cli_set_flag, AT(report.stable), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 
-static int refine(settings *s, const char *lattice, ffd_output_set *files, ffd_report *report)
+/* Context of refine. */
+typedef struct refine_call {
+    settings *settings;
+    const char *lattice;
+} refine_call;
+
+static int refine(void *context, ffd_output_set *files, ffd_report *report)
 {
+    const refine_call *const call = context;
+    settings *const s = call->settings;
     const cli_author *const author = &s->author;
-    ffd_lattice_refine_desc desc;
+    ffd_author_desc job = cli_author_describe(author, call->lattice);
     ffd_refine_result result = {.struct_size = sizeof result};
+    ffd_refine_result *const measured = report || author->logging.verbose ? &result : NULL;
     ffd_error error;
-    ffd_lattice_refine_desc_init(&desc, sizeof desc);
+    job.output_set = files;
     for (int a = 0; a < 3; a++)
         s->refine.insert[a] = s->insert[a];
-    desc.lattice.path = lattice;
-    desc.set = author->job.set;
-    desc.set_count = author->job.set_count;
-    desc.meshes = author->meshes;
-    desc.mesh_count = author->mesh_count;
-    desc.only = author->job.only;
-    desc.only_count = author->job.only_count;
-    desc.reading = author->job.input;
-    desc.refine = &s->refine;
-    desc.measure = report || author->logging.verbose;
-    desc.threads = author->job.threads;
-    desc.output = author->output;
-    desc.force = author->job.force;
-    desc.output_set = files;
-    desc.log = cli_log;
-    desc.log_user = (void *)&author->logging;
-    int code = ffd_lattice_refine_run(&desc, &result, &error) ? cli_fail(&error) : EXIT_DONE;
-    if (report && ffd_report_add_refine(report, lattice, author->output, &result, &error))
+    int code = ffd_lattice_refine_run(&job, &s->refine, measured, &error) ? cli_fail(&error) : EXIT_DONE;
+    if (report && ffd_report_add_refine(report, call->lattice, author->output, &result, &error))
         code = cli_fail(&error);
-    return code;
-}
-
-static int refine_and_report(settings *s, const char *lattice)
-{
-    ffd_output_set *files = NULL;
-    ffd_report *report = NULL;
-    ffd_error error;
-    int code;
-    if (ffd_output_set_create(&files, &error) ||
-        (s->report && ffd_report_create(s->report, s->stable, files, &report, &error)))
-        code = cli_fail(&error);
-    else
-        code = refine(s, lattice, files, report);
-    if (report && ffd_report_write(report, &error)) {
-        const int own = cli_fail(&error);
-        code = code ? code : own;
-    }
-    ffd_report_destroy(&report);
-    ffd_output_set_destroy(&files);
     return code;
 }
 
 /* A report replaces an existing report, but must not be a file of the job. */
 static const char *wrong_report(const settings *s, const char *lattice)
 {
-    if (s->stable && !s->report)
-        return "--report-stable needs --report";
-    if (!s->report)
-        return NULL;
-    if (strcmp(s->report, "-") == 0)
-        return strcmp(s->author.output, "-") == 0 ? "-o and --report both name standard output" : NULL;
-    if (ffd_paths_meet(s->report, lattice))
+    const char *const why = cli_report_mistake(&s->report, s->author.output);
+    if (why)
+        return why;
+    if (cli_report_meets(&s->report, lattice) || cli_report_meets(&s->report, s->author.output))
         return "the report would replace the lattice";
     for (size_t i = 0; i < s->author.mesh_count; i++)
-        if (ffd_paths_meet(s->report, s->author.meshes[i].path))
+        if (cli_report_meets(&s->report, s->author.meshes[i].path))
             return "the report would replace a mesh";
     return NULL;
 }
@@ -177,7 +115,9 @@ static int act(const cli_command *command, void *context, const cli_words *words
     why = why ? why : wrong_report(s, words->words[0]);
     if (why)
         return cli_usage(command, why);
-    return cli_author_prepare(&s->author) ? refine_and_report(s, words->words[0]) : EXIT_USAGE;
+    return cli_author_prepare(&s->author)
+               ? cli_run_reported(&s->report, refine, &(refine_call){s, words->words[0]})
+               : EXIT_USAGE;
 }
 
 static int run(const cli_command *command, int count, char **arguments)

@@ -10,6 +10,7 @@ typedef struct settings {
     ffd_operation *operations; /* count entries */
     char **names;              /* of files, which operations name together with a number; name_count */
     size_t count, name_count;
+    const char *block; /* of the files of --deformed and --deformed-offsets */
 } settings;
 
 /* Appends an operation. Returns NULL after a complaint. */
@@ -83,14 +84,30 @@ static bool add_blend(void *context, const cli_option *option, const char *value
     return true;
 }
 
-static bool add_other(void *context, const cli_option *option, const char *value)
+/* An operation with another lattice, by a file name. */
+static bool add_named(void *context, const cli_option *option, const char *value, ffd_operation_kind kind)
 {
     if (!*value)
         return wrong(option, value, "the name of a lattice");
-    ffd_operation *const of = add(context, FFD_OPERATION_ADD);
+    ffd_operation *const of = add(context, kind);
     if (of)
         of->other.path = value;
     return of;
+}
+
+static bool add_other(void *context, const cli_option *option, const char *value)
+{
+    return add_named(context, option, value, FFD_OPERATION_ADD);
+}
+
+static bool add_deformed(void *context, const cli_option *option, const char *value)
+{
+    return add_named(context, option, value, FFD_OPERATION_DEFORMED);
+}
+
+static bool add_offsets(void *context, const cli_option *option, const char *value)
+{
+    return add_named(context, option, value, FFD_OPERATION_DEFORMED_OFFSETS);
 }
 
 /* Returns the index of a letter among three, or -1. */
@@ -191,40 +208,27 @@ static bool add_invert(void *context, const cli_option *option, const char *valu
     return add(context, FFD_OPERATION_INVERT);
 }
 
-/* Parses faces with commas between them, or "all". Returns 0 if they are none. */
-static unsigned parse_faces(const char *text)
-{
-    unsigned faces = 0;
-    if (strcmp(text, "all") == 0)
-        return FFD_FACES_ALL;
-    for (;; text++) {
-        const int direction = index_of("uvw", text[0]), side = direction < 0 ? -1 : index_of("-+", text[1]);
-        if (side < 0)
-            return 0;
-        faces |= 1u << (2 * direction + side);
-        text += 2;
-        if (!*text)
-            return faces;
-        if (*text != ',')
-            return 0;
-    }
-}
-
+/* As of a job, which "none" does not change: here it would be no operation. */
 static bool add_seam(void *context, const cli_option *option, const char *value)
 {
-    const int continuity = value[0] == 'C' ? index_of("012", value[1]) : -1;
-    const unsigned faces = continuity >= 0 && value[2] == ':' ? parse_faces(value + 3) : 0;
-    if (!faces)
-        return wrong(option, value, "C0, C1 or C2 and faces, like C1:u-,v+ or C2:all");
+    ffd_deform_desc job = {.seam = FFD_SEAM_NONE};
+    if (!cli_read(ffd_deform_member_of("seam"), &job, option, value))
+        return false;
+    if (job.seam == FFD_SEAM_NONE)
+        return wrong(option, value, "C0, C1 or C2, alone or with faces, like C1:u-,v+ or C2:all");
     ffd_operation *const of = add(context, FFD_OPERATION_SEAL);
     if (of) {
-        of->continuity = continuity;
-        of->faces = faces;
+        of->continuity = (int)job.seam - 1;
+        of->faces = job.seam_faces;
     }
     return of;
 }
 
 static const cli_option options[] = {
+    {"deformed", 0, "LATTICE", "the deformed control points of another lattice file, .csv or .npy",
+     add_deformed, 0, NULL},
+    {"deformed-offsets", 0, "LATTICE", "its displacements; or its control points, taken as displacements",
+     add_offsets, 0, NULL},
     {"strength", 0, "S", "S times all displacements: 0.5 half the edit, -1 the opposite", add_strength, 0,
      NULL},
     {"blend", 0, "LATTICE,T", "1 - T of it and T of another lattice of the same rest", add_blend, 0, NULL},
@@ -239,34 +243,21 @@ static const cli_option options[] = {
      add_rotate, 0, NULL},
     {"scale", 0, "S[,X,Y,Z]", "the lattice scaled about the origin or a place", add_scale, 0, NULL},
     {"invert", 0, NULL, "the exact inverse: what was deformed is put back", add_invert, 0, NULL},
-    {"seam", 0, "Ck:FACES",
-     "hold faces so that what is deformed joins what is not with C0, C1 or C2; u-,v+,.. or all", add_seam, 0,
-     NULL},
+    {"seam", 0, "C0|C1|C2[:FACES]",
+     "hold faces, to join the rest smoothly; FACES: u-,v+,.., all, or cut by --mesh, the default", add_seam,
+     0, NULL},
+    {"block", 0, "N|TAG", "with --deformed: of a file of several lattices, its number, from 0, or its name",
+     cli_set_text, offsetof(settings, block), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 
-static int set(settings *s, const char *lattice)
+static int set(const settings *s, const char *lattice)
 {
-    const cli_author *const author = &s->author;
-    ffd_lattice_set_desc desc;
+    const ffd_author_desc job = cli_author_describe(&s->author, lattice);
     ffd_error error;
-    ffd_lattice_set_desc_init(&desc, sizeof desc);
-    desc.lattice.path = lattice;
-    desc.set = author->job.set;
-    desc.set_count = author->job.set_count;
-    desc.meshes = author->meshes;
-    desc.mesh_count = author->mesh_count;
-    desc.only = author->job.only;
-    desc.only_count = author->job.only_count;
-    desc.reading = author->job.input;
-    desc.operations = s->operations;
-    desc.operation_count = s->count;
-    desc.threads = author->job.threads;
-    desc.output = author->output;
-    desc.force = author->job.force;
-    desc.log = cli_log;
-    desc.log_user = (void *)&author->logging;
-    return ffd_lattice_set_run(&desc, &error) ? cli_fail(&error) : EXIT_DONE;
+    for (size_t i = 0; i < s->count; i++)
+        s->operations[i].block = s->block;
+    return ffd_lattice_set_run(&job, s->operations, s->count, &error) ? cli_fail(&error) : EXIT_DONE;
 }
 
 /* Returns what is wrong with the options and words, or NULL. */
@@ -306,21 +297,26 @@ static const cli_example examples[] = {
     {"half the edit", "ffd lattice set bend.json --mesh cow.obj -o half.json --strength 0.5"},
     {"one half mirrored to the other, then turned about a place",
      "ffd lattice set bend.json --mesh cow.obj -o turned.json --symmetrize u+ --rotate y,90,1,0,0"},
+    {"a lattice at rest with the control points that a script has moved",
+     "ffd lattice set rest.json -o moved.json --deformed moved.npy"},
     {"end the edit smoothly at the first and the last layers of u",
      "ffd lattice set bend.json --mesh cow.obj -o smooth.json --seam C1:u-,u+"},
+    {"end it smoothly where the mesh leaves the lattice",
+     "ffd lattice set upper.json --mesh column.obj -o joined.json --seam C1"},
     {"the way back: deform a mesh by bend.json, then by this one",
      "ffd lattice set bend.json --mesh cow.obj -o back.json --invert"},
     {NULL, NULL},
 };
 
-const cli_command cli_lattice_set = {
-    "lattice set",
-    "change what a lattice does: strength, blends, mirror images, places, seams, the inverse",
-    "usage: ffd lattice set LATTICE OPERATION... -o LATTICE [options]\n"
-    "       operations, in the order given: --strength, --blend, --add, --mirror, --symmetrize, "
-    "--transform,\n"
-    "       --move, --rotate, --scale, --invert, --seam\n",
-    {.first = options, .base = cli_author_options},
-    run,
-    "LATTICE",
-    examples};
+const cli_command cli_lattice_set = {"lattice set",
+                                     "change what a lattice does: its control points, strength, blends, "
+                                     "mirror images, places, seams, the inverse",
+                                     "usage: ffd lattice set LATTICE OPERATION... -o LATTICE [options]\n"
+                                     "       operations, in the order given: --deformed, --deformed-offsets, "
+                                     "--strength, --blend,\n"
+                                     "       --add, --mirror, --symmetrize, --transform, --move, --rotate, "
+                                     "--scale, --invert, --seam\n",
+                                     {.first = options, .base = cli_author_options},
+                                     run,
+                                     "LATTICE",
+                                     examples};

@@ -8,7 +8,7 @@ static const char *const others[][2] = {
     {"by", "--wrt"},          {"deformed", "OUT-MESH"}, {"workers", "-j"},
     {"lattice", "-l"},        {"lattices", "-l"},       {"output", "OUT"},
     {"manifest", "MANIFEST"}, {"quality", "--report"},  {"principal", "--axes principal"},
-    {"meshes", "--mesh"},
+    {"meshes", "--mesh"},     {"before", "BEFORE"},     {"after", "AFTER"},
 };
 
 /* The name of a member without that of its struct. */

@@ -9,8 +9,17 @@
 /* What --memory does. */
 #define CLI_MEMORY "memory for mesh and lattices, as 4G; default 100M (views: 400M) and 20 times their files"
 
+/* What --threads does. */
+#define CLI_THREADS "number of threads, 1 to 1024; never changes the output; default all usable processors"
+
+/* What --isa does. */
+#define CLI_ISA "instruction set; never changes the output; default auto"
+
 /* What --timeout does. */
 #define CLI_TIMEOUT "a job that takes longer ends with exit 7, and nothing is written"
+
+/* What --time does. */
+#define CLI_TIME "lattices that have keys as they are at T seconds, between their keys; default the first key"
 
 /* What --strict does. */
 #define CLI_STRICT "refuse what the format's specification calls an error even where its meaning is plain"
@@ -22,6 +31,11 @@
 /* What --snap does. */
 #define CLI_SNAP                                                                                             \
     "a vertex no farther than D from the lattice (Dr: parts of its diagonal) is inside; default 0"
+
+/* Faces that are held, everywhere. */
+#define CLI_SEAM_VALUE "C0|C1|C2|none[:FACES]"
+#define CLI_SEAM                                                                                             \
+    "hold faces, to join the rest smoothly; FACES: u-,v+,.., all, or cut by the mesh, the default"
 
 typedef struct cli_option cli_option;
 
