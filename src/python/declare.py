@@ -145,7 +145,8 @@ def main():
     folder, module, source, exports, *compiler = sys.argv[1:]
     headers = Headers(expand(folder, compiler))
     text = python(headers)
-    names = "".join(f"    {name}\n" for name in sorted(headers.functions))
+    # With the one of base/file/program_words.h, by which the program begins.
+    names = "".join(f"    {name}\n" for name in sorted({*headers.functions, "ffd_program_words"}))
     for path, content in ((module, text), (source, layout(headers, text)), (exports, f"EXPORTS\n{names}")):
         with open(path, "w", encoding="utf-8") as file:
             file.write(content)

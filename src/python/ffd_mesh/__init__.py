@@ -10,13 +10,15 @@ Points are arrays (N, 3) of float32 or float64; control points are arrays (nu, n
 printed.
 """
 
+from ._animate import AnimatedBytes, Animation, animate_bytes, animate_file
 from ._batch import batch
 from ._convert import convert_lattice
 from ._embed import EmbeddedBytes, embed_bytes, embed_file
 from ._embedding import Embedding, Status
 from ._errors import (ArgumentError, Cancelled, EmbeddingError, Error, ExistsError, FileError, GateError, InvalidError,
-                      LimitError, OutOfMemoryError, UnsupportedError)
+                      LimitError, OutOfMemoryError, UnmetError, UnsupportedError)
 from ._facts import compare_bytes, compare_files, compare_folders, info, info_bytes
+from ._fit import Fit, FittedFile, fit, fit_file
 from ._jacobian import JacobianBytes, jacobian_bytes, jacobian_file
 from ._jobs import (DeformedBytes, Positions, check_bytes, check_file, deform_bytes, deform_file, positions_bytes,
                     positions_file)
@@ -31,10 +33,10 @@ from ._views import ViewBytes, view_bytes, view_file
 __version__: str = _lib.ffd_version().decode()
 
 __all__ = [
-    "ArgumentError", "Cancelled", "Csr", "Deformed", "DeformedBytes", "EmbeddedBytes", "Embedding", "EmbeddingError", "Error",
-    "ExistsError", "FileError", "Folds", "GateError", "InvalidError", "JacobianBytes", "Lattice", "LimitError",
-    "OutOfMemoryError", "Parameter", "Positions", "Result", "Status", "UnsupportedError", "ViewBytes", "batch", "check_bytes",
-    "check_file", "compare_bytes", "compare_files", "compare_folders", "convert_lattice", "deform_bytes", "deform_file", "deform_mesh", "embed_bytes", "embed_file",
+    "AnimatedBytes", "Animation", "ArgumentError", "Cancelled", "Csr", "Deformed", "DeformedBytes", "EmbeddedBytes", "Embedding", "EmbeddingError", "Error",
+    "ExistsError", "FileError", "Fit", "FittedFile", "Folds", "GateError", "InvalidError", "JacobianBytes", "Lattice", "LimitError",
+    "OutOfMemoryError", "Parameter", "Positions", "Result", "Status", "UnmetError", "UnsupportedError", "ViewBytes", "animate_bytes", "animate_file", "batch", "check_bytes",
+    "check_file", "compare_bytes", "compare_files", "compare_folders", "convert_lattice", "deform_bytes", "deform_file", "deform_mesh", "embed_bytes", "embed_file", "fit", "fit_file",
     "info", "info_bytes", "jacobian_bytes", "jacobian_file", "parameters", "positions_bytes", "positions_file", "schema",
     "view_bytes", "view_file",
 ]

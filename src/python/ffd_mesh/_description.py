@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import io
 import os
 from typing import Any, Callable, Collection, Iterator, Mapping, Union
 
+import numpy as np
+
+from . import _arrays as arrays
 from . import _declarations as declared
 from . import _library as library
 from ._errors import Error
 from ._lattice import Lattice
-from ._values import settings
+from ._values import faces_of, settings
 
 Path = Union[str, "os.PathLike[str]"]
 AnyLattice = Union[Lattice, Path, bytes]
@@ -54,7 +58,7 @@ def embedding_described(source: Any, lattice: AnyLattice, options: dict[str, Any
                         known: Collection[str]) -> Iterator[tuple[Any, list[str]]]:
     """The same of a job that embeds, in one lattice."""
     desc = library.filled("ffd_embed_desc")
-    kept = [lattice, _set_lattice(desc.lattice, lattice)]
+    kept = [lattice, set_lattice(desc.lattice, lattice)]
     with _logged(desc, source, options, known, kept) as warnings:
         yield desc, warnings
 
@@ -121,7 +125,7 @@ class Memory:
             self.resolver.reraise()
 
 
-def _set_lattice(source: Any, lattice: AnyLattice) -> Any:
+def set_lattice(source: Any, lattice: AnyLattice) -> Any:
     """Sets an ffd_lattice_source by path, as an object or as a text. Returns what must stay alive beside the lattice."""
     text = None
     if isinstance(lattice, Lattice):
@@ -142,7 +146,7 @@ def _set_lattices(desc: Any, lattices: Any) -> list[Any]:
     if named:
         desc.morphs = (ctypes.c_char_p * len(several))(*(library.encoded(str(name), "a name") for name in lattices))
     sources = (declared.ffd_lattice_source * len(several))()
-    kept = [several, *(_set_lattice(source, lattice) for source, lattice in zip(sources, several))]
+    kept = [several, *(set_lattice(source, lattice) for source, lattice in zip(sources, several))]
     desc.lattices, desc.lattice_count = sources, len(several)
     return kept
 
@@ -165,6 +169,13 @@ def _set_snap(desc: Any, value: Any) -> None:
     relative = isinstance(value, str) and value.endswith("r")
     desc.snap = library.real(value[:-1] if relative else value, "snap")
     desc.snap_relative = relative
+
+
+def _set_seam(desc: Any, value: Any) -> None:
+    """Sets the seam from a text of --seam, such as "C1" or "C2:u-,v+"."""
+    word, colon, faces = str(value).partition(":")
+    desc.seam = library.one_of(_MEMBERS["seam"].words, word, "seam")
+    desc.seam_faces = faces_of(faces) if colon and faces != "cut" else 0  # FFD_FACES_CUT
 
 
 def _set_gates(desc: Any, value: Any) -> None:
@@ -192,13 +203,32 @@ def _set_embedding(desc: Any, value: Any) -> Any:
     return kept
 
 
+def _set_time(desc: Any, value: Any) -> None:
+    desc.time, desc.has_time = library.real(value, "time"), True
+
+
+def _set_weight(desc: Any, value: Any) -> Any:
+    """Sets the source of the weights: a text or path as of --weight, the bytes of an .npy, or an array. Returns what must stay
+    alive."""
+    if isinstance(value, (str, os.PathLike)):
+        desc.weight.source = library.path(value)
+        return None
+    if not isinstance(value, (bytes, bytearray, memoryview)):
+        stream = io.BytesIO()
+        np.save(stream, arrays.doubles(value, "weight", np.shape(value)), allow_pickle=False)
+        value = stream.getvalue()
+    lent = desc.weight.bytes
+    lent.data, lent.size, kept = library.lend_bytes(value, "weight")
+    return kept
+
+
 def _set_values(desc: Any, value: Any) -> None:
     desc.set, desc.set_count = settings(value)
 
 
 # Options whose members take more than their value.
 _OWN: dict[str, Callable[[Any, Any], Any]] = {
-    "set": _set_values, "snap": _set_snap, "fail_on": _set_gates, "embedding": _set_embedding}
+    "set": _set_values, "snap": _set_snap, "seam": _set_seam, "fail_on": _set_gates, "embedding": _set_embedding, "time": _set_time, "weight": _set_weight}
 
 
 def _seconds(value: Any, what: str) -> float:

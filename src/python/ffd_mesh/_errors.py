@@ -53,6 +53,10 @@ class GateError(Error):
     data: bytes | None = None
 
 
+class UnmetError(Error):
+    """What is asked for cannot be met: exact pairs contradict each other, or no smoothing brings all pairs near enough."""
+
+
 class ArgumentError(Error, ValueError):
     """An argument is not valid."""
 
@@ -91,7 +95,7 @@ class Cancelled(Error):
 
 _KINDS: dict[int, type[Error]] = {}
 for _name, _kind in {
-    "GATE": GateError, "ARGUMENT": ArgumentError, "IO": FileError, "EXISTS": ExistsError, "INVALID": InvalidError,
+    "GATE": GateError, "UNMET": UnmetError, "ARGUMENT": ArgumentError, "IO": FileError, "EXISTS": ExistsError, "INVALID": InvalidError,
     "EMBEDDING": EmbeddingError, "UNSUPPORTED": UnsupportedError, "MEMORY": OutOfMemoryError, "LIMIT": LimitError,
     "CANCELLED": Cancelled,
 }.items():

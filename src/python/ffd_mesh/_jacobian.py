@@ -15,7 +15,7 @@ from ._errors import Error, GateError
 from ._library import lib
 from ._result import beside, plain
 
-_OPTIONS = {*INPUT_OPTIONS, "set", "outside", "falloff", "snap", "only", "threads", "isa", "timeout"}
+_OPTIONS = {*INPUT_OPTIONS, "set", "outside", "falloff", "seam", "snap", "only", "weight", "threads", "isa", "timeout", "time"}
 
 
 def _set_factor(desc: Any, name: str, lent: Any, value: Any) -> Any:
@@ -79,7 +79,7 @@ def jacobian_file(source: Path, output: Path, lattices: AnyLattice | Sequence[An
       bytes of an .npy, or an array. For N vertices, n control points and m numbers of placeholders: times is (n, 3) or (m,),
       transposed is (N, 3)
     check: compare with central differences. An error above 1e-6 raises `GateError`, whose result is the dict; there is no output
-    options: those of `deform_file` that positions depend on (set, outside, falloff, snap, only, space, ..), threads, isa, force
+    options: those of `deform_file` that positions depend on (set, outside, falloff, seam, snap, only, space, ..), threads, isa, force
     Raises `Error`. Threads may call it at the same time.
     """
     return _jacobian(source, output, lattices, None, by, components, of, times, transposed, check, options)

@@ -20,8 +20,11 @@ def deform_file(source: Path, output: Path | None, lattices: AnyLattice | Sequen
     lattices: a `Lattice`, a path, or the text of a lattice file as bytes; or a list of these, applied in order. For a glTF also
       a dict {name: lattice}: each makes a morph target of that name, and clips=["NAME: TIME TARGET=WEIGHT, .."] animate them
     options, as in the program (data/reference.md):
-      set={"NAME": value}, outside="keep" | "extend" | "error", falloff=, snap=LENGTH or "0.001r", blocks=True,
+      set={"NAME": value}, time=SECONDS (of lattices with keys), outside="keep" | "extend" | "error", falloff=, snap=LENGTH or "0.001r", blocks=True,
+      seam="C1" (hold the faces that the mesh cuts, so that it joins the rest smoothly) or "C2:u-,v+" or "C0:all",
       normals="transform" | "keep" | "recompute", as_morph="NAME", only=["node:NAME"], embedding="uvw.npy" or its bytes,
+      weight="FILE.npy" | "attribute:NAME" | "color:r" | "joint:NAME" | "property:NAME", "1-.." of one, or an array (how much of the
+      displacement each vertex takes),
       fail_on=["folds", "tear=0.1"], quality=True (fills the figures of `check_file`), space="scene" | "mesh",
       resources="copy" | "reference" | "refresh", rig="keep" | "follow", force=True (replace the output), if_changed=True, dry_run=True,
       make_folders=True (those of output), threads=, memory=BYTES, strict=True, allow_extensions=["NAME"], input_format="ply", output_format="glb", isa="auto",

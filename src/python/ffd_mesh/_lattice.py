@@ -13,12 +13,12 @@ import numpy as np
 from . import _arrays as arrays
 from . import _declarations as declared
 from . import _library as library
-from ._convert import convert, is_table
+from ._convert import convert, is_other
 from ._embedding import Embedding
 from ._errors import InvalidError
 from ._library import Owned, Progress, Run, call, lib
 from ._values import (Deformed, Folds, Parameter, csr, described, direction_of, faces_of, folds_of, parameters, parameters_of, settings, shape_of, three,
-                      vertices_of, wishes_of)
+                      triangles_of, vertices_of, wishes_of)
 
 REST, DEFORMED = declared.ENUMERATIONS["ffd_volume"].values()
 
@@ -33,6 +33,7 @@ class Lattice:
     _owned: Owned
     _parameters: tuple[Parameter, ...]
     _bounds: np.ndarray | None  # it was fitted to
+    _is_still: bool  # at a time of its keys
     _size: tuple[int, int, int]
     _degree: tuple[int, int, int]
 
@@ -47,7 +48,7 @@ class Lattice:
         owned = Owned(lib.ffd_lattice_destroy)
         call(make, *arguments, ctypes.byref(owned.pointer))
         self = cls.__new__(cls)
-        self._owned, self._parameters, self._bounds = owned, parameters, None
+        self._owned, self._parameters, self._bounds, self._is_still = owned, parameters, None, False
         size, degree = (ctypes.c_size_t * 3)(), (ctypes.c_int * 3)()
         lib.ffd_lattice_get_size(owned.pointer, size)
         lib.ffd_lattice_get_degree(owned.pointer, degree)
@@ -79,18 +80,18 @@ class Lattice:
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], values: Mapping[str, Any] | None = None, *, size: Any = None,
-             degree: Any = None) -> Lattice:
-        """Loads a lattice file (data/schema/lattice.md), which is read twice: not a pipe; or a table or an array (.csv, .npy).
+             degree: Any = None, order: str | None = None, block: str | int | None = None) -> Lattice:
+        """Loads a lattice file (data/schema/lattice.md), which is read twice: not a pipe; or one of another format, by its ending.
 
         values: for the placeholders of its moves, by name
-        size, degree: of an array (n, 3), and of a file that tells no degree, as `convert_lattice` takes them
+        size, degree, order, block: of another format, as `convert_lattice` takes them
         """
-        if is_table(path):
+        if is_other(path):
             taken: list[Any] = []
-            convert(path, "lattice.json", values=values, size=size, degree=degree, taken=taken)
+            convert(path, "lattice.json", values=values, size=size, degree=degree, order=order, block=block, taken=taken)
             return cls.parse(taken[-1][1], os.fspath(path))
-        if size is not None or degree is not None:
-            raise ValueError("size and degree are for tables and arrays (.csv, .npy)")
+        if any(wish is not None for wish in (size, degree, order, block)):
+            raise ValueError("size, degree, order and block are for other formats than JSON")
         if os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path):
             raise ValueError(f"{os.fspath(path)} is not a file that can be read twice; Lattice.parse takes what was read")
         made, count = settings(values)
@@ -209,6 +210,15 @@ class Lattice:
         return {parameter.name: parameter for parameter in self._parameters}
 
     @property
+    def keys(self) -> tuple[float, ...]:
+        """The times of the keys in seconds, ascending; without keys (). The lattice is as it is at the first one: see `at`."""
+        count = 0 if self._is_still else lib.ffd_lattice_get_keys(self._pointer, None)
+        times = np.empty(count)
+        if count:
+            lib.ffd_lattice_get_keys(self._pointer, arrays.address(times))
+        return tuple(times.tolist())
+
+    @property
     def text(self) -> str:
         """The text of a lattice file for this lattice. Control points set by `moved` are stored as offsets."""
         data, size = ctypes.c_void_p(), ctypes.c_size_t()
@@ -216,13 +226,13 @@ class Lattice:
         return library.take_bytes(data, size.value).decode()
 
     def save(self, path: str | os.PathLike[str], *, force: bool = False, part: str | None = None) -> None:
-        """Writes a lattice file, a table (.csv) or an array (.npy), completely or not at all.
+        """Writes a lattice file, or one of another format, by its ending, completely or not at all.
 
         force: replace an existing file
-        part: "rest", "deformed" or "both", as of `convert_lattice`; with it moves become offsets. What an array cannot hold
+        part: "rest", "deformed" or "both", as of `convert_lattice`; with it moves become offsets. What the format cannot hold
               is logged, as "ffd_mesh"
         """
-        if is_table(path) or part is not None:
+        if is_other(path) or part is not None:
             convert(None, path, pointer=self._pointer, part=part, force=force)
             return
         call(lib.ffd_lattice_save, self._pointer, library.path(path), bool(force))
@@ -246,6 +256,16 @@ class Lattice:
         copy = self._copy()
         call(lib.ffd_lattice_fit, copy._pointer, arrays.address(bounds[0]), arrays.address(bounds[1]))
         copy._bounds = bounds
+        return copy
+
+    def at(self, time: float) -> Lattice:
+        """Returns a lattice with keys as it is at this time, in seconds: between two keys between them, before the first and
+        after the last like these. The result has no keys; its text is that of a still."""
+        if not self.keys:
+            raise ValueError("the lattice has no keys")
+        copy = self._copy()
+        call(lib.ffd_lattice_set_time, copy._pointer, ctypes.c_double(library.real(time, "time")))
+        copy._is_still = True
         return copy
 
     def refine(self, size: Any = None, degree: Any = None, *, insert: dict[str, Any] | None = None) -> Lattice:
@@ -371,7 +391,7 @@ class Lattice:
 
     def deform(self, embedding: Embedding, Q: Any = None, *, offsets: Any = None, weights: Any = None, points: Any = None,
                out: np.ndarray | None = None, vertices: Any = None, normals: Any = None, tangents: Any = None,
-               gradients: bool = False, threads: int = 0, isa: str = "auto",
+               gradients: bool = False, weight: Any = None, triangles: Any = None, threads: int = 0, isa: str = "auto",
                progress: Progress | None = None) -> Any:
         """Deforms the embedded points. Returns an array (N, 3) of the points' type, computed in double and rounded once; or a
         `Deformed`, if normals, tangents or gradients are given.
@@ -382,6 +402,9 @@ class Lattice:
         vertices: indices, ascending: deform only these. Other rows of out are unchanged or, without out, at rest
         normals, tangents: (N, 3), transformed to the deformed surface; the results are unit vectors of the same type
         gradients: True: also return the gradients of the displacement
+        weight: (N,), from 0 to 1: each point moves by its weight times the displacement (weights= are of control points)
+        triangles: (M, 3) indices of points: the surface on which the weight changes. Normals and tangents need it with weight=;
+                   gradients have the slope of the weight with it only
 
         Points that do not move keep their bits. After an exception the content of out is undefined.
         """
@@ -394,13 +417,19 @@ class Lattice:
         count = len(source)
         found = np.empty((count, 3, 3)) if wanted else None
         where = arrays.address(found) if found is not None and count else None
-        arguments = (arrays.span(source), arrays.span(out), where)
-        if vertices is None:
-            run(lib.ffd_embedding_deform, embedding._pointer, lattice._pointer, *arguments)
+        arguments: tuple[Any, ...] = (arrays.span(source), arrays.span(out), where)
+        weighted, kept = _weighted(run, source, weight, triangles, wanted)
+        if weighted and triangles is None and (normals is not None or tangents is not None):
+            raise ValueError("normals and tangents need triangles= with weight=: without the slope of the weight they are wrong by "
+                             "degrees")
+        listed = None if vertices is None else vertices_of(vertices, count)
+        if listed is None:
+            function = lib.ffd_embedding_deform_weighted if weighted else lib.ffd_embedding_deform
+            run(function, embedding._pointer, lattice._pointer, *weighted, *arguments)
         else:
-            listed = vertices_of(vertices, count)
-            run(lib.ffd_embedding_deform_some, embedding._pointer, lattice._pointer, arrays.address(listed), len(listed),
-                *arguments)
+            function = lib.ffd_embedding_deform_some_weighted if weighted else lib.ffd_embedding_deform_some
+            run(function, embedding._pointer, lattice._pointer, arrays.address(listed), len(listed), *weighted, *arguments)
+        del kept
         if found is None:
             return out
         return _directions(run, out, found, normals, tangents, gradients)
@@ -483,7 +512,7 @@ class Lattice:
         return self
 
     def __reduce__(self) -> Any:
-        return _again, (self.text, self._bounds, None if self.needs_points else self.offsets)
+        return _again, (self.text, self._bounds, None if self.needs_points or self.keys else self.offsets)
 
     # -- internal
 
@@ -514,7 +543,7 @@ class Lattice:
 
     def _copy(self) -> Lattice:
         copy = Lattice._new(lib.ffd_lattice_copy, self._pointer, parameters=self._parameters)
-        copy._bounds = self._bounds
+        copy._bounds, copy._is_still = self._bounds, self._is_still
         return copy
 
     def _columns(self) -> np.ndarray:
@@ -556,7 +585,23 @@ class Lattice:
 def _again(text: str, bounds: np.ndarray | None, offsets: np.ndarray | None) -> Lattice:
     """Restores a pickled lattice."""
     lattice = Lattice.parse(text)
-    return lattice if bounds is None else lattice._fit(bounds).moved(offsets=offsets)
+    return lattice if bounds is None else lattice._fit(bounds).moved(offsets=offsets)  # None: as the text says
+
+
+def _weighted(run: Run, points: np.ndarray, weight: Any, triangles: Any, wanted: bool) -> tuple[tuple[Any, ...], Any]:
+    """The arguments of the library for weights, and what must stay alive. wanted: gradients are, which take the slopes."""
+    if weight is None:
+        if triangles is not None:
+            raise ValueError("triangles= is for weight=")
+        return (), None
+    count = len(points)
+    weights = arrays.doubles(weight, "weight", (count,))
+    if triangles is None or not wanted:
+        return (arrays.address(weights), None), weights
+    faces, slopes = triangles_of(triangles, count), np.empty((count, 3))
+    run(lib.ffd_weight_slopes, arrays.span(points), arrays.address(weights), arrays.address(faces), len(faces),
+        arrays.address(slopes))
+    return (arrays.address(weights), arrays.address(slopes)), (weights, slopes)
 
 
 def _directions(run: Run, out: np.ndarray, gradients: np.ndarray, normals: Any, tangents: Any, wanted: bool) -> Deformed:

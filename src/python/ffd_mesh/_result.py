@@ -11,7 +11,7 @@ from . import _declarations as declared
 from . import _library as library
 from ._errors import Error, GateError, failure
 from ._library import lib
-from ._values import Folds, folds_of
+from ._values import FACES, Folds, folds_of
 
 
 class Group(SimpleNamespace):
@@ -29,8 +29,9 @@ class Result:
     outputs: names of the files that the job has written or, with dry_run, would write; also those that were up to date
     counts: number of vertices by status: "inside", "outside", "multiple", "singular", "invalid"
     folds: a `Folds`
-    tear, det, edges, displacement, ..: groups of figures, as result.tear.largest; tear.cause is a word: "stays", "blocks", ..
-    A group is None if the job did not look for it (folds, tear, det, edges) or if there is nothing (rig).
+    tear, det, edges, displacement, ..: groups of figures, as result.tear.largest; tear.cause is a word: "stays", "blocks", ..;
+      seam has continuity, "C1", and faces, a list for each lattice, as [["u+"]]
+    A group is None if the job did not look for it (folds, tear, det, edges) or if there is nothing (rig, seam).
     """
 
     warnings: list[str]
@@ -80,6 +81,10 @@ def figures(value: Any) -> Any:
     group = Group(**{name: figures(getattr(value, name)) for name in names}) if known else None
     if isinstance(value, declared.ffd_tear_figures) and group:
         group.cause = library.NAMES["ffd_tear_cause"][value.cause]
+    if isinstance(value, declared.ffd_seam_figures) and group:
+        group.faces = [[face for bit, face in enumerate(FACES) if faces >> bit & 1] for faces in group.faces[:group.count]]
+        group.continuity = f"C{value.continuity - 1}"
+        del group.count
     return group
 
 

@@ -188,6 +188,18 @@ def vertices_of(value: Any, count: int) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=np.uint32)
 
 
+def triangles_of(value: Any, count: int) -> np.ndarray:
+    """Converts triangles (M, 3) of indices of points, 0 to count-1, to contiguous uint32."""
+    array = np.asarray(value)
+    if array.dtype.kind not in "iu" and array.size:
+        raise TypeError("triangles must hold integers")
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"triangles must have the shape (M, 3), not {array.shape}")
+    if array.size and (array.min() < 0 or array.max() >= count):
+        raise ValueError(f"triangles must hold 0 to {count - 1}")
+    return np.ascontiguousarray(array, dtype=np.uint32)
+
+
 def csr(values: np.ndarray, columns: np.ndarray, starts: np.ndarray, shape: tuple[int, int]) -> Any:
     """Makes a scipy csr_array, or a `Csr`, with the columns of each row sorted."""
     rows = np.repeat(np.arange(shape[0]), np.diff(starts).astype(np.intp))
