@@ -266,6 +266,178 @@ test('errors of jobs have the exit code, line, file and pointer of the program',
   await assert.rejects(ffd.info({name: 'a.obj'}), {code: 2});
 });
 
+test('lattices in other formats, with the bytes of the program', async (folder) => {
+  const text = JSON.stringify({format: 'ffd-lattice', version: 1, size: [3, 4, 2], degree: [2, 3, 1],
+    rest: {box: {min: [0, 0, 0], max: [1, 2, 3]}}, moves: [{at: [1, 'all', 'all'], by: [0, 0.25, 0.1]}]});
+  const packed = readFileSync(join(root, 'tests/fuzz/corpus/table/zlib.vts'));
+  writeFileSync(join(folder, 'a.json'), text);
+  writeFileSync(join(folder, 'z.vts'), packed);
+  for (const [name, output, options] of [['a.json', 'b.vts'], ['a.json', 'b.vtk'], ['a.json', 'b.csv'], ['a.json', 'b.obj'], ['a.json', 'b.glb'],
+    ['a.json', 'b.xyz', {part: 'deformed'}], ['z.vts', 'b.json']]) {
+    const done = await ffd.convertLattice({name, bytes: name === 'a.json' ? text : packed}, {output, ...options});
+    run(folder, ['lattice', 'convert', name, '-o', output, '-q', ...options ? ['--part', options.part] : []]);
+    sameBytes(done.bytes, readFileSync(join(folder, output)), output);
+    assert.deepEqual([done.name, done.files], [output, {}]);
+  }
+  const {warnings} = await ffd.convertLattice({name: 'a.json', bytes: text.replace('[2,3,1]', '[1,3,1]')}, {output: 'b.xyz', part: 'rest'});
+  assert.deepEqual([warnings.length, /b\.xyz: Plot3D holds positions alone/.test(warnings[0])], [1, true]);
+  await assert.rejects(ffd.convertLattice({name: 'a.json', bytes: text}, {output: 'b.xyz'}), {code: 2, message: /holds one state/});
+  await assert.rejects(ffd.convertLattice({name: 'a.json', bytes: text}, {}), {name: 'FfdError', code: 2});
+  await assert.rejects(ffd.convertLattice({name: 'a.vts', bytes: packed.subarray(0, 900)}, {output: 'b.json'}), {code: 4, file: 'a.vts'});
+});
+
+// A .npy of N x 3 numbers, or of N.
+function numpyOf(numbers, shape) {
+  const head = `{'descr': '<f8', 'fortran_order': False, 'shape': (${shape.join()},), }`.padEnd(117) + '\n';
+  const start = Buffer.from('\x93NUMPY\x01\x00v\x00', 'latin1');
+  return Buffer.concat([start, Buffer.from(head), Buffer.from(Float64Array.from(numbers).buffer)]);
+}
+
+// The vertices of an OBJ.
+const verticesOf = (bytes) => new TextDecoder().decode(bytes).match(/^v .*/gm).map((line) => line.split(/ +/).slice(1, 4).map(Number));
+
+// What the program warns of at a fit, without its result.
+const warningsOf = ({stderr}) => String(stderr).split('\n').filter((line) => line && !/^ffd: fit: /.test(line));
+
+// What a fit is, without the names of its files.
+const jobOf = ({jobs: [{input, output, outputs, ...figures}]}) => figures;
+
+test('fits of meshes and arrays have the bytes and the report of the program', async (folder) => {
+  const bytes = source('data/models/spot.obj');
+  writeFileSync(join(folder, 'spot.obj'), bytes);
+  run(folder, ['deform', 'spot.obj', 'after.obj', '-l', join(root, 'data/lattices/twist.json'), '-q']);
+  const posed = readFileSync(join(folder, 'after.obj')), vertices = verticesOf(bytes), targets = verticesOf(posed);
+  const files = {'w.npy': numpyOf(randoms(vertices.length), [vertices.length]), 'a.npy': numpyOf(vertices.flat(), [vertices.length, 3]),
+    'b.npy': numpyOf(targets.flat(), [vertices.length, 3]), 'wide.obj': 'v -2 -2 -2\nv 2 2 2\n'};
+  for (const [name, content] of Object.entries(files)) writeFileSync(join(folder, name), content);
+  writeFileSync(join(folder, 'base.json'), JSON.stringify({...BOX, size: [5, 5, 5], moves: [{twist: {axis: 'z', degrees: {$: 'turn'}}}]}));
+  const base = readFileSync(join(folder, 'base.json')), weights = {name: 'w.npy', bytes: files['w.npy']};
+  const fitted = async (before, after, words, options, wasm = [before, after]) => {
+    const warned = warningsOf(run(folder, ['fit', before, after, '-o', 'a.json', '--report', 'report.json', '--report-stable', '--force', ...words]));
+    const done = await ffd.fit(...wasm, {reportStable: true, ...options}), report = JSON.parse(readFileSync(join(folder, 'report.json')));
+    sameBytes(done.bytes, readFileSync(join(folder, 'a.json')), words.join(' '));
+    assert.deepEqual(jobOf(done.report), jobOf(report));
+    assert.deepEqual(done.fit, report.jobs[0].fit);
+    assert.deepEqual([done.name, done.files, done.warnings], [options?.output ?? 'fit.json', {}, warned]);
+    return done;
+  };
+  // Exporters give both one name.
+  const before = {name: 'spot.obj', bytes, files: {...files, 'spot.mtl': ''}}, after = {name: 'spot.obj', bytes: posed, files: {'spot.mtl': 'a'}};
+  const {bytes: found, fit, report} = await fitted('spot.obj', 'after.obj', [], undefined, [before, after]);
+  assert.deepEqual([report.jobs[0].input, report.jobs[0].outputs, fit.smooth_chosen_by], ['spot.obj', ['fit.json'], 'gcv']);
+  const moved = verticesOf((await ffd.deform({name: 'spot.obj', bytes}, found)).bytes);
+  const far = Math.max(...moved.map((place, i) => Math.hypot(...place.map((x, axis) => x - targets[i][axis]))));
+  assert.ok(Math.abs(far - fit.residual.max) < 1e-6, `${far} from AFTER, but the report says ${fit.residual.max}`);
+  sameBytes(ffd.Lattice.parse(found).points('deformed'), ffd.Lattice.parse(new TextDecoder().decode(found)).points('deformed'), 'the lattice');
+  for (const [words, options] of [
+    [['--size', '8,4,5', '--degree', '2,3,1', '--knots', 'clamped,open,uniform', '--margin', '0.1,0,0.2', '--smooth', '0'],
+      {size: [8, 4, 5], degree: [2, 3, 1], knots: ['clamped', 'open', 'uniform'], margin: [0.1, 0, 0.2], smooth: 0}],
+    [['--size', '7', '--within', '0.02r', '--robust'], {size: 7, within: '0.02r', robust: true, output: 'near.json'}],
+    [['--symmetric', 'u', '--smooth', '0.5', '--weights', 'w.npy', '--axes', 'principal'],
+      {symmetric: 'u', smooth: 0.5, weights: 'w.npy', axes: 'principal'}],
+    [['--cover', 'wide.obj', '--weights', 'uniform', '--smooth', 'auto'],
+      {cover: ['wide.obj', {name: 'spot.obj', bytes}], weights: 'uniform', smooth: 'auto'}],
+    [['-l', 'base.json', '--set', 'turn=20', '--weights', 'w.npy'], {lattice: base, set: {turn: 20}, weights}],
+  ]) await fitted('spot.obj', 'after.obj', words, options, [before, after]);
+  await fitted('a.npy', 'b.npy', ['--fail-on', 'folds'], {failOn: ['folds']}, ['a.npy', 'b.npy'].map((name) => ({name, bytes: files[name]})));
+});
+
+test('fits of pairs, with and without a mesh, and as handles', async (folder) => {
+  const mesh = {name: 'spot.obj', bytes: source('data/models/spot.obj')};
+  const dragged = 'vertex,x,y,z,weight\n100,0.5,0.4,0.3,exact\n2000,0,0,0,\n', numbers = randoms(3 * 60);
+  const placed = 'px,py,pz,x,y,z\r\n' + Array.from({length: 60}, (_, i) => {
+    const [x, y, z] = numbers.subarray(3 * i, 3 * i + 3);
+    return [x, y, z, 1.2 * x, y - x * x / 5, z].join() + '\r\n';
+  }).join('');
+  writeFileSync(join(folder, 'dragged.csv'), dragged);
+  writeFileSync(join(folder, 'placed.csv'), placed);
+  writeFileSync(join(folder, 'spot.obj'), mesh.bytes);
+  for (const [before, name, table, options, words] of [[mesh, 'dragged.csv', dragged, {handles: true}, ['spot.obj', '--handles']],
+    [null, 'placed.csv', placed, {size: '4,5,4', handles: false}, ['--size', '4,5,4']],
+    [mesh, 'placed.csv', placed, {snap: 5}, ['spot.obj', '--snap', '5']]]) {
+    run(folder, ['fit', ...words, '--pairs', name, '-o', 'a.json', '--report', 'report.json', '--report-stable', '-q', '--force']);
+    const expected = readFileSync(join(folder, 'a.json')), {jobs: [{fit, input}]} = JSON.parse(readFileSync(join(folder, 'report.json')));
+    for (const pairs of [table, {name, bytes: table}, ...before ? [name] : []]) {
+      const done = await ffd.fit(before && {...before, files: {[name]: table}}, null, {pairs, ...options});
+      sameBytes(done.bytes, expected, name);
+      assert.deepEqual(done.fit, fit);
+      if (before) assert.equal(done.report.jobs[0].input, input);
+    }
+  }
+  const {fit} = await ffd.fit(mesh, null, {pairs: dragged, handles: true});
+  assert.deepEqual([fit.pairs, fit.exact, fit.affine.flat().every((x) => x === 0)], [2, 1, true]);
+  assert.ok(fit.residual_exact < 1e-12);
+});
+
+test('fits of points in memory have the bits and the figures of the program', async (folder) => {
+  const vertices = verticesOf(source('data/models/spot.obj')), before = Float64Array.from(vertices.flat());
+  const after = before.map((x, i) => x + 0.1 * Math.sin(3 * before[i - i % 3 + (i + 1) % 3])), count = vertices.length, weights = randoms(count);
+  const csv = 'px,py,pz,x,y,z,weight\n' + Array.from({length: count}, (_, i) => [...before.subarray(3 * i, 3 * i + 3), ...after.subarray(3 * i, 3 * i + 3),
+    [3, 50].includes(i) ? 'exact' : 1].join() + '\n').join('');
+  const written = {'a.npy': numpyOf(before, [count, 3]), 'b.npy': numpyOf(after, [count, 3]), 'w.npy': numpyOf(weights, [count]), 'p.csv': csv,
+    'base.json': JSON.stringify({...BOX, size: [5, 4, 6], rest: {box: {min: [-2, -2, -2], max: [2, 2, 2]}}})};
+  for (const [name, content] of Object.entries(written)) writeFileSync(join(folder, name), content);
+  for (const [words, options] of [[['a.npy', 'b.npy'], {}], [['a.npy', 'b.npy', '--size', '4,6,5', '--knots', 'clamped', '--smooth', '0.1'],
+    {size: [4, 6, 5], knots: 'clamped', smooth: 0.1}], [['a.npy', 'b.npy', '--weights', 'w.npy', '--within', '0.01r', '--robust'], {weights, within: '0.01r', robust: true}],
+  [['a.npy', 'b.npy', '-l', 'base.json', '--symmetric', 'u', '--smooth', '1'], {lattice: written['base.json'], symmetric: 'u', smooth: 1}],
+  [['--pairs', 'p.csv', '--smooth', '0.01', '--snap', '0.1r'], {exact: [3, 50], smooth: 0.01, snap: '0.1r'}],
+  [['--pairs', 'p.csv', '--handles'], {exact: [3, 50], handles: true}]]) {
+    run(folder, ['fit', ...words, '-o', 'found.json', '--report', 'report.json', '-q', '--force']);
+    const {lattice, report} = ffd.fit(before, after, options), {jobs: [{fit}]} = JSON.parse(readFileSync(join(folder, 'report.json')));
+    assert.deepEqual(report, fit, words.join(' '));
+    const expected = ffd.Lattice.parse(readFileSync(join(folder, 'found.json')));
+    sameBytes(lattice.points(), expected.points(), words.join(' '));
+  }
+  const whole = new Float32Array(before), {lattice, report} = await ffd.fit(whole, new Float32Array(after), {size: 4, lattice: undefined});
+  assert.deepEqual([report.pairs, report.used, lattice.size], [count, count, [4, 4, 4]]);
+  const few = before.subarray(0, 6);
+  for (const [what, call, expected] of [['other numbers', () => ffd.fit(before, few), {code: 2, message: /after: 2 points/}],
+    ['no array', () => ffd.fit(before, [0, 0, 0]), {code: 2}], ['a list', () => ffd.fit(few, few, {weights: [1]}), {code: 2, message: /1 numbers, but 2 pairs/}],
+    ['an option of files', () => ffd.fit(few, few, {failOn: 'folds'}), {code: 2, message: /failOn is no option of points/}],
+    ['two ways to be smooth', () => ffd.fit(few, few, {smooth: 1, within: 1}), {code: 2}], ['a word', () => ffd.fit(few, few, {smooth: 'much'}), {code: 2}],
+    ['a base and a box', () => ffd.fit(few, few, {lattice: BOX, size: 4}), {code: 2}], ['a direction', () => ffd.fit(few, few, {symmetric: 'x'}), {code: 2}],
+    ['robust handles', () => ffd.fit(few, few, {handles: true, robust: true}), {code: 2}], ['a pair', () => ffd.fit(few, few, {exact: [2]}), {code: 2}],
+    ['a part', () => ffd.fit(few, few, {within: 'r'}), {code: 2}], ['not finite', () => ffd.fit(few, few.map(() => NaN)), {code: 4}],
+    ['too large', () => ffd.fit(few, few, {size: 39}), {code: 7}],
+    ['two places', () => ffd.fit(Float64Array.of(0, 0, 0, 0, 0, 0, 1, 1, 1), Float64Array.of(0, 0, 0, 1, 0, 0, 1, 1, 1), {exact: [0, 1]}), {code: 1, message: /contradict/}],
+  ]) assert.throws(call, {name: 'FfdError', ...expected}, what);
+});
+
+test('refused fits, and what they warn of', async (folder) => {
+  const mesh = {name: 'spot.obj', bytes: source('data/models/spot.obj')}, other = {name: 'spot.obj', bytes: 'v 1 2 3\n'};
+  const folding = 'x,y,z,px,py,pz\n0,0,1,0,0,0\n1,0,1,1,0,0\n0,1,1,0,1,0\n0,0,3,0,0,1\n', dragging = {pairs: folding, handles: true};
+  writeFileSync(join(folder, 'pairs.csv'), folding);
+  const {warnings, fit} = await ffd.fit(null, null, dragging);
+  assert.deepEqual(warnings, warningsOf(run(folder, ['fit', '--pairs', 'pairs.csv', '--handles', '-o', 'a.json'])));
+  assert.deepEqual([warnings.length, fit.folds.verdict], [1, 'some']);
+  await assert.rejects(ffd.fit(null, null, {...dragging, failOn: 'folds'}), ({code, report, warnings: before}) =>
+    code === 1 && report.jobs[0].fit.folds.verdict === 'some' && before.length === 0);
+  const broken = 'x,y,z,px,py,pz\n0,0,1,0,0\n';
+  for (const [what, call, expected] of [
+    ['one file', () => ffd.fit(mesh), {code: 2, message: /needs BEFORE and AFTER/}],
+    ['nothing', () => ffd.fit(null, null), {code: 2, message: /needs BEFORE and AFTER/}],
+    ['AFTER alone', () => ffd.fit(null, mesh), {code: 2}],
+    ['AFTER and pairs', () => ffd.fit(mesh, mesh, {pairs: folding}), {code: 2, message: /--pairs has the targets/}],
+    ['handles of meshes', () => ffd.fit(mesh, mesh, {handles: true}), {code: 2, message: /--handles needs --pairs/}],
+    ['two ways to be smooth', () => ffd.fit(mesh, mesh, {smooth: 1, within: 1}), {code: 2, message: /cannot be used together/}],
+    ['a word', () => ffd.fit(mesh, mesh, {smooth: 'much'}), {code: 2, message: /--smooth: "much"/}],
+    ['two values', () => ffd.fit(mesh, mesh, {size: [4, 4]}), {code: 2, message: /--size/}],
+    ['a base and a box', () => ffd.fit(mesh, mesh, {lattice: BOX, size: 4}), {code: 2}],
+    ['two bases', () => ffd.fit(mesh, mesh, {lattice: [BOX, BOX]}), {code: 2, message: /starts from one lattice/}],
+    ['another format', () => ffd.fit(mesh, mesh, {output: 'a.vts'}), {code: 2}],
+    ['a report', () => ffd.fit(mesh, mesh, {report: 'a.json'}), {code: 2}],
+    ['no vertices', () => ffd.fit(mesh, {name: 'a.obj'}), {code: 2, message: /a\.obj: no bytes/}],
+    ['a file that is not there', () => ffd.fit(mesh, null, {pairs: 'a.csv'}), {code: 3, message: /a\.csv/}],
+    ['a short row', () => ffd.fit(null, null, {pairs: broken}), {code: 4, file: 'pairs.csv', message: /^ffd: pairs\.csv:2: /}],
+    ['a short row of a file', () => ffd.fit(null, null, {pairs: {name: 'b/a.csv', bytes: broken}}), {code: 4, file: 'b/a.csv'}],
+    ['no mesh', () => ffd.fit({...mesh, bytes: 'v 1 2\n'}, mesh), {code: 4, file: 'spot.obj'}],
+    ['no mesh after it', () => ffd.fit(mesh, {...mesh, bytes: 'v 1 2\n'}), {code: 4, file: 'after/spot.obj'}],
+    ['a broken base', () => ffd.fit(mesh, mesh, {lattice: {...BOX, version: 99}}), {code: 6, file: 'lattice', pointer: '/version'}],
+    ['other vertices', () => ffd.fit(mesh, other), {code: 4, file: 'after/spot.obj'}],
+    ['nothing inside', () => ffd.fit(other, null, {pairs: folding, lattice: {...FOLDED, rest: {box: {min: [5, 5, 5], max: [6, 6, 6]}}, moves: []}}), {code: 5}],
+  ]) await assert.rejects(call(), {name: 'FfdError', ...expected}, what);
+});
+
 test('init takes modules of the caller', async () => {
   const bytes = readFileSync(join(packageFolder, 'dist/core.wasm'));
   for (const wasm of [bytes, pathToFileURL(join(packageFolder, 'dist/core.wasm')), await WebAssembly.compile(bytes)])

@@ -1,5 +1,5 @@
 // The types of the package: compiled, never run. A line behind "expect-error" must be wrong.
-import {FfdError, init, type Lattice} from 'ffd-mesh';
+import {FfdError, init, type Fit, type FitResult, type Lattice} from 'ffd-mesh';
 import {ffd as transform} from 'ffd-mesh/gltf-transform';
 import {Document} from '@gltf-transform/core';
 
@@ -19,8 +19,33 @@ try {
 } catch (problem) {
   if (problem instanceof FfdError) console.log(problem.code + 1, problem.file?.length, problem.pointer, single, double, affected, verdict, text);
 }
+const grid: Uint8Array = (await ffd.convertLattice({name: 'a.xyz', bytes: ''}, {output: 'a.vts', block: 1, order: 'auto'})).bytes;
 // @ts-expect-error
-ffd.fit(single, single);
+await ffd.convertLattice({name: 'a.xyz', bytes: grid});
+const fitted: FitResult = await ffd.fit({name: 'a.npy', bytes: single}, {name: 'b.npy', bytes: double}, {size: [6, 4, 4], knots: 'open',
+  smooth: 'auto', within: '1e-3r', weights: {name: 'w.npy', bytes: single}, symmetric: 'u', robust: true, failOn: ['folds'], lattice: grid});
+const found: Fit = (await ffd.fit(null, null, {pairs: 'x,y,z,px,py,pz\n', handles: true, cover: ['a.obj', {name: 'b.obj', bytes: ''}]})).fit;
+const chosen: 'gcv' | 'default' | 'within' | 'given' | 'folds' = found.smooth_chosen_by;
+const far: number = fitted.report.jobs[0].fit!.residual.max + found.affine[3][2] + (found.gcv ?? 0) + chosen.length;
+await ffd.check({name: 'a.obj', bytes: ''}, [fitted.bytes, fitted.lattice], {set: {far}});
+
+const carried: {lattice: Lattice; report: Fit} = ffd.fit(single, double, {size: [4, 5, 6], knots: 'closed', within: '1e-3r', exact: [1], weights: double});
+// @ts-expect-error
+ffd.fit(single, {name: 'b.obj', bytes: ''});
+// @ts-expect-error
+ffd.fit(single, double, {failOn: 'folds'});
+// @ts-expect-error
+ffd.fit([0, 0, 0], [0, 0, 0]);
+// @ts-expect-error
+ffd.fit({name: 'a.obj', bytes: ''}, null, {handles: true});
+// @ts-expect-error
+ffd.fit({name: 'a.obj', bytes: ''}, {name: 'b.obj', bytes: ''}, {pairs: 'x'});
+// @ts-expect-error
+ffd.fit({name: 'a.obj', bytes: ''}, {name: 'b.obj', bytes: ''}, {smooth: 'much'});
+// @ts-expect-error
+ffd.fit({name: 'a.obj', bytes: ''}, {name: 'b.obj', bytes: ''}, {symmetric: 'x'});
+// @ts-expect-error
+ffd.fit({name: 'a.obj', bytes: ''}, {name: 'b.obj', bytes: ''}, {weights: 'volume'});
 // @ts-expect-error
 box.embed([0, 0, 0]);
 // @ts-expect-error

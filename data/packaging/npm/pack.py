@@ -12,10 +12,10 @@ import shutil
 import sys
 
 # Of the package's own modules: where they go.
-DIST = ("error.mjs", "load.mjs", "run.mjs", "lattice.mjs", "jobs.mjs", "ffd-mesh.mjs", "ffd-mesh.d.ts", "files.mjs",
+DIST = ("error.mjs", "load.mjs", "run.mjs", "fit.mjs", "lattice.mjs", "jobs.mjs", "ffd-mesh.mjs", "ffd-mesh.d.ts", "files.mjs",
         "gltf-transform.mjs", "gltf-transform.d.ts")
 # Those of the classic script, each behind what it uses.
-CLASSIC = ("error.mjs", "run.mjs", "lattice.mjs", "jobs.mjs", "ffd-mesh.mjs")
+CLASSIC = ("error.mjs", "run.mjs", "fit.mjs", "lattice.mjs", "jobs.mjs", "ffd-mesh.mjs")
 MODULES = {"core": "createCore", "program": "createProgram"}
 
 # In place of load.mjs.

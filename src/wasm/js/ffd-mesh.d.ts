@@ -57,8 +57,8 @@ export interface Lattice {
 }
 
 export interface LatticeClass {
-  /** A lattice file's text, or its content as an object. */
-  parse(textOrObject: string | object): Lattice;
+  /** A lattice file's text or bytes, or its content as an object. */
+  parse(content: string | Uint8Array | object): Lattice;
   box(options: {min: ArrayLike<number>; max: ArrayLike<number>; size?: Three<number>; degree?: Three<number>;
     knots?: KnotVector | readonly [KnotVector, KnotVector, KnotVector]}): Lattice;
   /** As `ffd lattice new`. */
@@ -75,13 +75,15 @@ export interface MeshFile {
   files?: {[relativeName: string]: Bytes};
 }
 
-export type LatticeLike = Lattice | string | object;
+/** A lattice, the text or bytes of its file, or its content as an object. */
+export type LatticeLike = Lattice | string | Uint8Array | object;
 
 /** The program's long options in camelCase: `asMorph: 'smile'`, `failOn: ['folds', 'outside']`, `strict: true`. A list repeats
     its option. `set` also takes an object of values. An option for a file names one of `files`. */
 export interface Options {
   outside?: 'keep' | 'extend' | 'error';
   falloff?: number;
+  seam?: string;
   snap?: number | string;
   blocks?: boolean;
   normals?: 'transform' | 'recompute' | 'keep';
@@ -90,6 +92,8 @@ export interface Options {
   only?: string | string[];
   failOn?: string | string[];
   asMorph?: string;
+  /** `weights.npy`, one of `files`, or `color:r` and so on. */
+  weight?: string;
   set?: string[] | {[name: string]: unknown};
   strict?: boolean;
   allowExtension?: string | string[];
@@ -115,6 +119,132 @@ export interface Result {
   warnings: string[];
 }
 
+/** A length, or `1e-3r`: a part of a diagonal. */
+export type Distance = number | `${number}` | `${number}r`;
+
+/** Options of `ffd fit` in camelCase. An option for a file names one of the `files` of BEFORE, or is a file. */
+export interface FitOptions {
+  /** The name of the result, which ends in `.json`; default `fit.json`. */
+  output?: string;
+  /** Where it starts, in place of a box by `size`, `degree`, `knots`, `margin` and `axes`. */
+  lattice?: LatticeLike | null;
+  /** Default 6, 6, 6. */
+  size?: Three<number> | string;
+  /** Default 3. */
+  degree?: Three<number> | string;
+  /** Default `open`. */
+  knots?: Three<Exclude<Knots, 'default'>>;
+  /** Default 0.05. */
+  margin?: Three<number> | string;
+  axes?: 'principal';
+  /** The box goes round these too. */
+  cover?: string | MeshFile | Array<string | MeshFile>;
+  /** Default `auto`. */
+  smooth?: 'auto' | number | `${number}`;
+  /** In place of `smooth`: the smoothest lattice with all pairs so near. */
+  within?: Distance;
+  symmetric?: 'u' | 'v' | 'w';
+  failOn?: 'folds' | Array<'folds'>;
+  only?: string | string[];
+  space?: 'scene' | 'mesh';
+  snap?: Distance;
+  set?: string[] | {[name: string]: unknown};
+  time?: number;
+  reportStable?: boolean;
+  strict?: boolean;
+  allowExtension?: string | string[];
+  memory?: number | string;
+  timeout?: number;
+  [option: string]: unknown;
+}
+
+/** What a fit has found: the member `fit` of its report (data/schema/formats.md). Lengths are in world units. */
+export interface Fit {
+  pairs: number;
+  used: number;
+  outside: number;
+  multiple: number;
+  singular: number;
+  exact: number;
+  dependent: number;
+  smooth: number;
+  smooth_chosen_by: 'gcv' | 'default' | 'within' | 'given' | 'folds';
+  gcv: number | null;
+  /** An offset: its constant, then what it changes by along x, y and z. */
+  affine: [Vector, Vector, Vector, Vector];
+  /** `worst`: the pair of `max`, from 0. */
+  residual: {max: number; rms: number; p95: number; worst: number};
+  residual_exact: number | null;
+  largest_offset: number;
+  points_without_data: number;
+  folds: FoldProof;
+  /** `null` without `robust`. */
+  downweighted: number | null;
+  spread: {positions: number; largest: number};
+  flops: number;
+}
+
+/** `folds` of a report. */
+export interface FoldProof {
+  verdict: 'none' | 'some' | 'unknown';
+  cells: number;
+  min_det: number | null;
+  relative_to: 'mean' | 'bounds' | 'place';
+  folded_cells: number;
+  unknown_cells: number;
+  witness: {lattice: number; uvw: Vector; xyz: Vector; rest: Vector; det: number} | null;
+}
+
+export type Vector = [number, number, number];
+
+export interface FitReport extends Report {
+  jobs: [{
+    /** The name of BEFORE, or of the pairs. */
+    input: string;
+    output: string;
+    outputs: string[];
+    status: 'ok' | 'failed';
+    exit: number;
+    error: string | null;
+    /** `null` after a failure before a lattice was found. */
+    fit: Fit | null;
+    seconds?: {read: number; fit: number; write: number};
+  }];
+}
+
+/** Options of a fit of points. */
+export interface PointFitOptions {
+  /** Where it starts, in place of a box by `size`, `degree`, `knots` and `margin`. */
+  lattice?: LatticeLike;
+  /** Default 6, 6, 6. */
+  size?: Three<number>;
+  /** Default 3. */
+  degree?: Three<number>;
+  /** Default `open`. */
+  knots?: Three<Knots>;
+  /** Default 0.05. */
+  margin?: Three<number>;
+  smooth?: 'auto' | number;
+  /** In place of `smooth`: the smoothest lattice with all pairs so near; `1e-3r`: a part of the diagonal of the points. */
+  within?: number | `${number}r`;
+  /** One for each pair, at least 0; default 1. */
+  weights?: ArrayLike<number> | null;
+  /** The numbers of pairs that hold exactly. */
+  exact?: ArrayLike<number>;
+  handles?: boolean;
+  robust?: boolean;
+  symmetric?: 'u' | 'v' | 'w';
+  /** `1e-3r`: a part of the diagonal of the lattice, which must have its control points then. */
+  snap?: number | `${number}r`;
+}
+
+/** `bytes` is the file of `lattice`. */
+export interface FitResult extends Result {
+  lattice: Lattice;
+  fit: Fit;
+  report: FitReport;
+}
+
 export interface Ffd {
   readonly Lattice: LatticeClass;
   readonly FfdError: typeof FfdError;
@@ -123,6 +253,21 @@ export interface Ffd {
   check(mesh: MeshFile, lattice: LatticeLike | LatticeLike[], options?: Options): Promise<{report: Report; files: Files; warnings: string[]}>;
   /** What `ffd info --json` prints of a mesh or of a lattice file (.json). */
   info(file: MeshFile, options?: {parts?: boolean; set?: string[] | {[name: string]: unknown}; [option: string]: unknown}): Promise<{[member: string]: any}>;
+  /** A lattice in another format, as `ffd lattice convert` writes it: the endings of the names tell the formats. `mesh`: one of
+      `files`, round which a box round a mesh is laid. */
+  convertLattice(file: MeshFile, options: {output: string; part?: 'rest' | 'deformed' | 'both'; size?: Three<number> | string;
+    degree?: Three<number> | string; order?: 'uvw' | 'auto'; block?: string | number; set?: string[] | {[name: string]: unknown}; time?: number;
+    mesh?: string | string[]; [option: string]: unknown}): Promise<Omit<Result, 'report'>>;
+  /** The lattice that carries points onto others, 3 numbers each, as `ffd_fit_points` finds it: at once, by the core. */
+  fit(before: Float32Array | Float64Array, after: Float32Array | Float64Array, options?: PointFitOptions): {lattice: Lattice; report: Fit};
+  /** The lattice that carries the vertices of `before` onto those of `after`, meshes or `.npy` arrays, as `ffd fit` finds it. Of two
+      files with one name the later is in a folder, for messages: `after/head.obj`. */
+  fit(before: MeshFile, after: MeshFile, options?: FitOptions & {weights?: 'area' | 'uniform' | `${string}.npy` | MeshFile;
+    robust?: boolean; pairs?: null; handles?: false}): Promise<FitResult>;
+  /** `pairs`: the table's text, a file, or the name of one of the `files` of `before`. `handles`: what is not dragged changes as little
+      as possible. */
+  fit(before: MeshFile | null, after: null, options: FitOptions & {pairs: string | MeshFile; handles?: boolean; robust?: boolean;
+    weights?: null}): Promise<FitResult>;
   /** A page (.html) or a picture (.png), as the ending of `output` says. */
   view(mesh: MeshFile, lattice?: LatticeLike | LatticeLike[] | null, options?: Options & {output?: string; size?: string; frames?: number;
     camera?: string; color?: 'displacement' | 'status' | 'det' | 'plain'; morph?: string | string[]; animation?: string; full?: boolean; up?: 'y' | 'z' | 'x';

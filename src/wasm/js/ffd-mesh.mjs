@@ -27,5 +27,13 @@ export async function init({wasm, programWasm} = {}) {
   }).then(resolve, reject));
   let program;
   const getProgram = () => program ??= moduleOf(programWasm, 'program.wasm').catch((problem) => { program = undefined; throw problem; });
-  return {Lattice: defineLattice(core), FfdError, ...defineJobs(createProgram, getProgram)};
+  const {Lattice, fitPoints} = defineLattice(core), jobs = defineJobs(createProgram, getProgram);
+  return {
+    Lattice, FfdError, ...jobs,
+    // Of points in memory it is done at once, of files by the program.
+    fit(before, after, options) {
+      return ArrayBuffer.isView(before) || ArrayBuffer.isView(after) ? fitPoints(before, after, options)
+        : jobs.fit(before, after, options).then((done) => ({lattice: Lattice.parse(done.bytes), ...done}));
+    },
+  };
 }

@@ -7,6 +7,12 @@ const IN = '/in', OUT = '/out';
 // Options that are about the files of a machine, or that a job sets itself.
 const OWN = ['report', 'outDir', 'inPlace', 'force', 'ifChanged', 'dryRun', 'depfile', 'lattice', 'help'];
 
+// Options with a value for each direction, which the program takes as one word: {size: [8, 4, 4]} is --size 8,4,4.
+const DIRECTED = ['size', 'degree', 'knots', 'margin'];
+
+// What a fit tells of its work and of its result, among the warnings.
+const TOLD = /^ffd: fit: \d+ (%|pairs, residual )/;
+
 const toBytes = (content, name) => content instanceof Uint8Array ? content
   : content instanceof ArrayBuffer ? new Uint8Array(content)
     : ArrayBuffer.isView(content) ? new Uint8Array(content.buffer, content.byteOffset, content.byteLength)
@@ -29,12 +35,27 @@ function wordsOf(options, allowed = []) {
     const option = '--' + name.replace(/[A-Z]/g, (letter) => '-' + letter.toLowerCase());
     const values = name === 'set' && !Array.isArray(value) && typeof value === 'object' && value
       ? Object.entries(value).map(([key, one]) => `${key}=${typeof one === 'string' ? one : JSON.stringify(one)}`)
-      : Array.isArray(value) ? value : [value];
+      : !Array.isArray(value) ? [value] : DIRECTED.includes(name) ? [value.join()] : value;
     for (const one of values)
       if (one === true) words.push(option);
       else if (one !== false && one !== undefined && one !== null) words.push(option, String(one));
   }
   return words;
+}
+
+// Puts a file of a job, and those that it names, among the given ones: into a folder where one of them has a name that is taken.
+// Returns its name for the program, which takes a dash for an option.
+function place(given, {name, bytes, files = {}}, folder) {
+  const own = [...Object.entries(files), [name, bytes]].map(([path, content]) => [checkName(path), toBytes(content, path)]);
+  const isBelow = (path, other) => `${path}/`.startsWith(`${other}/`);
+  const isTaken = (path) => [...given.keys()].some((other) => isBelow(path, other) || isBelow(other, path));
+  let start = '';
+  if (own.some(([path]) => isTaken(path))) {
+    while (isTaken(folder)) folder += '_';
+    start = folder + '/';
+  }
+  for (const [path, content] of own) given.set(start + path, content);
+  return (start + name).replace(/^-/, './-');
 }
 
 function makeFolders(FS, path) {
@@ -76,7 +97,6 @@ function gatherer() {
   return take;
 }
 
-// The error in what the program has said, whose last line tells why it failed.
 // The report, with the names that the caller gave or gets.
 function reportOf(text) {
   const name = (path) => path?.replace(/^\/(in|out)\//, '');
@@ -85,17 +105,21 @@ function reportOf(text) {
   return report;
 }
 
+const warningsOf = (lines) => lines.filter((line) => line && !TOLD.test(line));
+
+// The error in what the program has said, whose last line tells why it failed.
 function failureOf(code, said, names, report) {
   const lines = said.trimEnd().split('\n');
   const line = lines.pop() || 'ffd: it failed without a word';
   const file = names.filter((name) => line.startsWith(`ffd: ${name}:`)).sort((a, b) => b.length - a.length)[0];
   const behind = file === undefined ? '' : line.slice(`ffd: ${file}:`.length);
   const pointer = /^(?:\d+:)? ?(\/.*?): /.exec(behind)?.[1];
-  return Object.assign(new FfdError(code, line, {file, pointer}), {warnings: lines}, report && {report});
+  return Object.assign(new FfdError(code, line, {file, pointer}), {warnings: warningsOf(lines)}, report && {report});
 }
 
-// The text of a Lattice, of whatever instance, of an object, or a text.
-const textOf = (lattice) => typeof lattice === 'string' ? lattice : typeof lattice.text === 'function' ? lattice.text() : JSON.stringify(lattice);
+// The file of a Lattice, of whatever instance, of an object, of a text, or its bytes.
+const fileOf = (lattice) => toBytes(typeof lattice === 'string' || lattice instanceof Uint8Array ? lattice
+  : typeof lattice.text === 'function' ? lattice.text() : JSON.stringify(lattice), 'lattice');
 
 // The functions of an instance. getModule() -> the program's module.
 export function defineJobs(createProgram, getModule) {
@@ -105,26 +129,27 @@ export function defineJobs(createProgram, getModule) {
     lattices.forEach((lattice, i) => {
       let name = lattices.length > 1 ? `lattice ${i + 1}` : 'lattice';
       while (taken.has(name)) name += '_';
-      named.set(name, new TextEncoder().encode(textOf(lattice)));
+      named.set(name, fileOf(lattice));
     });
     return named;
   }
 
-  // words(mesh, lattices) -> those of the command.
-  async function run({name, bytes, files = {}}, lattice, words) {
-    checkName(name);
-    const given = new Map(Object.entries(files).map(([file, content]) => [checkName(file), toBytes(content, file)]));
-    given.set(name, toBytes(bytes, name));
+  // words(mesh, lattices, others) -> those of the command. mesh: null where a job has none. others: more files, each by the folder
+  // for a name that is taken, or a list; what is no file stays, as the name of one of the mesh's.
+  async function run(mesh, lattice, words, others = {}) {
+    const given = new Map(), name = mesh && place(given, mesh);
+    const add = (file, folder) => Array.isArray(file) ? file.map((one) => add(one, folder))
+      : typeof file === 'object' && file ? place(given, file, folder) : file;
+    const names = Object.fromEntries(Object.entries(others).map(([folder, file]) => [folder, add(file, folder)]));
     const lattices = nameLattices(lattice === undefined || lattice === null ? [] : Array.isArray(lattice) ? lattice : [lattice], given);
     const said = gatherer(), printed = gatherer();
-    const mesh = name.startsWith('-') ? './' + name : name;
     const {FS, code} = await runProgram(createProgram, await getModule(),
-      words(mesh, [...lattices.keys()].flatMap((file) => ['-l', file])), {
+      words(name, [...lattices.keys()].flatMap((file) => ['-l', file]), names), {
         input: () => 0,
         output: printed,
         failure: said,
         prepare(FS) {
-          makeFolders(FS, OUT + '/' + name);
+          makeFolders(FS, `${OUT}/${mesh ? mesh.name : ''}`);
           FS.mkdir(IN);
           writeAll(FS, [...given, ...lattices].map(([file, content]) => [`${IN}/${file}`, content]));
           FS.chdir(IN);
@@ -133,7 +158,7 @@ export function defineJobs(createProgram, getModule) {
     const all = {...readAll(FS, IN, new Map([...given, ...lattices])), ...readAll(FS, OUT)};
     const report = FS.analyzePath('/report.json').exists ? reportOf(FS.readFile('/report.json', {encoding: 'utf8'})) : undefined;
     if (code) throw failureOf(code, said.text(), [...given.keys(), ...lattices.keys()], report);
-    return {files: all, report, text: printed.text(), warnings: said.text().split('\n').filter(Boolean)};
+    return {files: all, report, text: printed.text(), warnings: warningsOf(said.text().split('\n'))};
   }
 
   // A result whose main file is called `name`.
@@ -157,6 +182,21 @@ export function defineJobs(createProgram, getModule) {
     async info(file, options = {}) {
       const {text} = await run(file, [], (name) => ['info', name, '--json', ...wordsOf(options)]);
       return JSON.parse(text);
+    },
+    async convertLattice(file, {output, ...options} = {}) {
+      if (output === undefined) refuse('convertLattice: no output, whose ending is the format');
+      const done = await run(file, [], (name) => ['lattice', 'convert', name, '-o', `${OUT}/${checkName(output)}`, ...wordsOf(options)]);
+      const {report, ...result} = resultOf(done, output);
+      return result;
+    },
+    async fit(before, after, {output = 'fit.json', lattice, pairs, cover, weights, ...options} = {}) {
+      if (after && !before) refuse('fit: AFTER without BEFORE');
+      // A table has a row below its first, so that a text of it is told from a name.
+      const table = typeof pairs === 'string' && pairs.includes('\n') ? {name: 'pairs.csv', bytes: pairs} : pairs;
+      const done = await run(before ?? null, lattice, (name, lattices, {after: second, ...named}) =>
+        ['fit', ...[name, second].filter(Boolean), '-o', `${OUT}/${checkName(output)}`, ...lattices, ...REPORT,
+          ...wordsOf({...options, ...named})], {after, pairs: table, cover, weights});
+      return {...resultOf(done, output), fit: done.report.jobs[0].fit};
     },
     async view(mesh, lattice, {output = mesh.name + '.html', ...options} = {}) {
       const done = await run(mesh, lattice, (name, lattices) =>

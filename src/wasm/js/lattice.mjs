@@ -1,5 +1,6 @@
 // Lattices and embeddings: the functions of the core on typed arrays.
 import {FfdError, refuse} from './error.mjs';
+import {reportOf, settingsOf} from './fit.mjs';
 
 const KNOTS = ['default', 'clamped', 'open', 'uniform', 'closed'];
 const OUTSIDE = ['keep', 'extend', 'error'];
@@ -161,8 +162,8 @@ export function defineLattice(core) {
 
   function indicesOf(indices) {
     const list = Array.from(indices);
-    const wrong = list.find((i) => !Number.isInteger(i) || i < 0 || i >= 2 ** 32);
-    return wrong === undefined ? Uint32Array.from(list) : refuse(`${wrong} is no index of a control point`);
+    const at = list.findIndex((i) => !Number.isInteger(i) || i < 0 || i >= 2 ** 32);
+    return at < 0 ? Uint32Array.from(list) : refuse(`${list[at]} is no index of a control point`);
   }
 
   class Lattice {
@@ -172,9 +173,9 @@ export function defineLattice(core) {
       this.#owned = new Owned(handle, core._ffd_lattice_destroy);
     }
 
-    static parse(textOrObject) {
-      const text = typeof textOrObject === 'string' ? textOrObject : JSON.stringify(textOrObject) ?? refuse('parse: no text and no object');
-      const bytes = new TextEncoder().encode(text);
+    static parse(content) {
+      const bytes = content instanceof Uint8Array ? Uint8Array.from(content) : new TextEncoder().encode(
+        typeof content === 'string' ? content : JSON.stringify(content) ?? refuse('parse: no text and no object'));
       return new Lattice(memory.during((take, put) => {
         const start = put(bytes), name = put(new TextEncoder().encode('lattice\0'));
         return make((place) => core._ffd_lattice_parse(start, bytes.length, name, place, core._ffd_wasm_error()));
@@ -287,5 +288,36 @@ export function defineLattice(core) {
       this.#owned.free();
     }
   }
-  return Lattice;
+  // The lattice that carries points onto others, and what is told of it.
+  function fitPoints(source, target, options = {}) {
+    checkPoints(source, 'before');
+    checkPoints(target, 'after');
+    if (source.length !== target.length) refuse(`after: ${target.length / 3} points, but there are ${source.length / 3} before`);
+    const {lattice: given, box, weights, exact, choices, lengths} = settingsOf(source, options);
+    const base = given instanceof Lattice ? given : given ? Lattice.parse(given) : Lattice.around(source, box);
+    try {
+      const lattice = new Lattice(memory.during((take, put) => {
+        const places = [put(source), typeOf(source), put(target), typeOf(target), source.length / 3];
+        const rows = [weights ? put(weights) : 0, put(exact), exact.length, put(choices), put(lengths(() => diagonalAtRest(base)))];
+        return make((place) => core._ffd_wasm_fit(base.handle, ...places, ...rows, place));
+      }));
+      const report = reportOf(memory.view(Float64Array, core._ffd_wasm_fit_figures(), 64).slice(), memory.text(core._ffd_wasm_fit_chosen_by()),
+        memory.text(core._ffd_wasm_fit_verdict()), choices[1] === 1);
+      return {lattice, report};
+    } finally {
+      if (base !== given) base.free();
+    }
+  }
+
+  // Of the control points.
+  function diagonalAtRest(lattice) {
+    const points = lattice.points('rest');
+    const sides = [0, 1, 2].map((a) => {
+      const along = points.filter((_, i) => i % 3 === a);
+      return along.reduce((most, x) => Math.max(most, x), -Infinity) - along.reduce((least, x) => Math.min(least, x), Infinity);
+    });
+    return Math.hypot(...sides);
+  }
+
+  return {Lattice, fitPoints};
 }
