@@ -10,9 +10,9 @@ out=${2:-$data/pictures}
 out=$(cd "$out" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-ln -s "$data/models" "$data/lattices" "$work/"
+ln -s "$data/models" "$data/lattices" "$data/blender" "$work/"
 cd "$work"
-awk '/^```json [^\/]*$/{name = $2; next} /^```/{name = ""} name != "" {print > name}' "$data/../README.md" "$data/tutorial.md"
+awk '/^```(json|csv|prm) [^\/]*$/{name = $2; next} /^```/{name = ""} name != "" {print > name}' "$data/../README.md" "$data/tutorial.md"
 
 # draw NAME IN [OUT] [OPTION...]: a row of two, before and after
 draw() {
@@ -42,6 +42,9 @@ draw cage $knight -l cage.json --color plain $face --frames 2 --size 300x320
 draw moves $knight -l twist.json $pair $face --size 320x320
 draw ears models/spot.obj -l ears.json $pair --camera -1,0.3,-2 --size 300x300
 draw cape $knight -l lattices/wind.json --only node:Knight_Cape $pair --camera -2,0.4,-1 --size 320x320
+awk '$1 == "v" {m = (1 + cos(6 * atan2($4, $2) + 9 * $3)) / 2; print $0, m, m, m; next} {print}' models/vase.obj >painted.obj
+deform painted.obj ridges.obj -l wide.json --weight color:r
+draw ridges painted.obj ridges.obj $pair $face --size 200x260
 mkdir parts
 deform models/vase.obj models/column.obj --out-dir parts -l twist.json --shared-box
 draw shared models/column.obj parts/column.obj $pair $face --size 200x320
@@ -76,11 +79,63 @@ draw fine models/column.obj -l fine.json $pair --camera 2,0.4,1 --size 160x260
 "$ffd" lattice set lattices/bend.json -o other.json --mesh models/column.obj --mirror w --quiet
 draw half models/column.obj -l half.json $pair --camera 2,0.4,1 --size 160x260
 draw other models/column.obj -l other.json $pair --camera 2,0.4,1 --size 160x260
-"$ffd" lattice set lean.json -o joined.json --seam C1:v- --quiet
+"$ffd" lattice convert spout.prm -o spout.json --quiet
+deform models/vase.obj spout.obj -l spout.json
+draw spout models/vase.obj spout.obj $pair --camera 0.4,0.5,2 --size 200x260
+draw spout-cage models/vase.obj -l spout.json --color plain $face --frames 2 --size 200x260
+deform models/vase.obj from-blender.obj -l blender/vase-Lattice.json --outside extend
+draw from-blender models/vase.obj from-blender.obj $pair --camera 0.4,0.5,2 --size 200x260
+python3 "$data/make_refitter.py"
+"$ffd" lattice convert refit/stout.npz -o stout-blender.json --quiet
+"$ffd" lattice set stout-blender.json -o stout.json --rotate x,-90 --quiet
+deform refit/body.glb stout-body.glb -l stout.json --outside extend
+deform refit/clothes/tunic.glb stout-tunic.glb -l stout.json --outside extend
+draw body refit/body.glb stout-body.glb $pair --camera 1,0.2,2 --size 200x260
+draw tunic refit/clothes/tunic.glb stout-tunic.glb $pair --camera 1,0.2,2 --size 200x260
 draw leaning models/column.obj -l lean.json $pair --camera 1,0.4,2 --size 160x260
-draw joined models/column.obj -l joined.json $pair --camera 1,0.4,2 --size 160x260
+draw joined models/column.obj -l lean.json --seam C1 $pair --camera 1,0.4,2 --size 160x260
+"$ffd" animate models/banner_red.glb bow.glb -l bow.json --force --quiet
+draw bow bow.glb --animation bow --frames 5 --color plain --camera 1,0.4,1.5 --size 150x240
 for seed in 2 3 4; do
     deform models/vase.obj vase-$seed.obj -l noise.json --set SEED=$seed
     draw noise-$seed models/vase.obj vase-$seed.obj $pair $face --size 150x200
 done
+# Fits: what ffd fit finds carries clothes, coarser meshes, the rest of a mesh and a scan.
+dress() { # OUT BODY TUNIC HAT, of OBJ: one mesh, each part in a colour
+    awk 'FNR == 1 {base = count; split("0.8 0.6 0.5,0.2 0.4 0.6,0.5 0.1 0.1", colours, ","); ++part}
+        $1 == "v" {++count; print $0, colours[part]}
+        $1 == "vn"
+        $1 == "f" {line = "f"; for (k = 2; k <= NF; ++k) line = line " " $k + base "//" $k + base; print line}' "$2" "$3" "$4" >"$1"
+}
+"$ffd" lattice set lattices/lean.json -o stoop.json --mesh refit/body.glb --strength 0.35 --quiet
+deform refit/body.glb other-body.glb -l stoop.json -l lattices/bulge.json
+"$ffd" fit refit/body.glb other-body.glb --cover refit/clothes/tunic.glb --cover refit/clothes/hat.glb --size 12,12,12 -o ab.json --quiet
+for one in body clothes/tunic clothes/hat; do
+    deform refit/$one.glb "$(basename $one).obj" -l cage.json
+    deform refit/$one.glb "$(basename $one)-b.obj" -l ab.json
+done
+deform other-body.glb body-b.obj -l cage.json
+dress dressed.obj body.obj tunic.obj hat.obj
+dress dressed-b.obj body-b.obj tunic-b.obj hat-b.obj
+draw other-body refit/body.glb other-body.glb $pair --camera 1,0.2,2 --size 200x260
+draw dressed dressed.obj dressed-b.obj $pair --camera 1,0.2,2 --size 200x260
+deform models/spot.obj posed.obj -l ears.json -l lattices/lean.json
+"$ffd" fit models/spot.obj posed.obj --size 10,10,10 -o by-hand.json --quiet
+draw posed models/spot.obj posed.obj $pair --camera -1,0.3,-2 --size 150x200
+for level in 1:0.06 2:0.12; do
+    python3 "$data/make_coarser.py" models/spot.obj "${level#*:}" >cow.obj
+    deform cow.obj posed-cow.obj -l by-hand.json
+    draw "lod-${level%:*}" cow.obj posed-cow.obj $pair --camera -1,0.3,-2 --size 150x200
+done
+for one in "pulled 0" "swayed 100"; do
+    name=${one% *}
+    "$ffd" fit $knight --pairs pull.csv --handles --knots clamped --smooth "${one#* }" -o "$name.json" --quiet
+    deform $knight "$name.glb" -l "$name.json"
+    draw "$name" $knight "$name.glb" $pair $face --size 200x260
+done
+deform models/spot.obj scan.obj -l scan.json
+"$ffd" fit --pairs landmarks.csv --cover scan.obj --size 4,4,4 -o align.json --quiet
+deform scan.obj aligned.obj -l align.json
+draw scan scan.obj aligned.obj $pair --camera -1,0.3,-2 --size 260x220
+draw scan-model models/spot.obj --color plain --camera -1,0.3,-2 --size 140x220
 python3 "$data/make_greville.py" "$ffd" "$out/greville.svg"

@@ -5,7 +5,7 @@
 # whatever folder. In OUT each artefact has its SBOM beside it (FILE.spdx.json), and SHA256SUMS lists them.
 set -eu
 
-names='wheel wheel-arm64 wheel-musl wheel-windows static static-arm64 windows npm source deb'
+names='wheel wheel-arm64 wheel-musl wheel-windows static static-arm64 windows npm blender source deb'
 known="$names macos"
 
 here=$(cd "$(dirname "$0")" && pwd)
@@ -28,7 +28,7 @@ is_one_of() {
 # The tools of an artefact, beside git, python3 and xz; @ before what is in the venv.
 tools_of() {
     case $1 in
-    wheel | wheel-musl) echo 'ninja @mesonpy @pycparser @ziglang' ;;
+    wheel | wheel-musl | blender) echo 'ninja @mesonpy @pycparser @ziglang' ;;
     wheel-arm64) echo 'ninja qemu-aarch64 aarch64-linux-gnu-gcc @mesonpy @pycparser @ziglang' ;;
     wheel-windows)
         echo 'ninja x86_64-w64-mingw32-gcc-posix x86_64-w64-mingw32-g++-posix x86_64-w64-mingw32-dlltool @mesonpy @pycparser'

@@ -24,6 +24,7 @@ def read(*path):
 
 def libraries(root, artefact):
     """(name, license, stem of its text) of each library that the artefact contains"""
+    artefact = "wheel" if artefact == "blender" else artefact
     for row in ROW.finditer(read(root, "data/packaging/THIRD-PARTY.md")):
         if row["places"] == "all" or artefact.removesuffix("-arm64") in row["places"].split(", "):
             yield row["name"], row["license"], row["text"]
@@ -49,9 +50,14 @@ def package(name, version, license_, origin):
     return described | ({"versionInfo": version} if version else {})
 
 
+def own_licences(artefact):
+    """The extension for Blender has code under Blender's licence beside the package."""
+    return {"GPL-3.0-or-later", "MIT"} if artefact == "blender" else {"MIT"}
+
+
 def licence(root, artefact):
     """Of ffd and of what the artefact contains."""
-    return " AND ".join(sorted({"MIT"}.union(*(names.split(" AND ") for _, names, _ in libraries(root, artefact)))))
+    return " AND ".join(sorted(own_licences(artefact).union(*(names.split(" AND ") for _, names, _ in libraries(root, artefact)))))
 
 
 def main():
@@ -64,7 +70,7 @@ def main():
         digest = hashlib.sha256(file.read()).hexdigest()
     version = re.search(r'^#define FFD_VERSION "(.*)"$', read(root, "include/ffd/version.h"), re.M)[1]
     name = os.path.basename(path)
-    own = package("ffd", version, "MIT", None)
+    own = package("ffd", version, " AND ".join(sorted(own_licences(artefact))), None)
     own |= {"packageFileName": name, "checksums": [{"algorithm": "SHA256", "checksumValue": digest}],
             "sourceInfo": f"commit {commit}", "primaryPackagePurpose": "SOURCE" if artefact == "source" else "APPLICATION"}
     where = origins(root)
