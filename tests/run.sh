@@ -3,7 +3,7 @@
 #     sh tests/run.sh                 the gcc build, every quick suite (all but slow, soak, npm, windows, python and packages)
 #     sh tests/run.sh --suite NAME    the gcc build, one suite (unit property oracle fuzz golden cli rules python packages bench
 #                                     slow npm arm64 windows)
-#                                     or one tag (threads compilers text), or peers (other packages; fetches 280 MB)
+#                                     or one tag (threads compilers text blender), or peers (other packages; fetches 280 MB)
 #     sh tests/run.sh --all           in a bare root of Debian 12: data/demo.sh, then this script, then its other stages (tests/install/all.sh)
 #     sh tests/run.sh --stages        the stages that only --all has: slow suites, release, clang with sanitizers, valgrind, fuzzing, npm, arm64, the wraps
 #     sh tests/run.sh --release       every artefact of data/packaging/release.sh, made twice: the same bytes, and the whole job list;
@@ -65,7 +65,7 @@ logs=$work/logs
 mkdir -p "$logs" || exit 1
 case "$mode$suite" in
 --suitepeers | --soak) needs=peers ;;
---suiteslow | --suitepython | --suitepackages | --suitenpm | --suitearm64 | --suitewindows | --stages | --release) needs=stages ;;
+--suiteslow | --suitepython | --suitepackages | --suitenpm | --suitearm64 | --suitewindows | --suiteblender | --stages | --release) needs=stages ;;
 *) needs=test ;;
 esac
 sh "$root/.ci/setup" $needs || exit 1
@@ -385,7 +385,7 @@ test_release() {
     rm -rf "$work/artefacts" "$work/artefacts-again"
     step release setup sh "$root/.ci/setup" release || return
     case_of release twice release_twice || return
-    for name in sums sbom wheel wheel-arm64 wheel-musl wheel-windows static static-arm64 windows macos npm source deb; do
+    for name in sums sbom wheel wheel-arm64 wheel-musl wheel-windows static static-arm64 windows macos npm blender source deb; do
         case_of release "$name" python3 "$root/tests/release/test_artefacts.py" "$work/artefacts" "$name"
     done
     clock=$(date +%s)
@@ -457,7 +457,7 @@ if [ -n "$all" ]; then
     # fuzz targets, which go through the same parts of the library. The validator in node judges files, not memory.
     # Tests repeat themselves less there (tests/support/repetitions.h, repetitions() of tests/cli/harness.py). clang,
     # for gcc needs minutes to build this. The fuzz targets come from the same build.
-    fuzzed='lattice table manifest report clip obj gltf glb ply off stl png jpeg webp'
+    fuzzed='lattice table weights pairs manifest report clip obj gltf glb ply off stl png jpeg webp'
     if build_stage asan; then
         ahead clang
         suites asan asan --no-suite oracle --no-suite rules --no-suite bench --no-suite node --no-suite slow \

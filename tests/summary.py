@@ -7,6 +7,7 @@ A test that skips itself prints "SKIP: WHAT: why", with what this machine lacks.
 failed. So has a run without tests.
 """
 
+import glob
 import json
 import os
 import shutil
@@ -15,6 +16,7 @@ import sys
 
 LINES = 40
 WHEELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".build-test", "wheels")
+BPY = os.environ.get("FFD_BLENDER_WHEELS") or os.path.join(WHEELS, "..", "blender")
 MOUNT_EXT4 = ["unshare", "-m", "sh", "-ec", """
 folder=$(mktemp -d)
 trap 'rm -r "$folder"' EXIT
@@ -43,6 +45,11 @@ def is_debian_12():
         return "VERSION_CODENAME=bookworm\n" in file.readlines()
 
 
+def has_bpy():
+    """Whether its wheels are here, and for this Python."""
+    return bool(glob.glob(os.path.join(BPY, "bpy-*.whl"))) and sys.version_info[:2] == (3, 11)
+
+
 # What a machine may lack.
 LACKS = {
     "models": lambda: not os.environ.get("FFD_MODELS"),
@@ -50,6 +57,9 @@ LACKS = {
     "Debian 12": lambda: not is_debian_12(),
     "wine": lambda: not shutil.which("wine64") and not shutil.which("wine64", path="/usr/lib/wine"),
     "wheels": lambda: not is_debian_12() or not os.path.exists(WHEELS),
+    "NumPy": lambda: not any(succeeds(python, "-c", "import numpy") for python in (sys.executable, "/usr/bin/python3")),
+    "blender": lambda: not os.path.exists("/usr/bin/blender") and not has_bpy(),
+    "bpy": lambda: not has_bpy(),
 }
 
 

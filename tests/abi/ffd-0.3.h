@@ -5,6 +5,7 @@
 typedef enum ffd_status {
     FFD_OK = 0,
     FFD_E_GATE = -1,
+    FFD_E_UNMET = -2,
     FFD_E_ARGUMENT = -10,
     FFD_E_IO = -20,
     FFD_E_EXISTS = -21,
@@ -102,6 +103,8 @@ ffd_status ffd_lattice_set_weights(ffd_lattice *lattice, const size_t *index, si
                                    const double *weights, ffd_error *error);
 const double *ffd_lattice_get_offsets(const ffd_lattice *lattice);
 size_t ffd_lattice_get_knots(const ffd_lattice *lattice, int direction, const double **knots);
+size_t ffd_lattice_get_keys(const ffd_lattice *lattice, double *times);
+ffd_status ffd_lattice_set_time(ffd_lattice *lattice, double time, ffd_error *error);
 ffd_status ffd_lattice_text(const ffd_lattice *lattice, char **text, size_t *size, ffd_error *error);
 void ffd_free(void *block);
 ffd_status ffd_lattice_save(const ffd_lattice *lattice, const char *path, bool force, ffd_error *error);
@@ -116,6 +119,34 @@ const double *ffd_lattice_get_points(const ffd_lattice *lattice, ffd_volume volu
 const double *ffd_lattice_get_weights(const ffd_lattice *lattice, ffd_volume volume);
 void ffd_lattice_evaluate(const ffd_lattice *lattice, ffd_volume volume, const double uvw[3], double point[3],
                           double jacobian[9]);
+typedef struct ffd_refine_desc {
+    size_t struct_size;
+    int degree[3];
+    const double *insert[3];
+    size_t insert_count[3];
+    size_t size[3];
+} ffd_refine_desc;
+void ffd_refine_desc_init(ffd_refine_desc *desc, size_t size);
+ffd_status ffd_lattice_refine(const ffd_lattice *lattice, const ffd_refine_desc *desc, ffd_lattice **refined,
+                              ffd_error *error);
+ffd_status ffd_lattice_strength(const ffd_lattice *lattice, double strength, ffd_lattice **result,
+                                ffd_error *error);
+ffd_status ffd_lattice_blend(const ffd_lattice *lattice, const ffd_lattice *other, double t,
+                             ffd_lattice **result, ffd_error *error);
+ffd_status ffd_lattice_add(const ffd_lattice *lattice, const ffd_lattice *other, ffd_lattice **result,
+                           ffd_error *error);
+ffd_status ffd_lattice_mirror(const ffd_lattice *lattice, int direction, ffd_lattice **result,
+                              ffd_error *error);
+ffd_status ffd_lattice_symmetrize(const ffd_lattice *lattice, int direction, bool keep_last,
+                                  ffd_lattice **result, ffd_error *error);
+ffd_status ffd_lattice_transform(const ffd_lattice *lattice, const double matrix[16], ffd_lattice **result,
+                                 ffd_error *error);
+ffd_status ffd_lattice_seal(const ffd_lattice *lattice, int k, unsigned faces, ffd_lattice **result,
+                            ffd_error *error);
+ffd_status ffd_lattice_invert(const ffd_lattice *lattice, int threads, ffd_lattice **result,
+                              ffd_error *error);
+ffd_status ffd_lattice_jitter(const ffd_lattice *lattice, const double sigma[3], uint64_t seed,
+                              ffd_lattice **result, ffd_error *error);
 typedef enum ffd_vertex_status {
     FFD_VERTEX_INSIDE = 0,
     FFD_VERTEX_OUTSIDE = 1,
@@ -220,7 +251,8 @@ typedef enum ffd_tear_cause {
     FFD_TEAR_SEAM,
     FFD_TEAR_AXIS,
     FFD_TEAR_BORDER,
-    FFD_TEAR_OVERLAP
+    FFD_TEAR_OVERLAP,
+    FFD_TEAR_WEIGHTS
 } ffd_tear_cause;
 typedef struct ffd_tear_figures {
     bool is_known;
@@ -311,10 +343,25 @@ typedef struct ffd_morph_results {
     const ffd_lattice_source *lattices;
     const struct ffd_job_result *results;
 } ffd_morph_results;
+typedef enum ffd_seam { FFD_SEAM_NONE = 0, FFD_SEAM_C0, FFD_SEAM_C1, FFD_SEAM_C2 } ffd_seam;
+const char *ffd_seam_name(ffd_seam seam);
+typedef struct ffd_seam_figures {
+    bool is_there;
+    ffd_seam continuity;
+    uint64_t count;
+    uint8_t faces[1024];
+} ffd_seam_figures;
 typedef struct ffd_seconds {
     double read, embed, deform, judge, write;
     uint64_t room[2];
 } ffd_seconds;
+typedef struct ffd_weight_figures {
+    bool is_there;
+    uint64_t zero, one;
+    uint64_t clamped;
+    double mean;
+    uint64_t room[2];
+} ffd_weight_figures;
 typedef struct ffd_output_list ffd_output_list;
 typedef struct ffd_job_result {
     size_t struct_size;
@@ -360,6 +407,8 @@ typedef struct ffd_job_result {
     const ffd_output_list *outputs;
     const char *page;
     const char *own_frame;
+    ffd_weight_figures weight;
+    ffd_seam_figures seam;
 } ffd_job_result;
 typedef enum ffd_format {
     FFD_FORMAT_AUTO = 0,
@@ -435,6 +484,12 @@ typedef struct ffd_embedding_source {
     const char *path;
     ffd_bytes bytes;
 } ffd_embedding_source;
+typedef struct ffd_weight_source {
+    const char *source;
+    ffd_bytes bytes;
+} ffd_weight_source;
+ffd_status ffd_weight_check(const char *text, ffd_error *error);
+const char *ffd_weight_file(const char *text);
 typedef struct ffd_deform_desc {
     size_t struct_size;
     ffd_source input;
@@ -487,6 +542,11 @@ typedef struct ffd_deform_desc {
     bool (*progress)(void *user, double done);
     void *progress_user;
     const int *cancel;
+    double time;
+    bool has_time;
+    ffd_weight_source weight;
+    ffd_seam seam;
+    unsigned seam_faces;
 } ffd_deform_desc;
 void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size);
 ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *desc, ffd_error *error);
@@ -632,6 +692,89 @@ typedef struct ffd_lattice_new_desc {
 } ffd_lattice_new_desc;
 void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc, size_t size);
 ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *desc, ffd_error *error);
+typedef struct ffd_author_desc {
+    size_t struct_size;
+    ffd_lattice_source lattice;
+    const ffd_setting *set;
+    size_t set_count;
+    double time;
+    bool has_time;
+    const ffd_source *meshes;
+    size_t mesh_count;
+    const char *const *only;
+    size_t only_count;
+    ffd_source reading;
+    int threads;
+    const char *output;
+    bool force;
+    ffd_output_set *output_set;
+    ffd_log_function log;
+    void *log_user;
+    ffd_sink_function sink;
+    void *sink_user;
+} ffd_author_desc;
+void ffd_author_desc_init(ffd_author_desc *desc, size_t size);
+typedef struct ffd_refine_seconds {
+    double read, refine, write;
+} ffd_refine_seconds;
+typedef struct ffd_refine_result {
+    size_t struct_size;
+    ffd_status status;
+    ffd_error error;
+    ffd_refine_seconds seconds;
+    size_t size_before[3], size[3];
+    int degree_before[3], degree[3];
+    double largest_difference;
+} ffd_refine_result;
+ffd_status ffd_lattice_refine_run(const ffd_author_desc *job, const ffd_refine_desc *refine,
+                                  ffd_refine_result *result, ffd_error *error);
+typedef enum ffd_lattice_part {
+    FFD_PART_DEFAULT,
+    FFD_PART_BOTH,
+    FFD_PART_REST,
+    FFD_PART_DEFORMED
+} ffd_lattice_part;
+typedef enum ffd_point_order { FFD_ORDER_UVW, FFD_ORDER_AUTO, FFD_ORDER_DEFAULT } ffd_point_order;
+typedef struct ffd_convert_desc {
+    size_t struct_size;
+    size_t size[3];
+    int degree[3];
+    ffd_lattice_part part;
+    ffd_point_order order;
+    const char *block;
+} ffd_convert_desc;
+void ffd_convert_desc_init(ffd_convert_desc *desc, size_t size);
+bool ffd_lattice_converts(const char *name);
+ffd_status ffd_lattice_convert_run(const ffd_author_desc *job, const ffd_convert_desc *convert,
+                                   ffd_error *error);
+typedef enum ffd_operation_kind {
+    FFD_OPERATION_STRENGTH,
+    FFD_OPERATION_BLEND,
+    FFD_OPERATION_ADD,
+    FFD_OPERATION_MIRROR,
+    FFD_OPERATION_SYMMETRIZE,
+    FFD_OPERATION_TRANSFORM,
+    FFD_OPERATION_MOVE,
+    FFD_OPERATION_ROTATE,
+    FFD_OPERATION_SCALE,
+    FFD_OPERATION_INVERT,
+    FFD_OPERATION_SEAL,
+    FFD_OPERATION_DEFORMED,
+    FFD_OPERATION_DEFORMED_OFFSETS
+} ffd_operation_kind;
+typedef struct ffd_operation {
+    ffd_operation_kind kind;
+    double number;
+    int direction;
+    bool keep_last;
+    double place[3], matrix[16];
+    int continuity;
+    unsigned faces;
+    ffd_lattice_source other;
+    const char *block;
+} ffd_operation;
+ffd_status ffd_lattice_set_run(const ffd_author_desc *job, const ffd_operation *operations, size_t count,
+                               ffd_error *error);
 ffd_status ffd_job_result_text(const ffd_job_result *result, const char *lattice, char **text,
                                ffd_error *error);
 typedef struct ffd_report ffd_report;
@@ -642,11 +785,51 @@ ffd_status ffd_report_create_sink(const char *name, bool stable, ffd_sink_functi
 void ffd_report_destroy(ffd_report **report);
 ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,
                           const ffd_job_result *result, ffd_error *error);
+ffd_status ffd_report_add_refine(ffd_report *report, const char *input, const char *output,
+                                 const ffd_refine_result *result, ffd_error *error);
 ffd_status ffd_report_write(ffd_report *report, ffd_error *error);
 ffd_status ffd_report_merge_run(const char *const *reports, size_t count, bool interleave, const char *output,
                                 bool force, ffd_error *error);
 ffd_status ffd_report_junit_run(const char *const *reports, size_t count, const char *output, bool force,
                                 ffd_error *error);
+typedef enum ffd_animate_targets {
+    FFD_TARGETS_AUTO = 0,
+    FFD_TARGETS_KEYS,
+    FFD_TARGETS_COUNT
+} ffd_animate_targets;
+typedef struct ffd_animate_desc {
+    size_t struct_size;
+    const ffd_deform_desc *job;
+    const char *name;
+    double tolerance;
+    bool relative;
+    ffd_animate_targets targets;
+    size_t count;
+    double frames_per_second;
+} ffd_animate_desc;
+void ffd_animate_desc_init(ffd_animate_desc *desc, size_t size);
+typedef struct ffd_animate_seconds {
+    double read, plan, deform, write;
+} ffd_animate_seconds;
+typedef struct ffd_animate_result {
+    size_t struct_size;
+    ffd_status status;
+    ffd_error error;
+    ffd_animate_seconds seconds;
+    uint64_t vertices, inside, outside, multiple, singular, invalid;
+    char name[256];
+    uint64_t targets;
+    uint64_t keys;
+    uint64_t samples;
+    double tolerance;
+    double bound;
+    double largest_weight;
+    uint64_t bytes;
+    const ffd_output_list *outputs;
+} ffd_animate_result;
+ffd_status ffd_animate_run(const ffd_animate_desc *desc, ffd_animate_result *result, ffd_error *error);
+ffd_status ffd_report_add_animation(ffd_report *report, const char *input, const char *output,
+                                    const ffd_animate_result *result, ffd_error *error);
 typedef ffd_status (*ffd_batch_next_function)(void *user, uint64_t index, const char **line);
 typedef struct ffd_batch_job {
     uint64_t line;
@@ -715,26 +898,6 @@ typedef enum ffd_direction_outcome {
 ffd_direction_outcome ffd_deform_normal(const double gradient[9], const double normal[3], double result[3]);
 ffd_direction_outcome ffd_deform_tangent(const double gradient[9], const double tangent[3],
                                          const double normal[3], double result[3]);
-typedef enum ffd_jacobian_by { FFD_BY_POINTS = 0, FFD_BY_PARAMETERS } ffd_jacobian_by;
-typedef struct ffd_jacobian_desc {
-    size_t struct_size;
-    const ffd_deform_desc *job;
-    const char *output;
-    ffd_jacobian_by by;
-    bool components;
-    size_t of;
-    const char *times, *transposed;
-    bool check;
-    ffd_bytes times_bytes, transposed_bytes;
-} ffd_jacobian_desc;
-void ffd_jacobian_desc_init(ffd_jacobian_desc *desc, size_t size);
-typedef struct ffd_jacobian_result {
-    size_t struct_size;
-    uint64_t rows, columns, entries;
-    uint64_t vertices, moving;
-    double worst;
-} ffd_jacobian_result;
-ffd_status ffd_jacobian_run(const ffd_jacobian_desc *desc, ffd_jacobian_result *result, ffd_error *error);
 typedef enum ffd_number { FFD_FLOAT64 = 0, FFD_FLOAT32 } ffd_number;
 typedef struct ffd_span {
     void *data;
@@ -773,6 +936,17 @@ ffd_status ffd_embedding_deform(const ffd_embedding *embedding, const ffd_lattic
 ffd_status ffd_embedding_deform_some(const ffd_embedding *embedding, const ffd_lattice *moved,
                                      const uint32_t *vertices, size_t count, ffd_span in, ffd_span out,
                                      double *gradients, const ffd_run_options *options, ffd_error *error);
+ffd_status ffd_embedding_deform_weighted(const ffd_embedding *embedding, const ffd_lattice *moved,
+                                         const double *weights, const double *slopes, ffd_span in,
+                                         ffd_span out, double *gradients, const ffd_run_options *options,
+                                         ffd_error *error);
+ffd_status ffd_embedding_deform_some_weighted(const ffd_embedding *embedding, const ffd_lattice *moved,
+                                              const uint32_t *vertices, size_t count, const double *weights,
+                                              const double *slopes, ffd_span in, ffd_span out,
+                                              double *gradients, const ffd_run_options *options,
+                                              ffd_error *error);
+ffd_status ffd_weight_slopes(ffd_span points, const double *weights, const uint32_t *triangles, size_t count,
+                             double *slopes, const ffd_run_options *options, ffd_error *error);
 ffd_status ffd_embedding_affected(const ffd_embedding *embedding, const size_t *control_points, size_t count,
                                   uint32_t **vertices, size_t *vertex_count, ffd_error *error);
 typedef struct ffd_csr {
@@ -799,6 +973,117 @@ ffd_status ffd_tangents_deform(const double *gradients, ffd_span normals, ffd_sp
 ffd_status ffd_lattice_evaluate_many(const ffd_lattice *lattice, ffd_volume volume, const double *uvw,
                                      size_t count, double *xyz, double *jacobians,
                                      const ffd_run_options *options, ffd_error *error);
+typedef enum ffd_fit_smoothing { FFD_FIT_AUTO = 0, FFD_FIT_GIVEN, FFD_FIT_WITHIN } ffd_fit_smoothing;
+typedef struct ffd_fit_desc {
+    size_t struct_size;
+    const ffd_lattice *base;
+    ffd_span source, target;
+    const double *weights;
+    const size_t *exact;
+    size_t exact_count;
+    bool handles;
+    bool robust;
+    int symmetric;
+    ffd_fit_smoothing smoothing;
+    double smooth;
+    double within;
+    double snap;
+    size_t numbered_from;
+} ffd_fit_desc;
+void ffd_fit_desc_init(ffd_fit_desc *desc, size_t size);
+typedef enum ffd_fit_choice {
+    FFD_FIT_BY_GCV = 0,
+    FFD_FIT_BY_DEFAULT,
+    FFD_FIT_BY_WITHIN,
+    FFD_FIT_BY_CALLER,
+    FFD_FIT_BY_FOLDS
+} ffd_fit_choice;
+const char *ffd_fit_choice_name(ffd_fit_choice choice);
+typedef struct ffd_fit_result {
+    size_t struct_size;
+    uint64_t pairs, used;
+    uint64_t outside, multiple, singular;
+    uint64_t exact, dependent;
+    double smooth;
+    ffd_fit_choice smooth_chosen_by;
+    double gcv;
+    double affine[12];
+    double residual_max, residual_rms, residual_p95;
+    uint64_t worst;
+    double residual_exact;
+    double largest_offset;
+    uint64_t points_without_data;
+    uint64_t downweighted;
+    uint64_t spread_positions;
+    double spread_largest;
+    uint64_t flops;
+    ffd_folds folds;
+} ffd_fit_result;
+ffd_status ffd_fit_points(const ffd_fit_desc *desc, const ffd_run_options *options, ffd_lattice **lattice,
+                          double *residuals, ffd_fit_result *result, ffd_error *error);
+typedef struct ffd_fit_job {
+    size_t struct_size;
+    const ffd_author_desc *job;
+    const ffd_source *before;
+    const ffd_source *after;
+    const char *pairs;
+    ffd_bytes pairs_bytes;
+    const ffd_source *cover;
+    size_t cover_count;
+    const ffd_lattice_desc *lattice;
+    const char *weights;
+    ffd_bytes weights_bytes;
+    bool handles, robust;
+    int symmetric;
+    ffd_fit_smoothing smoothing;
+    double smooth, within;
+    bool within_relative;
+    double snap;
+    bool snap_relative;
+    unsigned fail_on;
+    ffd_isa isa;
+    double timeout;
+    bool (*progress)(void *user, double done);
+    void *progress_user;
+} ffd_fit_job;
+void ffd_fit_job_init(ffd_fit_job *job, size_t size);
+typedef struct ffd_fit_seconds {
+    double read, fit, write;
+} ffd_fit_seconds;
+typedef struct ffd_fit_job_result {
+    size_t struct_size;
+    ffd_status status;
+    ffd_error error;
+    ffd_fit_seconds seconds;
+    bool is_fitted;
+    bool robust;
+    bool has_rows;
+    ffd_fit_result fit;
+} ffd_fit_job_result;
+ffd_status ffd_fit_run(const ffd_fit_job *job, ffd_fit_job_result *result, ffd_error *error);
+ffd_status ffd_report_add_fit(ffd_report *report, const char *input, const char *output,
+                              const ffd_fit_job_result *result, ffd_error *error);
+ffd_status ffd_fit_text(const ffd_fit_job_result *result, char **text, ffd_error *error);
+typedef enum ffd_jacobian_by { FFD_BY_POINTS = 0, FFD_BY_PARAMETERS } ffd_jacobian_by;
+typedef struct ffd_jacobian_desc {
+    size_t struct_size;
+    const ffd_deform_desc *job;
+    const char *output;
+    ffd_jacobian_by by;
+    bool components;
+    size_t of;
+    const char *times, *transposed;
+    bool check;
+    ffd_bytes times_bytes, transposed_bytes;
+} ffd_jacobian_desc;
+void ffd_jacobian_desc_init(ffd_jacobian_desc *desc, size_t size);
+typedef struct ffd_jacobian_result {
+    size_t struct_size;
+    uint64_t rows, columns, entries;
+    uint64_t vertices, moving;
+    double worst;
+} ffd_jacobian_result;
+ffd_status ffd_jacobian_run(const ffd_jacobian_desc *desc, ffd_jacobian_result *result, ffd_error *error);
 void ffd_occupy_closed_streams(void);
 void ffd_cleanup_on_signals(void);
 void ffd_guard_inputs(void);
@@ -820,16 +1105,19 @@ typedef enum ffd_member_kind {
     FFD_MEMBER_LENGTH,
     FFD_MEMBER_DISTANCE,
     FFD_MEMBER_TIME,
+    FFD_MEMBER_MOMENT,
     FFD_MEMBER_BYTES,
     FFD_MEMBER_GATES,
     FFD_MEMBER_TEXT,
+    FFD_MEMBER_SEAM,
     FFD_MEMBER_TEXTS,
     FFD_MEMBER_SELECTORS,
     FFD_MEMBER_CLIPS,
     FFD_MEMBER_VALUES,
     FFD_MEMBER_LATTICES,
     FFD_MEMBER_MORPHS,
-    FFD_MEMBER_OBJECT
+    FFD_MEMBER_OBJECT,
+    FFD_MEMBER_WEIGHT
 } ffd_member_kind;
 typedef enum ffd_member_trait { FFD_MEMBER_IS_PATH = 1, FFD_MEMBER_IS_IDLE = 2 } ffd_member_trait;
 typedef struct ffd_member {

@@ -14,7 +14,9 @@ import os
 import shutil
 import tempfile
 
+import authoring
 import batches
+import fits
 import jobs
 import kernels
 import lattices
@@ -36,10 +38,16 @@ SUBJECTS = {
     "obj": jobs.obj,
     "peers": peers.peers,
     "attributes": jobs.attributes,
+    "weights": jobs.weights,
     "threads": jobs.threads,
     "inversion": jobs.inversion,
     "tears": jobs.tears,
+    "seams": jobs.seams,
     "splats": jobs.splats,
+    "authoring": authoring.authoring,
+    "formats": authoring.formats,
+    "animation": authoring.animation,
+    "fits": fits.fits,
     "displacement": kernels.displacement,
     "embedding": kernels.embedding,
     "arrays": kernels.arrays,

@@ -123,6 +123,17 @@ def attributes(bench):
         bench.table.add(f"{name}: with normals and tangents", carried.seconds, "s", positions, "<= 2.5")
 
 
+def weights(bench):
+    """What a weight for each vertex costs, without normals and with: there it needs the faces."""
+    bench.table.title(f"Weights (GLB, {vertices(bench.side)})")
+    for what, has_normals, bar in (("positions", False, "<= 1.3"), ("normals too", True, "<= 1.6")):
+        source = bench.mesh(f"weighted-{int(has_normals)}.glb", meshes.write_weighted_glb, bench.side, has_normals)
+        plain, weighted = programs.in_turns([bench.deform(source, bench.lattices["box"], *options)
+                                             for options in ((), ("--weight", "attribute:_FFD"))], 2 * bench.runs + 1)
+        row = bench.table.add(f"{what}: plain", plain.seconds, "s")
+        bench.table.add(f"{what}: weighted", weighted.seconds, "s", row, bar)
+
+
 def threads(bench):
     """What a second thread brings to four times as many vertices, and how fast a plain copy is; and without a file to
     write, which has one writer at a time, beside what the machine has for two processes that share nothing."""
@@ -181,6 +192,19 @@ def tears(bench):
         bench.table.add(f"{kind}: 5 % outside", partly.seconds, "s", row, "<= 1.3")
         row = bench.table.add(f"{kind}: all inside, peak memory", whole.megabytes, "MB")
         bench.table.add(f"{kind}: 5 % outside, peak memory", partly.megabytes, "MB", row, "<= 1.1")
+
+
+def seams(bench):
+    """What it costs to find the faces that the mesh cuts, and to hold them: of lattices that leave a twentieth of the vertices
+    outside, and of one that holds all, beside the same without --seam."""
+    bench.table.title(f"Smooth joins, --seam C1 ({vertices(bench.side)})")
+    cut, warped = lattices.write_cut(bench.path("cut.json")), lattices.write_warped_cut(bench.path("warped-cut.json"))
+    for kind, source in ((".glb", bench.glb()), (".obj", bench.obj()),
+                         (".ply, binary", bench.mesh("binary.ply", meshes.write_binary_ply, bench.side))):
+        for name, lattice in (("5 % outside", cut), ("all inside", bench.lattices["box"]), ("warped, some outside", warped)):
+            plain, held = programs.in_turns([bench.deform(source, lattice), bench.deform(source, lattice, "--seam", "C1")], bench.runs)
+            row = bench.table.add(f"{kind}, {name}", plain.seconds, "s")
+            bench.table.add(f"{kind}, {name}: --seam", held.seconds, "s", row, "<= 1.1")
 
 
 def splats(bench):

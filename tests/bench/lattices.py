@@ -41,6 +41,12 @@ def write_cut(path):
     return write(path, SIZE, {"box": box}, [TWIST])
 
 
+def write_warped_cut(path):
+    """The warped one with its last points pulled in along x, so that it ends before the meshes do."""
+    points = [[min(x, 5) + 0.9 * max(x - 5, 0), y, z] for x, y, z in bent_points()]
+    return write(path, SIZE, {"points": points}, [TWIST])
+
+
 def write_box(path, size):
     last = size - 1
     push = {"at": [[1, last], [1, last], [last // 2, last]], "by": [0.3, 0.2, 0.5]}

@@ -101,6 +101,14 @@ def write_glb_with_tangents(path, side):
                                ("TANGENT", "VEC4", tangents_of(normals))])
 
 
+def write_weighted_glb(path, side, has_normals):
+    """The surface with a weight for each vertex, _FFD."""
+    positions, normals = surface(side)
+    weights = array.array("f", (0.5 + 0.5 * math.sin(0.01 * i + 0.02 * j) for j in range(side) for i in range(side)))
+    write_streams(path, side, [("POSITION", "VEC3", positions), *([("NORMAL", "VEC3", normals)] if has_normals else []),
+                               ("_FFD", "SCALAR", weights)])
+
+
 def write_png(side):
     """Waves of colours with grain: what a painted texture compresses to, about 2.5 bytes a pixel."""
     grain = random.Random(1)

@@ -25,12 +25,20 @@ SUBJECTS = {
     "Others on the same OBJ": ["ffd deform, box", "OpenMesh: read", "OpenMesh: read, write",
                                "Blender: read, lattice modifier, write"],
     "Normals and tangents": ["box: with normals and tangents"],
+    "Weights": ["positions: plain", "positions: weighted", "normals too: weighted"],
     "Threads (GLB, 6,400 vertices)": ["box: dd bs=64M", "warped: 2 threads", "box, to /dev/null: 2 threads",
                                       "warped, to /dev/null: 2 processes at once"],
     "Inversion": ["certified vertices"],
     "Torn edges": [".glb: all inside", ".glb: 5 % outside", ".obj: 5 % outside, peak memory", ".ply, ascii: 5 % outside",
                    ".ply, binary: 5 % outside", ".off: 5 % outside"],
+    "Smooth joins": [".glb, 5 % outside: --seam", ".glb, warped, some outside: --seam", ".obj, all inside: --seam",
+                     ".ply, binary, 5 % outside: --seam"],
     "Gaussian splats": ["box: vertices with normals", "box: Gaussian splats", "warped: Gaussian splats, peak memory"],
+    "Lattices of 6^3": ["convert", "refine, a knot inserted", "set, half the edit, peak memory"],
+    "Formats of lattices of 6^3": ["JSON to JSON", "JSON to .npy", ".vtk, binary, to JSON", ".vts, zlib, to JSON",
+                                   "grid.vts to .vts: memory beyond the file"],
+    "An animation by 6^3": ["deform --morph, 4 targets", "animate, 121 samples", "animate, 121 samples, peak memory"],
+    "Fits": ["6^3, 1,000 pairs", "8^3, 1,000 pairs: peak memory", "8^3: S given", "8^3: S chosen"],
     "Displacement": ["copy", "kernel alone, box, scalar", "8^3 box, scalar", "64^3 general, scalar, with gradient"],
     "Finding u,v,w": ["smooth warp 8x8x8, degree 3"],
     "Arrays in memory": ["float32: kernels", "float32: one call", "float64, gradients: one call", "u,v,w: one call",
@@ -45,9 +53,10 @@ SUBJECTS = {
     "Large OBJ": ["box: peak memory (bar: for 10 GB)"],
 }
 if platform.machine() == "x86_64":
+    SUBJECTS["Fits"] += ["registers, sse2", "factor, 6^3, sse2, 1 thread", "factor, 8^3, sse2, 2 threads"]
     SUBJECTS["Displacement"] += ["multiplications alone, sse2", "kernel alone, general, sse2, with gradient"]
 # Peers that need not be there: a row, or a line that says so.
-MAY_MISS = ["tinyobjloader", "assimp", "SciPy", "VTK", "ffd_mesh"]
+MAY_MISS = ["tinyobjloader", "assimp", "SciPy", "VTK", "ffd_mesh", "MeshLib"]
 # Takes the arguments after -- as Blender hands them to its script.
 STUB = '#!/bin/sh\nwhile [ "$1" != -- ]; do shift; done\ncp "$2" "$3"\n'
 

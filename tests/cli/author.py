@@ -3,6 +3,7 @@
 import glob
 import json
 import os
+import struct
 
 from bspline import greville
 
@@ -14,6 +15,23 @@ def reference_cases(kind):
     for path in sorted(glob.glob(os.path.join(FOLDER, f"{kind}-*.json"))):
         with open(path, encoding="utf-8") as file:
             yield os.path.basename(path), json.load(file)
+
+
+def broken(data, random, marks):
+    """Bytes of which one to four are changed to marks, cut out or doubled, half of these among the first 200."""
+    data = bytearray(data)
+    for _ in range(random.randint(1, 4)):
+        at = random.randrange(min(len(data), random.choice([200, 1 << 30])))
+        action = random.randrange(3)
+        if action == 0:
+            data[at] = random.choice(marks)
+        elif action == 1:
+            del data[at:at + random.randint(1, 40)]
+        else:
+            data[at:at] = data[at:at + random.randint(1, 40)]
+        if not data:
+            break
+    return bytes(data)
 
 
 def offsets_of(content):
@@ -36,3 +54,13 @@ def rest_points(content):
 
 def deformed_points(content):
     return [[p + d for p, d in zip(*both)] for both in zip(rest_points(content), offsets_of(content))]
+
+
+def array(values, shape, descr="<f8", fortran=False, version=1, behind=b""):
+    """An array file as numpy.save writes it."""
+    head = "{'descr': '%s', 'fortran_order': %s, 'shape': %s, }" % (descr, fortran, shape)
+    size = 10 if version == 1 else 12
+    head += " " * (-(size + len(head) + 1) % 64) + "\n"
+    length = struct.pack("<H" if version == 1 else "<I", len(head))
+    kind = {"f8": "d", "f4": "f"}[descr[1:]]
+    return b"\x93NUMPY" + bytes([version, 0]) + length + head.encode() + struct.pack(f"{descr[0]}{len(values)}{kind}", *values) + behind

@@ -13,6 +13,7 @@ import itertools
 import json
 import math
 import os
+import pty
 import random
 import re
 import shutil
@@ -266,6 +267,23 @@ class Run:
         except (OSError, subprocess.SubprocessError):
             return None
         return options
+
+
+def on_terminal(run, *arguments, environment=None):
+    """What ffd writes to a terminal."""
+    process, terminal = pty.fork()
+    if process == 0:
+        os.chdir(run.folder)
+        os.execve(FFD, [FFD, *arguments], {**os.environ, **(environment or {})})
+    shown = b""
+    try:
+        while block := os.read(terminal, 65536):
+            shown += block
+    except OSError:
+        pass  # the terminal's end
+    equal(os.waitstatus_to_exitcode(os.waitpid(process, 0)[1]), OK, shown.decode())
+    os.close(terminal)
+    return shown.decode()
 
 
 def modules():

@@ -3,14 +3,13 @@
 
 import json
 import os
-import pty
 import re
 import signal
 import subprocess
 import time
 
 from batches import batch, case, check, equal, job, lines_of, main, start
-from harness import FFD, INVALID, IO, NO, OK, SANITIZED, SECONDS
+from harness import FFD, INVALID, IO, NO, OK, SANITIZED, SECONDS, on_terminal
 
 
 def wait_for(run, name):
@@ -86,23 +85,6 @@ def an_interrupt_while_waiting_for_lines(run):
         process.kill()
         process.communicate()
     equal([entry["output"] for entry in json.loads(run.read("r.json"))["jobs"]], ["o0.obj"])
-
-
-def on_terminal(run, *arguments, environment=None):
-    """What ffd writes to a terminal."""
-    process, terminal = pty.fork()
-    if process == 0:
-        os.chdir(run.folder)
-        os.execve(FFD, [FFD, *arguments], {**os.environ, **(environment or {})})
-    shown = b""
-    try:
-        while block := os.read(terminal, 65536):
-            shown += block
-    except OSError:
-        pass  # the terminal's end
-    equal(os.waitstatus_to_exitcode(os.waitpid(process, 0)[1]), OK, shown.decode())
-    os.close(terminal)
-    return shown.decode()
 
 
 @case

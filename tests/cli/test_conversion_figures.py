@@ -10,6 +10,7 @@ import struct
 from gltf_build import Scene
 from harness import CUBE_CORNERS, CUBE_FACES, case, check, equal, lattice, main
 from messages import entry
+from npy import npy
 
 SCHEMA_FILE = "../../data/schema/ffd-report.schema.json"
 with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), SCHEMA_FILE), encoding="utf-8") as _file:
@@ -130,7 +131,9 @@ TURNS_ROUND = {**lattice(size=(3, 2, 2), moves=[{"at": [1, 1, 1], "by": [0.5, 0,
 LATTICES = {"l.json": lattice(low=(0.25, 0.25, -1), high=(1.5, 2, 1), moves=FOLD), "turns.json": TURNS_ROUND,
             "next.json": lattice(low=(1.5, 0.25, -1), high=(3, 2, 1), moves=[{"by": [0, 0, 0.5]}])}
 OPTIONS = (("-l", "l.json"), ("-l", "l.json", "--outside", "extend", "--falloff", "0.3"), ("-l", "turns.json", "--normals", "recompute"),
-           ("-l", "l.json", "-l", "next.json", "--blocks", "--snap", "0.1"))
+           ("-l", "l.json", "-l", "next.json", "--blocks", "--snap", "0.1", "--seam", "C0:w-"))
+# Weights of the vertices of obj_file, which differ from row to row.
+WEIGHTS = [(37 * v % 16) / 15 for v in range(len(GRID) + 1)]
 FORMATS = ("obj", "ply", "off", "stl", "glb")
 # Of each file: what a conversion does not write, so that nothing of it moves or stays behind.
 INPUTS = {obj_file: (), ply_file: (), unmeasured_file: (), off_file: (), stl_file: (), cube_file: (), scene_file: (), morph_file: (),
@@ -147,10 +150,11 @@ def has_something_to_say(value):
 def every_conversion_has_the_figures_of_check(run):
     for name, content in LATTICES.items():
         run.write(name, content)
+    run.write("w.npy", npy(WEIGHTS))
     told = set()
     for made, lost in INPUTS.items():
         name = made(run)
-        for options in OPTIONS:
+        for options in (*OPTIONS, *[("-l", "l.json", "--weight", "w.npy")] * (made is obj_file)):
             checked = figures(entry(run, "check", name, *options))
             told |= {member for member, value in checked.items() if has_something_to_say(value)}
             for ending in FORMATS:

@@ -58,13 +58,15 @@ def every_format_at_every_place(run):
 @case
 def a_file_cut_while_it_is_read_is_exit_3_in_every_command(run):
     start(run)
-    before = run.names()
     told = f"cut.obj: {TOLD}"
+    run.write("k.json", lattice(keys=[{"time": n, "moves": [{"by": [0.1 * n, 0.2, 0.3]}]} for n in range(2)]))
+    before = run.names()
     for arguments in (["check", "cut.obj", "-l", "l.json"], ["info", "cut.obj"], ["info", "cut.obj", "--json"],
                       ["compare", "a.obj", "cut.obj"], ["compare", "cut.obj", "a.obj"],
                       ["embed", "cut.obj", "-l", "l.json", "-o", "u.npy", "--status", "s.npy"],
                       ["lattice", "new", "cut.obj", "-o", "n.json"],
                       ["deform", "cut.obj", "b.glb", "-l", "l.json", "--report", "r.json", "-j", "4"],
+                      ["animate", "cut.obj", "b.glb", "-l", "k.json", "--report", "r.json"],
                       ["deform", "cut.obj", "--in-place", "-l", "l.json"]):
         cut(run, "cut.obj", *arguments, original="a.obj", err=told)
         if "--report" in arguments:
@@ -82,6 +84,13 @@ def large_lattices_and_reports(run):
     run.write("large.json", file)
     cut(run, "cut.json", "deform", "a.obj", "b.obj", "-l", "cut.json", original="large.json", err=f"cut.json: {TOLD}")
     cut(run, "cut.json", "info", "cut.json", original="large.json", err=f"cut.json: {TOLD}")
+    for words in (["refine", "cut.json", "--size", "30"], ["set", "cut.json", "--strength", "2"], ["set", "l.json", "--deformed", "cut.json"],
+                  ["convert", "cut.json"]):
+        cut(run, "cut.json", "lattice", *words, "-o", "n.json", original="large.json", err=f"cut.json: {TOLD}")
+    run.ffd("lattice", "convert", "large.json", "-o", "large.csv")
+    for words in (["convert", "cut.csv"], ["set", "large.json", "--deformed", "cut.csv"]):
+        cut(run, "cut.csv", "lattice", *words, "-o", "n.json", original="large.csv", err=f"cut.csv: {TOLD}")
+    check(not run.exists("n.json"), "a lattice of half a lattice")
     run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--report", "one.json")
     job = json.loads(run.read("one.json"))["jobs"][0]
     run.write("many.json", json.dumps({"format": "ffd-report", "version": 1, "jobs": [job] * 400}))

@@ -8,6 +8,7 @@ import shutil
 import struct
 import subprocess
 
+from author import array
 from harness import FFD, SECONDS, case, check, main
 
 DATA = os.environ["FFD_DATA"]
@@ -40,6 +41,13 @@ def write_batch(work):
     with open(os.path.join(work, "swept.json"), "w", encoding="ascii") as file:
         json.dump({"format": "ffd-lattice", "version": 1, "size": [4, 4, 6], "rest": {"box": "mesh"},
                    "moves": [{"twist": {"axis": "y", "degrees": {"$": "SWEEP"}}}]}, file)
+    with open(os.path.join(work, "turning.json"), "w", encoding="ascii") as file:
+        json.dump({"format": "ffd-lattice", "version": 1, "size": [4, 4, 6], "rest": {"box": "mesh"},
+                   "moves": [{"twist": {"axis": "y", "degrees": {"$": "TURN"}}}],
+                   "keys": [{"time": 0, "set": {"TURN": 0}}, {"time": 1, "set": {"TURN": 40}}]}, file)
+    with open(os.path.join(work, "upper.json"), "w", encoding="ascii") as file:
+        json.dump({"format": "ffd-lattice", "version": 1, "size": [4, 9, 4], "rest": {"box": {"min": [-1.2, 3, -1.2], "max": [1.2, 8.2, 1.2]}},
+                   "moves": [{"by": [1, 0, 0.5]}]}, file)
     with open(os.path.join(work, "table.csv"), "w", encoding="ascii") as file:
         file.write("SWEEP\n10\n20\n")
     with open(os.path.join(work, "vase.obj"), encoding="ascii") as file:
@@ -47,10 +55,35 @@ def write_batch(work):
     head = f"{{'descr': '<f8', 'fortran_order': False, 'shape': ({numbers},), }}\n".encode()
     with open(os.path.join(work, "dFdX.npy"), "wb") as file:
         file.write(b"\x93NUMPY\x01\x00" + struct.pack("<H", len(head)) + head + bytes(8 * numbers))
+    write_moved(work)
+    write_posed(work)
     os.mkdir(os.path.join(work, "out"))
     os.mkdir(os.path.join(work, "meshes"))
     for name in ("cow.obj", "column.obj"):
         shutil.copy(os.path.join(work, name), os.path.join(work, "meshes", name))
+
+
+def write_moved(work):
+    """A lattice at rest, and control points that a script has moved."""
+    with open(os.path.join(work, "rest.json"), "w", encoding="ascii") as file:
+        json.dump({"format": "ffd-lattice", "version": 1, "size": [2, 3, 2], "rest": {"box": {"min": [0, 0, 0], "max": [1, 2, 1]}}}, file)
+    with open(os.path.join(work, "moved.npy"), "wb") as file:
+        file.write(array([x + 0.125 * y for z in (0, 1) for y in (0, 1, 2) for u in (0, 1) for x in (u, y, z)], "(12, 3)"))
+
+
+def write_posed(work):
+    """The cow as another program has posed it, and a table of vertices to drag."""
+    with open(os.path.join(work, "cow.obj"), encoding="ascii") as file:
+        lines = file.read().splitlines()
+    with open(os.path.join(work, "posed.obj"), "w", encoding="ascii") as file:
+        for line in lines:
+            word, *numbers = line.split() or [""]
+            if word == "v":
+                x, y, z = map(float, numbers[:3])
+                line = f"v {x + 0.25 * y * y!r} {y!r} {z + 0.125 * x * y!r}"
+            file.write(line + "\n")
+    with open(os.path.join(work, "pairs.csv"), "w", encoding="ascii") as file:
+        file.write("vertex,x,y,z,weight\n12,0.5,0.5,0.25,exact\n900,0,0.25,-0.5,\n")
 
 
 @case

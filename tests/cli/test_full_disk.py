@@ -92,6 +92,8 @@ def start(run):
     run.write("a.obj", points + faces)
     run.write("cube.obj", CUBE)
     run.write("l.json", lattice(moves=[{"by": [0.1, 0.2, 0.3]}]))
+    run.ffd("lattice", "refine", "l.json", "-o", "fine.json", "--size", "12")
+    run.write("k.json", lattice(keys=[{"time": n, "moves": [{"by": [0.1 * n, 0.2, 0.3]}]} for n in range(2)]))
     for ending in FORMATS[1:]:
         run.ffd("deform", "a.obj", f"a.{ending}", "-l", "l.json", "-q")
 
@@ -104,8 +106,14 @@ def commands():
         if ending not in ("obj", "gltf"): # a conversion
             yield files, ["deform", "a.obj", f"disk/b.{ending}", "-l", "l.json", "-q"]
     yield ["disk/b.obj", "disk/b.d"], ["deform", "a.obj", "disk/b.obj", "-l", "l.json", "--depfile", "disk/b.d"]
+    yield ["disk/a.glb"], ["animate", "a.obj", "disk/a.glb", "-l", "k.json", "-q"]
+    yield ["disk/a.gltf", "disk/a.bin"], ["animate", "a.gltf", "disk/a.gltf", "-l", "k.json", "-q"]
     yield ["disk/e.npy", "disk/s.npy"], ["embed", "a.obj", "-l", "l.json", "-o", "disk/e.npy", "--status", "disk/s.npy"]
     yield ["disk/n.json"], ["lattice", "new", "a.obj", "-o", "disk/n.json", "--size", "9,9,9"]
+    yield ["disk/f.json"], ["lattice", "refine", "l.json", "-o", "disk/f.json", "--size", "12"]
+    yield ["disk/h.json"], ["lattice", "set", "fine.json", "-o", "disk/h.json", "--strength", "0.5"]
+    yield ["disk/f.csv"], ["lattice", "convert", "fine.json", "-o", "disk/f.csv"]
+    yield ["disk/f.npy"], ["lattice", "convert", "fine.json", "-o", "disk/f.npy", "--part", "rest", "-q"]
 
 
 def with_force(arguments):
@@ -135,6 +143,7 @@ def a_full_device_is_exit_3(run):
     run.ffd("embed", "a.obj", "-l", "l.json", "-o", "full.npy", "--status", "s.npy", code=IO, err=f"full.npy: cannot be written: {SPACE}")
     os.remove(run.path("full.npy"))
     run.ffd("lattice", "new", "a.obj", "-o", "/dev/full", code=IO)
+    run.ffd("lattice", "set", "l.json", "--strength", "2", "-o", "/dev/full", "--force", code=IO)
     for n, option in enumerate(("--report", "--depfile")):
         run.ffd("deform", "a.obj", f"b{n}.obj", "-l", "l.json", option, "/dev/full", code=IO, err=f"/dev/full: cannot be written: {SPACE}")
         check(not run.exists(f"b{n}.obj"), option)

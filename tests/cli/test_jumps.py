@@ -88,6 +88,26 @@ def across_a_gap(run):
 
 
 @case
+def across_a_gap_one_after_the_other(run):
+    """Boxes that are no blocks: in the gap those of the nearer end act."""
+    square(run, 0.5, 2.5)
+    box(run, "first.json", (0, 0, 0), (1, 1, 1), UP)
+    for moves, edges, largest in ((DOWN, 2, 0.6), (UP, 0, 0)):
+        box(run, "second.json", (2, 0, 0), (3, 1, 1), moves)
+        torn(run, edges, largest, *both("first.json", "second.json"))
+
+
+@case
+def out_of_the_lattice_that_follows(run):
+    """The first ends at x = 0, and lifts by 2 + 3.6 x along y, there out of the second, which leans with y and ends at 1.5. Both
+    ends are in the second: one of its displacements stands for both sides of the border."""
+    run.write("a.obj", obj_of([[-0.5, 0, 0], [0.5, 0, 0]]) + "f 1 2 1\n")
+    box(run, "lift.json", (-2, -9, -9), (0, 9, 9), [{"matrix": [1, 0, 0, 0, 3.6, 1, 0, 2, 0, 0, 1, 0, 0, 0, 0, 1]}])
+    box(run, "lean.json", (-9, -9, -9), (9, 1.5, 9), [{"matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1]}])
+    torn(run, 1, 2, *both("lift.json", "lean.json"), tolerance=1e-9)
+
+
+@case
 def through_a_block(run):
     """From the first into the third of three; both move alike, and the one between otherwise. The edge jumps there and
     back. The same where the ends are in one block, and an earlier one is within it."""

@@ -7,7 +7,7 @@ import random
 import re
 import struct
 
-from author import offsets_of, rest_points
+from author import array, broken, offsets_of, rest_points
 from harness import CUBE, INVALID, IO, USAGE, carried, case, check, equal, lattice, main, near, repetitions
 
 SEED = int(os.environ.get("FFD_SEED") or random.randrange(1 << 30))
@@ -19,16 +19,6 @@ PLACES = [[RANDOM.uniform(-1, 1) for _ in range(3)] for _ in range(30)]
 def convert(run, source, target, *more, **options):
     run.ffd("lattice", "convert", source, "-o", target, "--force", *more, **options)
     return json.loads(run.text(target)) if target.endswith(".json") else None
-
-
-def array(values, shape, descr="<f8", fortran=False, version=1, behind=b""):
-    """An array file as numpy.save writes it."""
-    head = "{'descr': '%s', 'fortran_order': %s, 'shape': %s, }" % (descr, fortran, shape)
-    size = 10 if version == 1 else 12
-    head += " " * (-(size + len(head) + 1) % 64) + "\n"
-    length = struct.pack("<H" if version == 1 else "<I", len(head))
-    kind = {"f8": "d", "f4": "f"}[descr[1:]]
-    return b"\x93NUMPY" + bytes([version, 0]) + length + head.encode() + struct.pack(f"{descr[0]}{len(values)}{kind}", *values) + behind
 
 
 def numbers_of(data):
@@ -141,17 +131,8 @@ def arrays(run):
             equal(json.loads(run.text("c.json"))["degree"], [2, 2, 2])
 
 
-@case
-def what_cannot_be_is_refused(run):
-    run.write("a.json", lattice(deformed={"offsets": [[0.1, 0, 0]] * 64}))
-    run.write("still.json", lattice(weights=[1.0] * 63 + [2.0], knots=["clamped", "open", "clamped"]))
-    run.write("mesh.json", lattice(rest={"box": "mesh"}))
-    run.write("a.obj", CUBE)
-    convert(run, "a.json", "a.csv")
-    table = run.text("a.csv").splitlines()
-    head = table.index("i,j,k,x,y,z,dx,dy,dz")
-    points = [float(i) for i in range(192)]
-
+def write_tables(run, table, head):
+    """Tables with a fault each. table: the lines of a right one; head: the index of its header."""
     def csv(name, lines):
         run.write(name, "\n".join(lines) + "\n")
 
@@ -176,18 +157,36 @@ def what_cannot_be_is_refused(run):
     changed("twice.csv", 2, table[1])
     changed("degree.csv", 0, "# degree 3 15 3")
     changed("zero.csv", 0, "# degree 3 0 3")
+    changed("degrees.csv", 1, table[0])
+    csv("closed.csv", ["# closed 0 0 0", "# closed 0 1 0"] + table)
+    csv("few.csv", ["# degree 3 4 3"] + table[head:])
+    csv("bare.csv", table[head:])
     csv("layer.csv", [table[head]] + [row for row in table[head + 1:] if row.split(",")[2] == "0"])
+
+
+@case
+def what_cannot_be_is_refused(run):
+    run.write("a.json", lattice(deformed={"offsets": [[0.1, 0, 0]] * 64}))
+    run.write("still.json", lattice(weights=[1.0] * 63 + [2.0], knots=["clamped", "open", "clamped"]))
+    run.write("mesh.json", lattice(rest={"box": "mesh"}))
+    run.write("a.obj", CUBE)
+    convert(run, "a.json", "a.csv")
+    table = run.text("a.csv").splitlines()
+    head = table.index("i,j,k,x,y,z,dx,dy,dz")
+    points = [float(i) for i in range(192)]
+
+    write_tables(run, table, head)
     for name, data in (("flat.npy", array(points, "(192,)")), ("wide.npy", array(points, "(96, 2)")), ("n3.npy", array(points, "(64, 3)")),
                        ("early.npy", array(points[:-1], "(4, 4, 4, 3)")), ("late.npy", array(points, "(4, 4, 4, 3)", behind=b"\0")),
                        ("ints.npy", array(points, "(4, 4, 4, 3)").replace(b"<f8", b"<i8")), ("huge.npy", array([], "(4000000000, 4000000000, 4, 3)")),
                        ("many.npy", array([], "(1000, 1000, 1000, 3)")), ("inf.npy", array(points[:-1] + [float("inf")], "(4, 4, 4, 3)")),
-                       ("layer.npy", array(points[:48], "(4, 4, 1, 3)")), ("none.npy", b"no array")):
+                       ("layer.npy", array(points[:48], "(4, 4, 1, 3)")), ("zero.npy", array([], "(4, 4, 0, 3)")), ("none.npy", b"no array")):
         run.write(name, data)
     for source, target, more, code, what in (
             ("a.json", "o.npy", [], USAGE, r"o\.npy: holds one state of a lattice, and this one is deformed: choose rest or deformed \(--part\)"),
-            ("still.json", "o.npy", ["--part", "both"], USAGE, "holds one state"), ("a.json", "o.csv", ["--part", "x"], USAGE, "is not rest, deformed or both"),
-            ("a.json", "o.txt", [], USAGE, r"o\.txt: has no ending of a lattice that is written: \.json, \.csv or \.npy"),
-            ("a.obj", "o.csv", [], USAGE, r"a\.obj: has no ending of a lattice that is read"), ("a.json", "o", [], USAGE, "no ending"),
+            ("still.json", "o.npy", ["--part", "both"], USAGE, "holds one state of a lattice, not both: choose"), ("a.json", "o.csv", ["--part", "x"], USAGE, "is not rest, deformed or both"),
+            ("a.json", "o.txt", [], USAGE, r"o\.txt: has no ending of a lattice that is written: \.json, \.csv, "),
+            ("a.ply", "o.csv", [], USAGE, r"a\.ply: has no ending of a lattice that is read"), ("a.json", "o", [], USAGE, "no ending"),
             ("a.json", "o.csv", ["--size", "4,4,4"], USAGE, r"a\.json: tells its size itself: --size is not for it"),
             ("a.json", "o.csv", ["--degree", "2"], USAGE, "tells its degree itself: --degree"), ("a.csv", "o.json", ["--degree", "2"], USAGE, "tells its degree in line 1"),
             ("a.csv", "o.json", ["--size", "4"], USAGE, "tells its size itself"), ("a.csv", "o.json", ["--set", "A=1"], USAGE, "has no placeholders: --set"),
@@ -195,7 +194,7 @@ def what_cannot_be_is_refused(run):
             ("a.json", "o.csv", ["--size", "1,2,3"], USAGE, "three whole numbers of at least 2"), ("a.json", "o.csv", ["--degree", "15"], USAGE, "from 1 to 14"),
             ("a.json", "o.csv", ["--report", "r.json"], USAGE, "report"), ("gone.csv", "o.json", [], IO, "gone.csv"), ("a.csv", "a.csv", [], IO, "is an input"),
             ("mesh.json", "o.csv", [], INVALID, r"mesh\.json: .*needs positions \(--mesh\)"), ("mesh.json", "o.npy", [], INVALID, "needs positions"),
-            ("empty.csv", "o.json", [], INVALID, r"empty\.csv: has no header i,j,k,x,y,z"), ("head.csv", "o.json", [], INVALID, "has no control points"),
+            ("empty.csv", "o.json", [], INVALID, r"empty\.csv:2: there is no header i,j,k,x,y,z"), ("head.csv", "o.json", [], INVALID, rf"head\.csv:{head + 2}: there are no control points"),
             ("missing.csv", "o.json", [], INVALID, r"missing\.csv:\d+: there are 63 control points, but the indices are those of 4 by 4 by 4"),
             ("double.csv", "o.json", [], INVALID, rf"double\.csv:{head + 4}: 1,0,0 is there twice, first in line {head + 3}"),
             ("far.csv", "o.json", [], INVALID, "there are 64 control points"), ("nan.csv", "o.json", [], INVALID, rf"nan\.csv:{head + 2}: \"nan\" is not a finite number"),
@@ -204,6 +203,13 @@ def what_cannot_be_is_refused(run):
             ("semicolons.csv", "o.json", [], INVALID, "is column 1 of the header"), ("weight.csv", "o.json", [], INVALID, "the row has 9 cells, but the header has 10"),
             ("knots.csv", "o.json", [], INVALID, r"knots\.csv:2: there are 7 knots of u, but 4 control points of degree 3 need 8"),
             ("order.csv", "o.json", [], INVALID, "order.csv"), ("letter.csv", "o.json", [], INVALID, "followed by u, v or w"),
+            ("degrees.csv", "o.json", [], INVALID, r"degrees\.csv:2: # degree is there twice, first in line 1"),
+            ("closed.csv", "o.json", [], INVALID, r"closed\.csv:2: # closed is there twice, first in line 1"),
+            ("few.csv", "o.json", [], INVALID, r"few\.csv:1: the degree 4 of v needs at least 5 control points, not 4"),
+            ("bare.csv", "o.json", ["--degree", "3,3,5"], INVALID, r"bare\.csv: --degree 5 along w needs at least 6 control points, not 4"),
+            ("n3.npy", "o.json", ["--size", "4", "--degree", "14"], INVALID, r"n3\.npy: --degree 14 along u needs at least 15 control points, not 4"),
+            ("inf.npy", "o.json", ["--order", "auto"], INVALID, r"inf\.npy: point 63: z is inf, not a finite number"),
+            ("zero.npy", "o.json", [], INVALID, r"zero\.npy: has 0 control points along w, which has no extent: write two at least"),
             ("twice.csv", "o.json", [], INVALID, "the knots of u are told twice, first in line 2"), ("degree.csv", "o.json", [], INVALID, "three whole numbers up to 14"),
             ("zero.csv", "o.json", [], INVALID, "the degree 0 of v is not 1 to 14"), ("layer.csv", "o.json", [], INVALID, "has 1 control point along w, which has no extent"),
             ("layer.npy", "o.json", [], INVALID, "has 1 control point along w"), ("flat.npy", "o.json", [], INVALID, r"has the shape \(192,\), not \(n, 3\) or"),
@@ -217,6 +223,50 @@ def what_cannot_be_is_refused(run):
         check(target == source or not run.exists(target), (source, target))
     run.ffd("lattice", "convert", "still.json", "-o", "s.npy", lines=1, err=re.compile(r"not the knots of v, weights: it is read as clamped uniform"))
     run.ffd("lattice", "convert", "a.json", "-o", "a.csv", code=IO, lines=1, err=re.compile("exists"))
+
+
+@case
+def an_order_that_the_points_tell(run):
+    """Whatever direction is the fastest, and whichever way: u leads to +x, v to +y, w to +z."""
+    for _ in range(repetitions(20)):
+        size = RANDOM.sample(range(3, 8), 3)
+        grid = {(i, j, k): [2.0 * i + RANDOM.uniform(-0.3, 0.3), 1.5 * j + RANDOM.uniform(-0.3, 0.3), 1.0 * k + RANDOM.uniform(-0.2, 0.2)]
+                for k in range(size[2]) for j in range(size[1]) for i in range(size[0])}
+        order = RANDOM.sample(range(3), 3)  # the directions of the file, the fastest first
+        back = [RANDOM.random() < 0.5 for _ in range(3)]
+        counts = [size[d] for d in order]
+        rows, place = [], [0, 0, 0]
+        for place[2] in range(counts[2]):
+            for place[1] in range(counts[1]):
+                for place[0] in range(counts[0]):
+                    at = {d: size[d] - 1 - n if back[d] else n for d, n in zip(order, place)}
+                    rows.append(grid[at[0], at[1], at[2]])
+        flat = [x for p in rows for x in p]
+        said = re.compile(r"a\.npy: {} x {} x {} control points along u, v, w".format(*size))
+        run.write("a.npy", array(flat, f"({len(rows)}, 3)"))
+        found = convert(run, "a.npy", "o.json", "--order", "auto", "--size", ",".join(map(str, RANDOM.sample(size, 3))), lines=1, err=said)
+        expected = [grid[i, j, k] for k in range(size[2]) for j in range(size[1]) for i in range(size[0])]
+        equal([found["size"], rest_points(found)], [size, expected], (order, back))
+        # An array of four dimensions tells the counts, its last direction is the fastest.
+        run.write("a.npy", array(flat, "({}, {}, {}, 3)".format(*counts[::-1])))
+        found = convert(run, "a.npy", "o.json", "--order", "auto", lines=1, err=said)
+        equal([found["size"], rest_points(found)], [size, expected], (order, back))
+        found = convert(run, "a.npy", "o.json", "--order", "uvw")
+        equal(found["size"], counts[::-1])
+    # A grid that is turned by some 30 degrees: u is still what leads most to +x.
+    run.write("a.json", lattice(size=(4, 5, 3), degree=(3, 3, 2)))
+    run.ffd("lattice", "set", "a.json", "--rotate", "z,30", "--rotate", "x,-25", "-o", "t.json")
+    convert(run, "t.json", "t.npy")
+    equal(rest_points(convert(run, "t.npy", "o.json", "--order", "auto", lines=1, err=re.compile("4 x 5 x 3"))), rest_points(convert(run, "t.npy", "p.json")))
+    random = [RANDOM.uniform(-1, 1) for _ in range(192)]
+    run.write("a.npy", array(random, "(64, 3)"))
+    for source, more, code, what in (
+            ("a.npy", ["--size", "4", "--order", "auto"], INVALID, r"a\.npy: is not a grid of 4 x 4 x 4 points in any order: some of its cells are turned over"),
+            ("a.npy", ["--size", "4", "--order", "wvu"], USAGE, "uvw, auto"), ("a.json", ["--order", "auto"], USAGE, r"a\.json: tells its order itself: --order is not"),
+            ("t.csv", ["--order", "auto"], USAGE, r"t\.csv: tells its order itself")):
+        convert(run, "t.json", "t.csv")
+        run.ffd("lattice", "convert", source, "-o", "n.json", *more, code=code, lines=1, err=re.compile(what))
+        check(not run.exists("n.json"), more)
 
 
 @case
@@ -241,19 +291,7 @@ def broken_files(run):
     for name in ("a.csv", "a.npy"):
         whole = run.read(name)
         for _ in range(repetitions(60)):
-            data = bytearray(whole)
-            for _ in range(RANDOM.randint(1, 4)):
-                at = RANDOM.randrange(min(len(data), RANDOM.choice([200, 1 << 30])))
-                action = RANDOM.randrange(3)
-                if action == 0:
-                    data[at] = RANDOM.choice(b"\0\n,-#e9.\xff(")
-                elif action == 1:
-                    del data[at:at + RANDOM.randint(1, 40)]
-                else:
-                    data[at:at] = data[at:at + RANDOM.randint(1, 40)]
-                if not data:
-                    break
-            run.write("b" + name[1:], bytes(data))
+            run.write("b" + name[1:], broken(whole, RANDOM, b"\0\n,-#e9.\xff("))
             run.ffd("lattice", "convert", "b" + name[1:], "-o", "b.json", "--force", code=(0, INVALID, 7), lines=None, err=lambda lines: len(lines) <= 1)
 
 

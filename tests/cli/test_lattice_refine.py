@@ -173,8 +173,12 @@ def the_report(run):
     check("exists already" in entry["error"], entry)
     out = run.ffd("lattice", "refine", "l.json", "-o", "r.json", "--force", "--degree", "4", "--report", "-", data=True).json
     equal(out["jobs"][0]["outputs"], ["r.json"])
-    for report in ("l.json", "r.json"):
-        run.ffd("lattice", "refine", "l.json", "-o", "r.json", "--force", "--degree", "4", "--report", report, code=(USAGE, IO), lines=1, err=lambda lines: True)
+    before = run.read("l.json"), run.read("r.json")
+    for output, report in (("r.json", "l.json"), ("r.json", "r.json"), ("r.json", "./r.json"), ("n.json", "n.json"), ("-", "l.json")):
+        run.ffd("lattice", "refine", "l.json", "-o", output, "--force", "--degree", "4", "--report", report, code=USAGE,
+                err=re.compile("the report would replace the lattice"))
+        equal((run.read("l.json"), run.read("r.json")), before)
+        check(not run.exists("n.json"), report)
     run.ffd("lattice", "refine", "l.json", "-o", "-", "--degree", "4", "--report", "-", code=USAGE, lines=1, err=lambda lines: True)
     run.ffd("lattice", "refine", "l.json", "-o", "n.json", "--degree", "4", "--report-stable", code=USAGE, lines=1, err=lambda lines: True)
 
@@ -230,15 +234,41 @@ def what_cannot_be_is_refused(run):
     run.remove("r.json")
     for words, code in ((["none.json", "-o", "r.json"], IO), (["a.obj", "-o", "r.json"], INVALID), (["l.json"], USAGE), ([], USAGE),
                         (["l.json", "l.json", "-o", "r.json"], USAGE), (["l.json", "-o", "r.obj"], USAGE),
+                        (["l.json", "-o", "r.csv"], USAGE), (["l.json", "-o", "r.npy"], USAGE), (["l.json", "-o", "r.xyz"], USAGE), (["l.json", "-o", "r.v2"], USAGE),
                         (["l.json", "-o", "l.json", "--force"], IO), (["l.json", "-o", "./l.json", "--force"], IO),
                         (["l.json", "-o", "no/r.json"], IO)):
         run.ffd("lattice", "refine", *words, "--size", "6", code=code, lines=1, err=lambda lines: True)
-        check(not run.exists("r.json") and not run.exists("r.obj"), words)
+        check(not any(run.exists(f"r.{ending}") for ending in ("json", "obj", "csv", "npy", "xyz", "v2")), words)
     run.write("r.json", "old")
     run.ffd("lattice", "refine", "l.json", "-o", "r.json", "--size", "6", code=IO, err="r.json: exists already (--force overwrites it)")
     equal(run.text("r.json"), "old")
     run.ffd("lattice", "refine", "l.json", "-o", "r.json", "--size", "6", "--force")
     equal(json.loads(run.text("r.json"))["size"], [6, 6, 6])
+
+
+@case
+def ends_of_the_domain_that_tear(run):
+    """A knot that stands degree + 1 times at an end of the domain, with others beyond it, gives two control points the same knots. The
+    one beyond the end acts on nothing."""
+    along = [-2 + 2 * i / 3 for i in range(7)]
+    bulge = [-9, 0.25, -0.125, 0.5, 0.125, 0.25, 9]
+    for degree, knots, acting in ((1, [-1, 0, 0, 0.25, 0.5, 0.75, 1, 1, 3], slice(1, 6)),
+                                  (2, [-2, -1, 0, 0, 0, 0.5, 1, 1, 1, 3], slice(2, 6))):
+        run.write("l.json", lattice(size=(7, 2, 2), degree=(degree, 1, 1), knots=[knots, "clamped", "clamped"],
+                                    rest={"points": [[x, y, z] for z in (-2, 2) for y in (-2, 2) for x in along]},
+                                    deformed={"offsets": [[d, 0, 0] for _ in range(4) for d in bulge]}))
+        first, last = along[acting][0], along[acting][-1]
+        points = [[first + (last - first) * i / 20, 0.25, -0.5] for i in range(1, 20)]
+        moved = carried(run, points, "l.json")
+        check(moved != points, "it moves something")
+        for options in (["--insert", "u:0.125,0.625"], ["--size", "9,2,2"], ["--degree", f"{degree + 1},1,1"]):
+            found = refine(run, *options)
+            near(carried(run, points, "r.json"), moved, 1e-13, (options, found["knots"][0]))
+        run.ffd("lattice", "set", "l.json", "-o", "s.json", "--force", "--seam", "C0:u-,u+")
+        found = json.loads(run.text("s.json"))
+        count = found["size"][0]
+        equal([p[0] for p in rest_points(found)[:count]], along[acting])
+        equal([d[0] for d in offsets_of(found)[:count]], [0, *bulge[acting][1:-1], 0])
 
 
 @case

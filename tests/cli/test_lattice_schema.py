@@ -82,11 +82,22 @@ RICH = [
     {**BOX, "deformed": {"offsets": CORNERS, "weights": [2] * 8}, "parameters": {
         "A": {"default": 1, "min": 0, "max": 90, "unit": "degrees", "comment": "how far"}, "B": {"default": [0, 1, "x"]}, "C": {}},
      "moves": [{"by": [{"$": "A"}, {"$": "-A"}, {"$": "-A", "times": 0.5}]}]},
+    {**BOX, "keys": [{"time": 0, "offsets": CORNERS}, {"time": 1.5, "moves": [{"by": [{"$": "A"}, 0, 0]}], "name": "up"}], "moves": []},
+    {**BOX, "keys": [{"time": 0, "offsets": CORNERS}, {"time": 2, "offsets": CORNERS}], "deformed": {"weights": [2] * 8}},
+    {**BOX, "keys": [{"time": 0, "set": {"K": [0, [1, 2]], "M": 1}}, {"time": 1, "set": {"K": [1, [2, 3]], "M": 2}}],
+     "moves": [{"by": {"$": "K"}}, {"weight": {"$": "M"}, "by": [0, 0, 0]}]},
 ]
 
 
 def moved(*moves, base=BOX):
     return {**base, "moves": list(moves)}
+
+
+MOVES, SET, USE = {"time": 0, "moves": []}, {"time": 0, "set": {"K": 1}}, [{"by": [{"$": "K"}, 0, 0]}]
+
+
+def keyed(keys, **members):
+    return {**BOX, **members, "keys": keys}
 
 
 def without(base, *path):
@@ -229,6 +240,27 @@ BROKEN = {
     "a parameter: comment": {**BOX, "parameters": {"A": {"comment": 3}}},
     "a parameter has a name": {**BOX, "parameters": {"": {}}},
     "a parameter: its name has no minus": {**BOX, "parameters": {"-A": {}}},
+    "keys are an array": keyed({}),
+    "keys are two": keyed([MOVES]),
+    "a key is an object": keyed([MOVES, 1]),
+    "a key: no other member": keyed([MOVES, {**MOVES, "tim": 1}]),
+    "a key: its time": keyed([{"moves": []}, MOVES]),
+    "a key: its time is a number": keyed([MOVES, {"time": "1", "moves": []}]),
+    "a key: its time is not negative": keyed([{"time": -1, "moves": []}, MOVES]),
+    "a key: its time has single precision": keyed([MOVES, {"time": 1e39, "moves": []}]),
+    "a key gives something": keyed([MOVES, {"time": 1}]),
+    "a key gives one thing": keyed([MOVES, {"time": 1, "moves": [], "offsets": CORNERS}]),
+    "a key: offsets are vectors": keyed([MOVES, {"time": 1, "offsets": [0] * 8}]),
+    "a key: moves are moves": keyed([MOVES, {"time": 1, "moves": [7]}]),
+    "a key: set is an object": keyed([SET, {"time": 1, "set": [1]}], moves=USE),
+    "a key: set is not empty": keyed([{"time": 0, "set": {}}, {"time": 1, "set": {}}], moves=USE),
+    "a key: values are numbers": keyed([SET, {"time": 1, "set": {"K": "x"}}], moves=USE),
+    "a key: values are arrays of numbers": keyed([SET, {"time": 1, "set": {"K": [True]}}], moves=USE),
+    "keys are of one kind": keyed([SET, {"time": 1, "moves": []}], moves=USE),
+    "keys that set need moves": keyed([SET, {"time": 1, "set": {"K": 1}}], moves=[]),
+    "keys in place of moves": keyed([MOVES, {"time": 1, "moves": []}], moves=USE),
+    "keys in place of offsets": keyed([{"time": 0, "offsets": CORNERS}, {"time": 1, "offsets": CORNERS}], deformed={"offsets": CORNERS}),
+    "keys in place of points": keyed([{"time": 0, "offsets": CORNERS}, {"time": 1, "offsets": CORNERS}], deformed={"points": CORNERS}),
     "units": {**BOX, "units": "boxes"},
     "moves are an array": {**BOX, "moves": {}},
     "moves are no placeholder": {**BOX, "moves": {"$": "A"}},
@@ -354,6 +386,10 @@ BROKEN = {
 
 # One for each rule that the schema does not express.
 UNSEEN = {
+    "times of keys rise": keyed([{"time": 1, "moves": []}, {"time": 1, "moves": []}]),
+    "keys give the same placeholders": keyed([SET, {"time": 1, "set": {"M": 1}}], moves=USE),
+    "keys give values of one shape": keyed([SET, {"time": 1, "set": {"K": [1]}}], moves=USE),
+    "keys give placeholders of the moves": keyed([{"time": 0, "set": {"M": 1}}, {"time": 1, "set": {"M": 1}}], moves=[{"by": [0, 0, 0]}]),
     "a parameter: min is not above max": {**BOX, "parameters": {"A": {"min": 1, "max": 0}}},
     "a parameter: the default is within": {**BOX, "parameters": {"A": {"min": 1, "default": [2, 0]}}},
     "points are as many as size says": {**POINTS, "size": [3, 2, 2]},

@@ -6,7 +6,7 @@ import os
 import random
 import re
 
-from author import deformed_points, offsets_of, reference_cases, rest_points
+from author import array, deformed_points, offsets_of, reference_cases, rest_points
 from harness import CUBE, INVALID, IO, USAGE, case, carried, check, equal, lattice, main, near, repetitions
 
 SEED = int(os.environ.get("FFD_SEED") or random.randrange(1 << 30))
@@ -14,9 +14,11 @@ RANDOM = random.Random(SEED)
 print(f"seed {SEED} (FFD_SEED)")
 PLACES = [[RANDOM.uniform(-1.5, 1.5) for _ in range(3)] for _ in range(30)]
 
+COVERS = "a.json: the inverse covers the deformed volume only: other places of the volume at rest are outside of it"
 
-def change(run, *operations, source="a.json", target="o.json"):
-    run.ffd("lattice", "set", source, *operations, "-o", target, "--force")
+
+def change(run, *operations, source="a.json", target="o.json", **more):
+    run.ffd("lattice", "set", source, *operations, "-o", target, "--force", **more)
     return json.loads(run.text(target))
 
 
@@ -102,20 +104,127 @@ def weights_change_as_displacements_do(run):
     near(found["deformed"]["weights"], [p + (q - h) for p, q, h in zip(moved["a.json"], moved["b.json"], rest)], 1e-15)
     near(change(run, "--strength", "0.5")["deformed"]["weights"], [(h + q) / 2 for h, q in zip(rest, moved["a.json"])], 1e-15)
     equal(change(run, "--mirror", "u")["deformed"]["weights"], [moved["a.json"][i - i % 4 + 3 - i % 4] for i in range(80)])
-    found = change(run, "--invert")
+    found = change(run, "--invert", err=COVERS)
     equal([found["weights"], found["deformed"]["weights"]], [moved["a.json"], rest])
+
+
+@case
+def what_is_not_there_is_not_written(run):
+    """No weights where all are 1 again, and no zero with a sign."""
+    content = write(run, "a.json")
+    content["deformed"]["weights"] = [1.0] * 79 + [2.0]
+    run.write("weights.json", content)
+    for operations in (["--blend", "weights.json,0"], ["--blend", "weights.json,0.5", "--add", "weights.json", "--seam", "C0:u+,v+,w+"]):
+        found = change(run, *operations)
+        check("weights" not in found and "weights" not in found["deformed"], operations)
+    equal(change(run, "--strength", "0", source="weights.json").keys(), change(run, "--strength", "0").keys())
+    run.write("a.json", {**content, "deformed": {"offsets": [[0.5, 0, -0.25]] + [[0, 0, 0]] * 79}})
+    for operations in (["--mirror", "u"], ["--mirror", "v", "--mirror", "v"], ["--symmetrize", "w-"], ["--strength", "-1"], ["--strength", "-0.5"],
+                       ["--invert", "-q"], ["--scale", "-1"], ["--rotate", "x,180"], ["--blend", "a.json,-1"]):
+        change(run, *operations)
+        check(not re.search(r"-0[],]", run.text("o.json")), operations)
+
+
+def numpy_order(points, size):
+    """Control points, u fastest, as an array (n_u, n_v, n_w, 3) has them."""
+    n, m, o = size
+    return [x for i in range(n) for j in range(m) for k in range(o) for x in points[i + n * (j + m * k)]]
+
+
+@case
+def control_points_that_a_file_has(run):
+    content, other = write(run, "a.json"), write(run, "b.json")
+    size, rest = content["size"], rest_points(content)
+    moved, offsets = deformed_points(other), offsets_of(other)
+    run.write("rest.json", {member: value for member, value in content.items() if member != "deformed"})
+    change(run, "--strength", "1", source="b.json", target="same.json")
+    for name in ("b.json", "b.csv"):
+        if name == "b.csv":
+            run.ffd("lattice", "convert", "b.json", "-o", "b.csv")
+        for source in ("a.json", "rest.json"):
+            change(run, "--deformed", name, source=source)
+            equal(run.read("o.json"), run.read("same.json"), name)  # of one rest: to the bit
+            change(run, "--deformed-offsets", name, source=source)
+            equal(run.read("o.json"), run.read("same.json"), name)
+    for name, points in (("moved", moved), ("offsets", offsets)):
+        run.write(f"{name}-4.npy", array(numpy_order(points, size), "(4, 5, 4, 3)"))
+        run.write(f"{name}-2.npy", array([x for p in points for x in p], "(80, 3)"))
+        run.write(f"{name}.json", lattice(size=size, rest={"points": points}))
+    for name in ("moved-4.npy", "moved-2.npy", "moved.json"):
+        found = change(run, "--deformed", name)
+        equal(rest_points(found), rest, name)
+        near(offsets_of(found), [[q - p for p, q in zip(*both)] for both in zip(rest, moved)], 1e-15, name)
+    for name in ("offsets-4.npy", "offsets-2.npy", "offsets.json"):
+        equal(offsets_of(change(run, "--deformed-offsets", name)), offsets, name)
+    # Zeros of a file that has offsets are zeros.
+    run.ffd("lattice", "convert", "rest.json", "-o", "still.csv")
+    check("deformed" not in change(run, "--deformed-offsets", "still.csv"), "nothing moves")
+    # Moves of the other file count, and what follows works on the result.
+    run.write("moves.json", lattice(size=size, moves=[{"at": [1, 2, 1], "by": [{"$": "X"}, 0, 0]}]))
+    found = offsets_of(change(run, "--deformed", "moves.json", "--strength", "2", "--set", "X=0.25"))
+    equal([i for i in range(80) if any(found[i])], [29])
+    equal(found[29], [0.5, 0, 0])
+    # A box round a mesh needs no positions for displacements.
+    run.write("mesh.json", lattice(size=size, rest={"box": "mesh"}))
+    found = change(run, "--deformed-offsets", "offsets-4.npy", source="mesh.json")
+    equal([found["rest"]["box"], offsets_of(found)], ["mesh", offsets])
+
+
+@case
+def weights_that_a_file_has(run):
+    weights, moved = [[RANDOM.uniform(0.5, 2) for _ in range(80)] for _ in range(2)]
+    content = write(run, "a.json")
+    heavy = write(run, "heavy.json", weights=weights)
+    heavy["deformed"]["weights"] = moved
+    run.write("heavy.json", heavy)
+    for option in ("--deformed", "--deformed-offsets"):
+        found = change(run, option, "heavy.json")
+        equal([found["weights"], found["deformed"]["weights"], offsets_of(found)], [[1] * 80, moved, offsets_of(heavy)])
+        found = change(run, option, "a.json", source="heavy.json")
+        equal([found["weights"], found["deformed"]["weights"], offsets_of(found)], [weights, moved, offsets_of(content)])
+
+
+@case
+def files_whose_control_points_do_not_fit(run):
+    write(run, "a.json")
+    run.write("finer.json", lattice(size=(5, 5, 4)))
+    run.write("mesh.json", lattice(size=(4, 5, 4), rest={"box": "mesh"}))
+    run.write("few.npy", array([0.0] * 237, "(79, 3)"))
+    run.write("turned.npy", array([0.0] * 240, "(5, 4, 4, 3)"))
+    run.write("inf.npy", array([float("inf")] * 240, "(80, 3)"))
+    run.write("none.csv", "i,j,k,x,y,z,dx,dy,dz\n")
+    for operations, code, what in (
+            (["--deformed", "finer.json"], INVALID, r"finer\.json: has 5 x 5 x 4 control points, but the lattice has 4 x 5 x 4"),
+            (["--deformed-offsets", "turned.npy"], INVALID, r"turned\.npy: has 5 x 4 x 4 control points, but the lattice has 4 x 5 x 4"),
+            (["--deformed", "few.npy"], INVALID, r"few\.npy: has 79 points, but the lattice has 4 x 5 x 4 control points"),
+            (["--deformed", "inf.npy"], INVALID, r"inf\.npy: "), (["--deformed", "none.csv"], INVALID, r"none\.csv:2: there are no control points"),
+            (["--deformed", "mesh.json"], INVALID, "need positions"), (["--deformed", "gone.npy"], IO, r"gone\.npy"),
+            (["--deformed", ""], USAGE, "the name of a lattice"), (["--deformed", "a.obj"], INVALID, r"a\.obj"),
+            (["--deformed", "turned.npy", "--set", "X=1"], INVALID, "placeholder"), (["--deformed", "turned.npy", "--block", "0"], USAGE, "block")):
+        run.write("a.obj", CUBE)
+        run.ffd("lattice", "set", "a.json", *operations, "-o", "o.json", code=code, lines=1, err=re.compile(what))
+        check(not run.exists("o.json"), operations)
+    run.ffd("lattice", "convert", "a.json", "-o", "a.csv")
+    for operations in (["--add", "a.csv"], ["--blend", "a.csv,0.5"]):
+        run.ffd("lattice", "set", "a.json", *operations, "-o", "o.json", code=INVALID, lines=1,
+                err=re.compile("a\\.csv: is not JSON: of a table `ffd lattice convert` makes a lattice file"))
+    run.write("own.csv", "")
+    run.ffd("lattice", "set", "a.json", "--deformed", "own.csv", "-o", "own.csv", "--force", code=IO, lines=1, err=re.compile("is an input of this command"))
 
 
 @case
 def the_inverse_leads_back(run):
     for _ in range(repetitions(5)):
         write(run, "a.json", most=0.15)
-        change(run, "--invert", target="back.json")
+        change(run, "--invert", target="back.json", err=COVERS)
         near(carried(run, carried(run, PLACES, "a.json"), "back.json"), PLACES, 1e-13)
         # Refined and inverted, in either order, is the same map.
         run.ffd("lattice", "refine", "a.json", "-o", "fine.json", "--size", "7", "--force")
-        change(run, "--invert", source="fine.json", target="fine-back.json")
+        change(run, "--invert", source="fine.json", target="fine-back.json", err=re.compile("^fine.json: the inverse covers"))
         near(carried(run, carried(run, PLACES, "a.json"), "fine-back.json"), PLACES, 1e-13)
+    change(run, "--invert", "-q", target="back.json")
+    run.write("still.json", lattice())
+    equal(change(run, "--invert", source="still.json").get("deformed"), None, "nothing moves, and nothing is outside")
     run.write("a.json", lattice(moves=[{"at": [1, 1, 1], "by": [60, 0, 0]}]))
     run.ffd("lattice", "set", "a.json", "--invert", "-o", "n.json", code=INVALID, lines=1,
             err=re.compile(r"a\.json: the lattice folds at u,v,w = .*: it has no inverse there"))
@@ -224,16 +333,19 @@ def what_cannot_be_is_refused(run):
             ("a.json", ["--transform", "1,0,0,0,0,1,0,0,0,0,1,0,0,0,1,1"], USAGE, "the last row of the matrix is 0 0 1 1"),
             ("a.json", ["--move", "1,2"], USAGE, "three numbers"), ("a.json", ["--rotate", "90"], USAGE, "an axis and degrees"),
             ("a.json", ["--rotate", "y,90,1"], USAGE, "an axis and degrees"), ("a.json", ["--scale", ""], USAGE, "a factor"),
-            ("a.json", ["--seam", "C1"], USAGE, "C0, C1 or C2 and faces"), ("a.json", ["--seam", "C3:all"], USAGE, "C0, C1 or C2 and faces"),
-            ("a.json", ["--seam", "C1:u"], USAGE, "C0, C1 or C2 and faces"), ("a.json", ["--seam", "C1:u-,"], USAGE, "C0, C1 or C2 and faces"),
-            ("a.json", ["--seam", "1:all"], USAGE, "C0, C1 or C2 and faces"), ("closed.json", ["--seam", "C0:v+"], USAGE, "direction v is closed: it has no faces"),
-            ("a.json", ["--seam", "C1:w-,x+"], USAGE, "C0, C1 or C2 and faces"),
+            ("a.json", ["--seam", "C1"], USAGE, "--seam without faces holds those that a mesh cuts"), ("a.json", ["--seam", "none:u-"], USAGE, "not C0, C1 or C2"), ("a.json", ["--seam", "C3:all"], USAGE, "not C0, C1, C2 or none"),
+            ("a.json", ["--seam", "C1:u"], USAGE, "not C0, C1, C2 or none"), ("a.json", ["--seam", "C1:u-,"], USAGE, "not C0, C1, C2 or none"),
+            ("a.json", ["--seam", "1:all"], USAGE, "not C0, C1, C2 or none"), ("closed.json", ["--seam", "C0:v+"], USAGE, "direction v is closed: it has no faces"),
+            ("a.json", ["--seam", "C1:w-,x+"], USAGE, "not C0, C1, C2 or none"),
             ("low.json", ["--seam", "C1:u+,v-"], USAGE, "C1 needs degree 2 along v, which has degree 1"),
             ("a.json", ["--strength", "2", "--report", "r.json"], USAGE, "report"),
             ("a.json", ["--strength", "2", "--mesh", "a.obj"], USAGE, "--mesh cannot be used"),
             ("a.json", ["--scale", "0"], INVALID, "determinant of the matrix is 0"),
-            ("a.json", ["--blend", "finer.json,0.5"], INVALID, "differ in size: refine one of them"),
-            ("a.json", ["--add", "other.json"], INVALID, "differ in rest"), ("a.json", ["--add", "closed.json"], INVALID, "differ in knots"),
+            ("a.json", ["--transform", "1,2,3,0,4,5,6,0,7,8,9,0,0,0,0,1"], INVALID, "determinant of the matrix is 0"),
+            ("a.json", ["--move", "0,1e17,0"], INVALID, r"the box would have no extent along v there: it would reach from 1e\+17 to 1e\+17"),
+            ("a.json", ["--move", "1.7e308,0,0", "--scale", "2"], INVALID, "a.json: "),
+            ("a.json", ["--blend", "finer.json,0.5"], INVALID, "^finer.json: the two lattices differ in size: refine one of them"),
+            ("a.json", ["--add", "a.json", "--add", "other.json"], INVALID, "^other.json: the two lattices differ in rest"), ("a.json", ["--add", "closed.json"], INVALID, "differ in knots"),
             ("a.json", ["--add", "heavy.json"], INVALID, "differ in weights at rest"), ("a.json", ["--add", "none.json"], IO, "none.json"),
             ("closed.json", ["--mirror", "v"], INVALID, "direction v is closed"), ("odd.json", ["--mirror", "u"], INVALID, "the knots along u are not symmetric"),
             ("heavy.json", ["--mirror", "u"], INVALID, "the weights at rest are not symmetric along u"),
@@ -250,6 +362,8 @@ def what_cannot_be_is_refused(run):
     for words, code in ((["-o", "a.json", "--force"], IO), (["--add", "b.json", "-o", "b.json", "--force"], IO), (["-o", "o.obj"], USAGE), ([], USAGE)):
         write(run, "b.json")
         run.ffd("lattice", "set", "a.json", "--strength", "2", *words, code=code, lines=1, err=lambda lines: True)
+    # The determinant is no number of double, but not 0.
+    equal(change(run, "--scale", "1e-150", "--move", "0,0,0", "--scale", "1e150")["size"], [4, 5, 4])
     # A file name with a comma, and streams.
     run.write("b,c.json", run.read("a.json"))
     equal(offsets_of(change(run, "--blend", "b,c.json,0.25")), offsets_of(json.loads(run.text("a.json"))))

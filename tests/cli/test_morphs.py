@@ -6,10 +6,11 @@ import os
 import re
 import struct
 
+from animations import scalars, vectors
 from batches import batch, lines_of, start
 from gltf_build import SHEAR, SHIFT, Scene
 from gltf_reader import Gltf
-from harness import (CUBE, INVALID, NO, SANITIZED, USAGE, case, check, equal, float32, glb, glb_split, gltf_vectors,
+from harness import (CUBE, INVALID, NO, SANITIZED, USAGE, case, check, equal, float32, glb, glb_split,
                      lattice, main, near)
 from messages import anything
 
@@ -46,34 +47,9 @@ def deformed(run, *options, morphs=MORPHS, **expected):
     return glb_split(run.read("out.glb"))
 
 
-def read_all(asset, data, number):
-    """The vectors of an accessor of floats, which may be sparse or have no bytes at all."""
-    accessor = asset["accessors"][number]
-    rows = gltf_vectors(asset, data, number) if "bufferView" in accessor else [[0.0] * 3] * accessor["count"]
-    sparse = accessor.get("sparse")
-    if sparse:
-        indices, values = ({**part, "count": sparse["count"]} for part in (sparse["indices"], sparse["values"]))
-        code = {5121: "B", 5123: "H", 5125: "I"}[indices["componentType"]]
-        view = asset["bufferViews"][indices["bufferView"]]
-        places = struct.unpack_from(f"<{sparse['count']}{code}", data, view.get("byteOffset", 0) + indices.get("byteOffset", 0))
-        view = asset["bufferViews"][values["bufferView"]]
-        floats = struct.unpack_from(f"<{3 * sparse['count']}f", data, view.get("byteOffset", 0) + values.get("byteOffset", 0))
-        rows = list(rows)
-        for k, place in enumerate(places):
-            rows[place] = list(floats[3 * k:3 * k + 3])
-    return rows
-
-
-def scalars(asset, data, number):
-    accessor = asset["accessors"][number]
-    view = asset["bufferViews"][accessor["bufferView"]]
-    begin = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-    return list(struct.unpack_from(f"<{accessor['count']}f", data, begin))
-
-
 def offsets(asset, data, target):
     """The offsets of a target: attribute -> vectors."""
-    return {name: read_all(asset, data, number) for name, number in target.items()}
+    return {name: vectors(asset, data, number) for name, number in target.items()}
 
 
 def targets_of(asset, data):
@@ -540,8 +516,8 @@ def a_conversion_gets_all_targets(run):
             run.ffd("deform", "m.obj", "one.glb", "--force", "-l", file, "--as-morph", name, "-q", *extra)
             one, one_data = glb_split(run.read("one.glb"))
             equal([targets.get(name) for targets in found], [targets.get(name) for targets in targets_of(one, one_data)], name)
-            equal([read_all(asset, data, mesh["primitives"][0]["attributes"]["POSITION"]) for mesh in asset["meshes"]],
-                  [read_all(one, one_data, mesh["primitives"][0]["attributes"]["POSITION"]) for mesh in one["meshes"]])
+            equal([vectors(asset, data, mesh["primitives"][0]["attributes"]["POSITION"]) for mesh in asset["meshes"]],
+                  [vectors(one, one_data, mesh["primitives"][0]["attributes"]["POSITION"]) for mesh in one["meshes"]])
         equal([list(targets) for targets in found], [["corner", "all"], ["all"]])
         equal(clip_of(asset, data, "c"), {0: ([0, 1, 2], [[0, 0], [0, 1], [1, 0]]), 1: ([0, 1, 2], [[0], [1], [0]])})
     for name, options in (("out.gltf", ()), ("-", ("--output-format", "gltf"))):
@@ -568,7 +544,7 @@ def normals_at_corners(asset, data, name):
     """position -> the normal of the one mesh there, and its offset in the target."""
     attributes = asset["meshes"][0]["primitives"][0]["attributes"]
     offset, = targets_of(asset, data)[0][name]
-    rows = zip(*(read_all(asset, data, attributes[key]) for key in ("POSITION", "NORMAL")), offset["NORMAL"])
+    rows = zip(*(vectors(asset, data, attributes[key]) for key in ("POSITION", "NORMAL")), offset["NORMAL"])
     return {tuple(position): (tuple(normal), tuple(added)) for position, normal, added in rows}
 
 

@@ -6,29 +6,34 @@ import subprocess
 
 from harness import CUBE, LIMIT, SECONDS, USAGE, case, check, equal, lattice, main
 
-COMMANDS = ["deform", "check", "embed", "compare", "info", "view", "lattice new", "lattice refine", "lattice set", "lattice convert", "report merge",
+COMMANDS = ["deform", "check", "embed", "animate", "fit", "compare", "info", "view", "lattice new", "lattice refine", "lattice set", "lattice convert", "report merge",
             "report junit"]
 OPTIONS = {
-    "deform": {"--lattice", "--set", "--shared-box", "--out-dir", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--rig", "--only", "--space", "--embedding", "--as-morph", "--fail-on",
+    "deform": {"--lattice", "--set", "--shared-box", "--out-dir", "--outside", "--falloff", "--seam", "--snap", "--blocks", "--normals", "--rig", "--only", "--space", "--embedding", "--weight", "--as-morph", "--fail-on",
                "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict", "--allow-extension",
-               "--output-format", "--morph", "--clip", "--timeout"},
-    "check": {"--picture", "--camera", "--up", "--no-cage", "--lattice", "--set", "--shared-box", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--rig", "--only", "--space", "--embedding", "--as-morph", "--fail-on", "--resources",
-              "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict", "--allow-extension", "--timeout"},
+               "--output-format", "--morph", "--clip", "--timeout", "--time"},
+    "check": {"--picture", "--camera", "--up", "--no-cage", "--lattice", "--set", "--shared-box", "--outside", "--falloff", "--seam", "--snap", "--blocks", "--normals", "--rig", "--only", "--space", "--embedding", "--weight", "--as-morph", "--fail-on", "--resources",
+              "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict", "--allow-extension", "--timeout", "--time"},
     "embed": {"--lattice", "--set", "--output", "--status", "--space", "--snap", "--threads", "--force", "--input-format", "--memory", "--strict", "--allow-extension"},
-    "jacobian": {"--lattice", "--output", "--wrt", "--components", "--of", "--times", "--transposed", "--check", "--set", "--outside", "--falloff", "--snap", "--space",
-                 "--only", "--threads", "--isa", "--memory", "--allow-extension", "--strict", "--input-format", "--force"},
+    "jacobian": {"--lattice", "--output", "--wrt", "--components", "--of", "--times", "--transposed", "--check", "--set", "--outside", "--falloff", "--seam", "--snap", "--space",
+                 "--only", "--weight", "--threads", "--isa", "--memory", "--allow-extension", "--strict", "--input-format", "--force", "--time"},
+    "animate": {"--lattice", "--name", "--tolerance", "--targets", "--fps", "--set", "--outside", "--falloff", "--seam", "--snap", "--normals", "--space", "--only", "--weight", "--report",
+                "--report-stable", "--resources", "--depfile", "--force", "--if-changed", "--threads", "--isa", "--memory", "--timeout", "--allow-extension", "--strict"},
+    "fit": {"--output", "--pairs", "--handles", "--lattice", "--size", "--degree", "--knots", "--margin", "--axes", "--cover", "--smooth", "--within", "--weights", "--symmetric",
+            "--robust", "--fail-on", "--only", "--space", "--snap", "--set", "--time", "--report", "--report-stable", "--force", "--threads", "--isa", "--memory", "--timeout",
+            "--allow-extension", "--strict", "--input-format"},
     "compare": {"--recursive", "--tolerance", "--normal-tolerance", "--json", "--input-format", "--memory", "--strict"},
     "info": {"--json", "--parts", "--set", "--input-format", "--memory", "--strict"},
-    "view": {"--output", "--morph", "--size", "--camera", "--up", "--no-cage", "--color", "--frames", "--animation", "--full", "--lattice", "--set", "--shared-box", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--rig", "--only", "--space", "--embedding",
+    "view": {"--output", "--morph", "--size", "--camera", "--up", "--no-cage", "--color", "--frames", "--animation", "--full", "--lattice", "--set", "--shared-box", "--outside", "--falloff", "--seam", "--snap", "--blocks", "--normals", "--rig", "--only", "--space", "--embedding", "--weight",
              "--as-morph", "--fail-on", "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict",
-             "--allow-extension", "--timeout"},
+             "--allow-extension", "--timeout", "--time"},
     "lattice new": {"--output", "--size", "--degree", "--knots", "--margin", "--spacing", "--shape", "--axis", "--axes", "--only",
                     "--force", "--input-format", "--memory", "--strict", "--allow-extension"},
     "lattice refine": {"--output", "--size", "--insert", "--degree", "--set", "--mesh", "--only", "--space", "--threads", "--force", "--memory",
-                       "--strict", "--report", "--report-stable"},
-    "lattice set": {"--output", "--strength", "--blend", "--add", "--mirror", "--symmetrize", "--transform", "--move", "--rotate", "--scale",
-                    "--invert", "--seam", "--set", "--mesh", "--only", "--space", "--threads", "--force", "--memory", "--strict"},
-    "lattice convert": {"--output", "--part", "--size", "--degree", "--set", "--mesh", "--only", "--space", "--threads", "--force", "--memory", "--strict"},
+                       "--strict", "--report", "--report-stable", "--time"},
+    "lattice set": {"--output", "--block", "--deformed", "--deformed-offsets", "--strength", "--blend", "--add", "--mirror", "--symmetrize", "--transform", "--move", "--rotate", "--scale",
+                    "--invert", "--seam", "--set", "--mesh", "--only", "--space", "--threads", "--force", "--memory", "--strict", "--time"},
+    "lattice convert": {"--output", "--block", "--part", "--size", "--degree", "--order", "--set", "--mesh", "--only", "--space", "--threads", "--force", "--memory", "--strict", "--time"},
     "report merge": {"--output", "--interleave", "--force"},
     "report junit": {"--output", "--force"},
 }
@@ -99,7 +104,7 @@ def an_unknown_command_gets_the_nearest_one_proposed(run):
     refused(run, "report", "mrge", "a.json", says="report merge")
     refused(run, "help", "deform", "x", says="x")
     refused(run, "DEFORM", says="DEFORM")
-    for word in ("", "fit", "animate", "edit", "mesh"):
+    for word in ("", "mesh"):
         refused(run, word, says=f'unknown command "{word}" (ffd help lists the known ones)')
     for word in ("weave", ""):
         refused(run, "lattice", word, says=f'unknown command "lattice {word}" (ffd help lists the known ones)')
@@ -110,8 +115,7 @@ def an_unknown_command_gets_the_nearest_one_proposed(run):
 
 @case
 def commands_of_later_versions_are_absent(run):
-    for words in (["fit", "a.obj", "b.obj"],
-                  ["animate", "a.glb", "-l", "l.json"]):
+    for words in (["edit", "a.obj", "-o", "a.html"],):
         refused(run, *words, says="unknown command")
 
 
@@ -136,7 +140,7 @@ def an_unknown_option_gets_the_nearest_one_proposed(run):
 @case
 def options_of_later_versions_are_absent(run):
     work = files(run)
-    for option in ("--refine=0.1", "--seam=C1"):
+    for option in ("--refine=0.1",):
         refused(run, *work, option, says="unknown option")
 
 
@@ -149,7 +153,7 @@ def values_that_an_option_does_not_take_are_refused(run):
                           ("--memory", "1" * 5000), ("--input-format", "fbx"), ("--output-format", ""),
                           ("--threads", "0"), ("--threads", "-1"), ("--threads", "two"), ("--threads", "2x"),
                           ("--falloff", "0"), ("--falloff", "-1"), ("--falloff", "inf"), ("--falloff", "nan"),
-                          ("--falloff", "1m"), ("--falloff", ""), ("--snap", "-1"), ("--snap", "r"), ("--snap", "1" * 5000 + "x"), ("--embedding", ""), ("--fail-on", ""),
+                          ("--falloff", "1m"), ("--falloff", ""), ("--snap", "-1"), ("--snap", "r"), ("--snap", "1" * 5000 + "x"), ("--embedding", ""), ("--seam", ""), ("--seam", "C3"), ("--seam", "C1:"), ("--seam", "C1:x+"), ("--weight", ""), ("--weight", "1-"), ("--weight", "mask"), ("--weight", "color:x"), ("--fail-on", ""),
                           ("--fail-on", "fold"), ("--fail-on", "folds,"), ("--fail-on", "folds,,outside"),
                           ("--fail-on", "folds outside"), ("--fail-on", "OUTSIDE"), ("--fail-on", "x" * 5000),
                           ("--threads", "1.5"), ("--threads", " 2"), ("--threads", "+2"), ("--threads", ""),
@@ -163,8 +167,8 @@ def values_that_an_option_does_not_take_are_refused(run):
     refused(run, *work, "-jx", says='"x"')
     for option in ("--force", "--in-place", "--report-stable", "--quiet", "--verbose", "--help"):
         refused(run, *work, f"{option}=yes", says=option)
-    for option in ("--lattice", "-l", "--threads", "-j", "--outside", "--report", "--out-dir", "--falloff", "--snap", "--embedding",
-                   "--fail-on"):
+    for option in ("--lattice", "-l", "--threads", "-j", "--outside", "--report", "--out-dir", "--falloff", "--seam", "--snap", "--embedding",
+                   "--weight", "--fail-on"):
         refused(run, *work, option, says=option)
 
 

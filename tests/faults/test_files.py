@@ -14,7 +14,7 @@ import struct
 import zlib
 
 from harness import (INVALID, IO, LIMIT, NO, PNG, UNSUPPORTED, USAGE, case, check, equal, glb, glb_split, gltf_json, gltf_vectors, lattice,
-                     main, near)
+                     main, near, obj_vertices)
 from messages import anything, counts, entry, no_line, one_line
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -1039,6 +1039,28 @@ def an_stl_whose_count_was_not_filled_in(run):
     run.ffd("info", "m.stl")
     run.write("e.stl", b"x".ljust(80) + struct.pack("<I", 0))
     equal(run.ffd("info", "e.stl", "--json").json["vertices"], 0)
+
+
+@case
+def artist_24_a_lattice_of_blender_deforms_as_there(run):
+    """Its control points alone make another shape; converted it is Blender's, by what the pages say. With all types of Blender, and
+    through its scripts: tests/blender."""
+    use(run, "artist-24-lattice-of-blender")
+    of = json.loads(run.text("blender.json"))
+    low, high = of["rest"][0], of["rest"][-1]
+    middle, sides = [(a + b) / 2 for a, b in zip(low, high)], [b - a for a, b in zip(low, high)]
+    own = [[(x - m) / s for x, m, s in zip(p, middle, sides)] for p in of["deformed"]]
+    run.write("cage.json", {"lattice_points": of["size"], "lattice_object_location": middle, "lattice_object_rotation": [0, 0, 0], "lattice_object_scale": sides,
+                            "deformed_control_points": own})
+    run.write("plain.json", {"format": "ffd-lattice", "version": 1, "size": of["size"], "rest": {"points": of["rest"]}, "deformed": {"points": of["deformed"]}})
+    run.write("monkey.obj", "".join("v {!r} {!r} {!r}\n".format(*p) for p in of["before"]) + "p 1\n")
+    run.ffd("lattice", "convert", "cage.json", "-o", "L.json", lines=1, err=re.compile("--outside extend"))
+    found = {}
+    for name, more in (("L", ["--outside", "extend"]), ("plain", ["--snap", "1e-6"])):
+        run.ffd("deform", "monkey.obj", f"{name}.obj", "-l", f"{name}.json", *more, err=anything)
+        found[name] = max(abs(a - b) for p, q in zip(obj_vertices(run.text(f"{name}.obj")), of["after"]) for a, b in zip(p, q))
+    check(found["L"] <= 1e-6, found)
+    check(found["plain"] > 0.02, "its control points alone are no fault any more: compare something else", found)
 
 
 main()

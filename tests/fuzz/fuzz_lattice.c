@@ -79,6 +79,23 @@ static bool fit(ffd_lattice *lattice, const unsigned char *tail, size_t size)
     return status == FFD_OK;
 }
 
+/* Moves a lattice with keys to the middle of the first two. */
+static void set_time(ffd_lattice *lattice)
+{
+    const size_t count = ffd_lattice_get_keys(lattice, NULL);
+    double *const times = ffd_alloc(count > 0 ? count : 1, sizeof *times);
+    ffd_error error;
+    PROMISE(times && count != 1, "%zu keys", count);
+    PROMISE(ffd_lattice_get_keys(lattice, times) == count, "other keys");
+    const double time = count > 0 ? (times[0] + times[1]) / 2 : 0;
+    const ffd_status status = ffd_lattice_set_time(lattice, time, &error);
+    ffd_free(times);
+    if (count == 0)
+        PROMISE(status == FFD_E_ARGUMENT, "a time of a lattice without keys: status %d", status);
+    else if (status)
+        check_refusal(status, &error);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     const uint8_t *const end = size > 0 ? memchr(data, 0, size) : NULL;
@@ -100,6 +117,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (fit(lattice, tail, tail_size)) {
         probe of;
         probe_point points[PROBE_MOST];
+        set_time(lattice);
         probe_measure(lattice, &of);
         const size_t count = probe_points(&of, tail, tail_size, points);
         if (check_embedding(&of, points, count))

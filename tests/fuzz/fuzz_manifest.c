@@ -1,8 +1,8 @@
 /* fuzz_manifest.c - lines of a manifest, and the same text as a table: what comes of a line is a job, or
    one line that says what is wrong. */
-#include "batch/manifest/csv.h"
 #include "batch/manifest/manifest.h"
 #include "fuzz_target.h"
+#include "io/csv/csv.h"
 #include "job/input/settings.h"
 #include "mutate_text.h"
 #include "promise.h"

@@ -235,7 +235,7 @@ static double *deformed_positions(const trial *of, const uint8_t *data, size_t s
     mesh_document *document = trial_open_again(of, of->input, data, size);
     PROMISE(ffd_chain_load(&(chain_files){.lattices = lattices, .count = 1}, &(chain_outside){0},
                            FFD_ISA_AUTO, NULL, &chain, &error) == FFD_OK &&
-                ffd_chain_fit(&chain, document, 1, &error) == FFD_OK,
+                ffd_chain_fit(&chain, document, 1, NULL, &error) == FFD_OK,
             "no lattice");
     double *const deformed = malloc((size_t)ffd_mesh_vertex_count(document) * 3 * sizeof *deformed + 1);
     const mesh_pass pass = {

@@ -16,7 +16,7 @@ VERSION = re.search(r'^#define FFD_VERSION "(.*)"$', read("include/ffd/version.h
 # What of it programs are linked with.
 ABI = VERSION.rsplit(".", 1)[0]
 # From the folder of libraries.
-MODULES = [f"ffd-{ABI}/ffd-{name}.so" for name in ("draco", "image", "meshopt", "openmesh", "tinygltf")]
+MODULES = [f"ffd-{ABI}/ffd-{name}.so" for name in ("deflate", "draco", "image", "meshopt", "openmesh", "tinygltf")]
 
 
 def need(*tools):

@@ -23,6 +23,7 @@ def expected(installed):
         paths.append(f"{options['includedir']}/ffd/{os.path.basename(header)}")
     for schema in glob.glob(os.path.join(stage.ROOT, "data/**/*.schema.json"), recursive=True):
         paths.append(f"{options['datadir']}/ffd/{os.path.basename(schema)}")
+    paths += [f"{options['datadir']}/ffd/blender/{name}.py" for name in ("ffd_export", "ffd_import", "ffd_lattice_math")]
     notices = glob.glob(os.path.join(stage.ROOT, "data/packaging/licenses/*.txt"))
     paths += [f"{options['datadir']}/doc/ffd/{name}" for name in
               ("LICENSE", "THIRD-PARTY.md", *(f"licenses/{os.path.basename(notice)}" for notice in notices))]

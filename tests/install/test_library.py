@@ -84,7 +84,7 @@ def check_points_alone(place, findings):
     archive = os.path.join(place.environment["LD_LIBRARY_PATH"], "libffd.a")
     place.run(f"cc -std=c11 -o points_alone data/examples/c/deform_points.c $(pkg-config --cflags ffd) {archive} -lm -lpthread")
     needed = place.run("ldd points_alone")
-    for library in ("libstdc++", "libOpenMesh", "libdraco", "libpng", "libjpeg", "libwebp"):
+    for library in ("libstdc++", "libOpenMesh", "libdraco", "libpng", "libjpeg", "libwebp", "libz."):
         if library in needed:
             findings.append(f"a program of points.h alone needs {library}")
     place.run("./points_alone data/lattices/wave.json <points.txt >alone.txt")

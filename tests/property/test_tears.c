@@ -225,6 +225,7 @@ static void compare(const scene *s, draw *d, const double low[3], const double h
     const tear_question question = {.mesh = {.faces = &faces,
                                              .chain = &s->chain,
                                              .marks = {marks, count},
+                                             .planes = planes,
                                              .passes = s->chain.count > 1,
                                              .budget = &budget},
                                     .marks = marks,
@@ -266,11 +267,11 @@ static void show(const char *what, long cases, const found *f)
                   cases, f->edges, f->torn, f->missed, f->invented, f->wrong);
 }
 
-/* data/promises.md names what may be missed; a step may be that of another of two jumps, and what is thinner
-   than the plain way sees is none of its jumps. */
-static void judge(const found *f)
+/* data/promises.md names what may be missed: one jump in so many; a step may be that of another of two jumps,
+   and what is thinner than the plain way sees is none of its jumps. */
+static void judge(const found *f, size_t one_in)
 {
-    assert_true(f->missed <= 1 + f->torn / 50);
+    assert_true(f->missed <= 1 + f->torn / one_in);
     assert_true(f->invented <= f->torn / 100);
     assert_true(f->wrong <= 1 + f->torn / 50);
 }
@@ -321,7 +322,7 @@ static void bars_that_extend(void **state)
         show(bars[k].name, made, &f);
         add(&f, &all);
     }
-    judge(&all);
+    judge(&all, 50);
     (void)state;
 }
 
@@ -348,7 +349,7 @@ static void blocks(void **state)
             end_scene(&s);
         }
         show(notch ? "blocks with a notch" : "blocks", made, &f);
-        judge(&f);
+        judge(&f, 50);
     }
     (void)state;
 }
@@ -377,7 +378,37 @@ static void boxes_one_after_the_other(void **state)
         end_scene(&s);
     }
     show("boxes", made, &f);
-    judge(&f);
+    judge(&f, 50);
+    (void)state;
+}
+
+/* A bent bar in a box, before or after it: what the bar moves, and where it ends. Of edges that only pass
+   through the bar some pass where it is thin, and are missed. */
+static void a_bar_and_a_box(void **state)
+{
+    static const double low[3] = {-2.5, -2.5, -1.2}, high[3] = {2.5, 2.5, 1.2};
+    static text t;
+    draw d = {draw_seed()};
+    found f = {0};
+    double began = 0;
+    long made = 0;
+    for (; another_case(made, &began, is_memory_checked() ? 1 : 8, 200, 0.5); made++) {
+        scene s = begin_scene(false, false, 0);
+        const bool first = draw_unit(&d) < 0.5;
+        const bar *const bent = &bars[(size_t)(draw_unit(&d) * 2)];
+        for (int n = 0; n < 2; n++) {
+            if ((n == 0) == first)
+                bent_bar(&t, &d, bent->turns, bent->inner, bent->pitch, bent->degree, bent->count);
+            else
+                box(&t, &d, (const double[3]){-4, -4, -3}, (const double[3]){4, 4, 3}, false);
+            add_link(&s, &t);
+        }
+        finish_scene(&s, 0);
+        compare(&s, &d, low, high, 2, &f);
+        end_scene(&s);
+    }
+    show("a bar and a box", made, &f);
+    judge(&f, 15);
     (void)state;
 }
 
@@ -387,6 +418,7 @@ int main(void)
         cmocka_unit_test(bars_that_extend),
         cmocka_unit_test(blocks),
         cmocka_unit_test(boxes_one_after_the_other),
+        cmocka_unit_test(a_bar_and_a_box),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,6 @@
 """Lattices made of lattices: the methods of Lattice give the bytes of ffd lattice set and ffd lattice refine."""
 
+import json
 import os
 import tempfile
 import unittest
@@ -34,6 +35,34 @@ class Author(unittest.TestCase):
                 with open(out, encoding="utf-8") as file:
                     self.assertEqual(file.read(), made.text, words)
 
+    def test_right_answers(self):
+        """Those of reference cases, one of each kind."""
+        def case(name):
+            with open(os.path.join(support.SOURCE, "tests", "cli", "authoring", name + ".json"), encoding="utf-8") as file:
+                return json.load(file)
+
+        def lattice(source):
+            return ffd.Lattice.parse(json.dumps(source))
+
+        def near(found, expected, tolerance):
+            # u is the fastest in files, and the first axis of arrays.
+            found = np.asarray(found)
+            rows = found.transpose(2, 1, 0, 3).reshape(-1, 3) if found.ndim == 4 else found.transpose(2, 1, 0).reshape(-1)
+            self.assertLessEqual(np.abs(rows - np.array(expected)).max(), tolerance)
+
+        of = case("refine-elevate-clamped")
+        made, expect = lattice(of["lattice"]).refine(degree=(4, 4, 3)), of["expect"]
+        near(made.rest, expect["rest_points"], float(expect["tolerance"]))
+        near(made.deformed, expect["deformed_points"], float(expect["tolerance"]))
+        of = case("set-blend-weights")
+        made, expect = lattice(of["lattice"]).blend(lattice(of["other"]), 0.25), of["expect"]
+        near(made.offsets, expect["offsets"], float(expect["tolerance"]))
+        near(made.weights, expect["deformed_weights"], float(expect["tolerance"]))
+        of = case("seam-clamped-C1")
+        near(lattice(of["lattice"]).seal("C1", ["u-"]).deformed, of["expect"]["deformed_points_clamped"], float(of["expect"]["tolerance"]))
+        of = case("jitter-all")
+        near(lattice(of["lattice"]).offsets, of["expect"]["offsets"], 0)
+
     def test_tables_and_arrays(self):
         first = self.lattice()
         with tempfile.TemporaryDirectory() as folder:
@@ -53,12 +82,17 @@ class Author(unittest.TestCase):
             self.assertTrue((ffd.Lattice.load(array, degree=2).rest == first.rest).all())
             np.save(array, first.rest.transpose(2, 1, 0, 3).reshape(-1, 3).astype(">f8"))
             self.assertTrue((ffd.Lattice.load(array, size=(4, 5, 4)).rest == first.rest).all())
+            # Backwards along u, and with w as the fastest direction: the points tell the order.
+            np.save(array, np.asarray(first.rest)[::-1])
+            self.assertTrue((ffd.Lattice.load(array, order="auto").rest == first.rest).all())
+            self.assertEqual(ffd.convert_lattice(array, c, order="auto", force=True), [f"{array}: 4 x 5 x 4 control points along u, v, w"])
             first.refine(degree=4).save(b, part="rest")
             with self.assertLogs("ffd_mesh", "WARNING") as said:
                 self.assertEqual(len(ffd.convert_lattice(b, array, force=True)), 1)
             self.assertIn("not the knots of u, knots of v, knots of w", said.output[0])
             for call, error in ((lambda: first.save(array), ffd.ExistsError), (lambda: first.save(array, force=True), ffd.ArgumentError),
                                 (lambda: ffd.Lattice.load(array, size=3), ffd.ArgumentError), (lambda: ffd.Lattice.load(a, size=3), ValueError),
+                                (lambda: ffd.Lattice.load(array, size=(4, None, 4)), ffd.ArgumentError),
                                 (lambda: ffd.convert_lattice(a, "x.txt"), ffd.ArgumentError), (lambda: first.save(b, part="all"), ValueError),
                                 (lambda: ffd.Lattice.load(table, {"A": 1}), ffd.ArgumentError)):
                 with self.assertRaises(error):

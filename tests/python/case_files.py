@@ -60,6 +60,8 @@ class Files(unittest.TestCase):
         model = os.path.join(support.DATA, "models", "character.glb")
         for words, options in ((["--outside", "extend", "--falloff", "0.5"], {"outside": "extend", "falloff": 0.5}),
                                (["--snap", "0.01r"], {"snap": "0.01r"}),
+                               (["--seam", "C1"], {"seam": "C1"}), (["--seam", "C0:u-,w+"], {"seam": "C0:u-,w+"}),
+                               (["--seam", "C1:all"], {"seam": "C1:all"}), (["--seam", "C1:cut"], {"seam": "C1:cut"}),
                                (["--as-morph", "wide", "--space", "mesh"], {"as_morph": "wide", "space": "mesh"}),
                                (["--rig", "follow"], {"rig": "follow"}),
                                (["--only", "node:arm-left", "--resources", "reference"],
@@ -67,6 +69,26 @@ class Files(unittest.TestCase):
             support.program("deform", model, "theirs.glb", "-l", "part.json", "--force", *words)
             ffd.deform_file(model, "ours.glb", lattice, force=True, **options)
             self.assertTrue(filecmp.cmp("ours.glb", "theirs.glb", shallow=False), options)
+
+    def test_held_faces(self):
+        """Which are held is told as the report has it; the text of the option is checked here."""
+        lattice = part_of_spot()
+        lattice.save("part.json", force=True)
+        support.program("deform", SPOT, "theirs.obj", "-l", "part.json", "--seam", "C1", "--force", "--report", "r.json")
+        with open("r.json", encoding="utf-8") as file:
+            theirs = json.load(file)["jobs"][0]["seam"]
+        result = ffd.deform_file(SPOT, "ours.obj", lattice, seam="C1", force=True)
+        self.assertTrue(filecmp.cmp("ours.obj", "theirs.obj", shallow=False))
+        self.assertEqual({"continuity": result.seam.continuity, "faces": result.seam.faces}, theirs)
+        self.assertTrue(theirs["faces"][0])
+        self.assertTrue(any("the mesh cuts" in line for line in result.warnings))
+        self.assertEqual(ffd.check_file(SPOT, [lattice, TWIST], seam="C0:u+").seam.faces, [["u+"], ["u+"]])
+        self.assertIsNone(ffd.check_file(SPOT, lattice, seam="none").seam)
+        for wrong in ("C3", "c1", "C1:", "C1:x+", "C1:u+,", 1):
+            with self.assertRaises(ValueError):
+                ffd.check_file(SPOT, lattice, seam=wrong)
+        with self.assertRaisesRegex(ffd.ArgumentError, "C2 needs degree 3 along u"):
+            ffd.check_file(SPOT, ffd.Lattice.box((-1, -1, -1), (1, 1, 1), degree=2, size=4), seam="C2:u-")
 
     def test_several_morph_targets(self):
         lattice, clip = part_of_spot(), "bow: 0, 0.5 part=1, 1"
@@ -100,6 +122,7 @@ class Files(unittest.TestCase):
         lattice, points = part_of_spot(), support.rng("jacobian").uniform(-0.5, 0.5, (60, 3))
         with open("cloud.ply", "wb") as file:
             file.write(support.ply(points))
+        self.assertLess(ffd.jacobian_file("cloud.ply", "held.npz", lattice, check=True, seam="C1:u-,w+")["worst"], 1e-6)
         found = ffd.jacobian_file("cloud.ply", "j.npz", lattice, check=True)
         embedding = lattice.embed(points)
         B = lattice.basis(embedding)

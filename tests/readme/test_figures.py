@@ -307,9 +307,60 @@ def lattices_turned_for_z_up(place):
             sys.exit(f"{name}: turned for z up it moves a vertex {worst} away from where it belongs")
 
 
+def residual(place, *words):
+    """The largest of a fit."""
+    place.run("fit", *words, "-o", "found.json", "--report", "fit.json", "--force")
+    with open(place.path("fit.json"), encoding="utf-8") as file:
+        return json.load(file)["jobs"][0]["fit"]["residual"]["max"]
+
+
+def residuals_of_fits(place):
+    """Those that the recipes of fits have besides the lines that the program prints."""
+    data = os.path.join(place.source, "data")
+    subprocess.run([sys.executable, os.path.join(data, "make_refitter.py")], cwd=place.folder, check=True)
+    lattice, spot = {name: os.path.join(data, "lattices", f"{name}.json") for name in ("lean", "bulge")}, place.model("spot.obj")
+    place.run("lattice", "set", lattice["lean"], "-o", "stoop.json", "--mesh", "refit/body.glb", "--strength", "0.35")
+    place.run("deform", "refit/body.glb", "other.glb", "-l", "stoop.json", "-l", lattice["bulge"])
+    covers = ("--cover", "refit/clothes/tunic.glb", "--cover", "refit/clothes/hat.glb")
+    least, cloth, large = place.stated(r"comes within ([\d.]+) mm of the other one, and the tunic is made (\d+) mm off it\. "
+                                       r"With 6,6,6 control points the largest residual is ([\d.]+) mm")
+    for size, stated in (("12,12,12", least), ("6,6,6", large)):
+        near(1000 * residual(place, "refit/body.glb", "other.glb", *covers, "--size", size), stated, f"a body by {size}")
+    with open(os.path.join(data, "make_refitter.py"), encoding="utf-8") as file:
+        near(1000 * float(re.search(r'"tunic", .*?\(0\.62, 1\.43, 36, ([\d.]+)', file.read())[1]), cloth, "the tunic")
+    place.write("ears.json", re.search(r"```json ears\.json\n(.*?)```", place.pages, re.S)[1])
+    place.run("deform", spot, "posed.obj", "-l", "ears.json", "-l", lattice["lean"])
+    stated = place.stated(r"With the default size, 6,6,6, the largest residual is ([\d.]+), with 16,16,16 ([\d.]*\d)")
+    for size, number in zip(("6,6,6", "16,16,16"), stated):
+        near(residual(place, spot, "posed.obj", "--size", size), number, f"a cow by {size}")
+
+
+def aligned_scan(place):
+    """How far the whole scan is from the model, whose vertices it has."""
+    for language, name in (("json", "scan.json"), ("csv", "landmarks.csv")):
+        place.write(name, re.search(rf"```{language} {re.escape(name)}\n(.*?)```", place.pages, re.S)[1])
+    spot = place.model("spot.obj")
+    place.run("deform", spot, "scan.obj", "-l", "scan.json")
+    landmarks = ("--pairs", "landmarks.csv", "--cover", "scan.obj", "--size")
+
+    def off(size):
+        largest = residual(place, *landmarks, size)
+        place.run("deform", "scan.obj", "aligned.obj", "-l", "found.json", "--force")
+        distances = [math.dist(p, q) for p, q in zip(place.points(spot), place.points("aligned.obj"))]
+        return largest, math.sqrt(sum(x * x for x in distances) / len(distances)), max(distances)
+
+    mean, most = place.stated(r"which are known here, are ([\d.]+) off \(rms\) and ([\d.]+) at most")
+    coarse, fine = off("4,4,4"), off("8,8,8")
+    near(coarse[1], mean, "the scan, rms")
+    near(coarse[2], most, "the scan, at most")
+    near(fine[0], place.stated(r"8,8,8, bring the landmarks to ([\d.]+), and the scan no nearer")[0], "the landmarks")
+    if fine[1] < 0.9 * coarse[1] or fine[2] < coarse[2]:
+        sys.exit(f"more control points bring the scan nearer: {coarse}, {fine}")
+
+
 def main():
     checks = (turn_of_the_column, exact_corners, outer_layers, falloff_that_folds, errors_of_differences, sample_lattices_on_a_vase,
-              lattices_turned_for_z_up)
+              lattices_turned_for_z_up, residuals_of_fits, aligned_scan)
     for check in checks:
         with tempfile.TemporaryDirectory(prefix="ffd-test-") as folder:
             check(Place(*sys.argv[1:], folder))

@@ -6,7 +6,7 @@
     test_readme.py links SOURCE            links lead to files and headings, and README.md is short
 
 The build and the C example are run by tests/install/test_packages.py, in the source that a release is packed into.
-Blocks are fenced: ```sh (commands of the tutorial), ```sh build (those of the build), ```json NAME, ```csv NAME, ```ninja NAME,
+Blocks are fenced: ```sh (commands of the tutorial), ```sh build (those of the build), ```json NAME, ```csv NAME, ```prm NAME, ```ninja NAME,
 ```make NAME and ```c NAME (files). ```sh package and ```sh library are run by tests of tests/install,
 ```sh slurm, parallel and snakemake by those of tests/cluster, ```bat and ```powershell (data/windows.md) by tests/windows.
 Commands that stand indented are compared with a list: a new one must find its test here."""
@@ -21,7 +21,7 @@ import zlib
 
 # In the order in which a reader comes to them: a page may use the files of those before it.
 PAGES = ("README.md", "data/tutorial.md", "data/promises.md", "data/reference.md")
-LINKED = PAGES + ("CONTRIBUTING.md", "data/README.md", "data/python.md", "data/npm.md", "data/windows.md", "data/schema/formats.md", "data/schema/lattice.md", "src/README.md",
+LINKED = PAGES + ("CONTRIBUTING.md", "data/README.md", "data/python.md", "data/npm.md", "data/windows.md", "data/blender/README.md", "data/schema/formats.md", "data/schema/lattice.md", "src/README.md",
                   "tests/README.md")
 MOST_WORDS = 2500
 
@@ -83,8 +83,15 @@ def write(path, content):
         file.write(content)
 
 
+def check_fits(text, output):
+    """The lines of fits that the tutorial quotes were printed."""
+    for line in re.findall(r"`(fit: [^`]*)`", text):
+        if line not in output:
+            sys.exit(f"no command of the pages prints {line}")
+
+
 def tutorial(text, ffd, source):
-    count = 0
+    count, output = 0, ""
     with tempfile.TemporaryDirectory() as folder:
         data = os.path.join(folder, "data")
         shutil.copytree(os.path.join(source, "data"), data)
@@ -93,11 +100,12 @@ def tutorial(text, ffd, source):
         os.symlink(os.path.abspath(ffd), os.path.join(tools, "ffd"))
         environment = dict(os.environ, PATH=tools + os.pathsep + os.environ["PATH"])
         for language, name, content in blocks(text):
-            if language in ("json", "csv", "ninja", "make"):
+            if language in ("json", "csv", "prm", "ninja", "make"):
                 write(os.path.join(data, name), content)
             elif language == "sh" and not name:
-                run(content, data, environment)
+                output += run(content, data, environment)
                 count += len(content.strip().splitlines())
+    check_fits(read(source, "data/tutorial.md"), output)
     return count
 
 

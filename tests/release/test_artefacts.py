@@ -36,6 +36,7 @@ NAMES = {
     "macos": f"ffd-{VERSION}-macos-arm64.tar.xz",
     "source": f"ffd-{VERSION}.tar.xz",
     "npm": f"ffd-mesh-{VERSION}.tgz",
+    "blender": f"ffd_lattice-{VERSION}.zip",
     "deb": f"ffd_{VERSION}-1_amd64.deb",
 }
 MEGABYTE = 1_000_000
@@ -109,7 +110,7 @@ def check_static(out, name, emulator, *options):
     with tempfile.TemporaryDirectory() as folder:
         tree = unpack(out, NAMES[name], folder)
         for page in ("share/man/man1/ffd.1", "share/bash-completion/completions/ffd", "share/zsh/site-functions/_ffd",
-                     "share/doc/ffd/LICENSE", "share/doc/ffd/THIRD-PARTY.md", "share/doc/ffd/licenses/glibc.txt"):
+                     "share/doc/ffd/LICENSE", "share/doc/ffd/THIRD-PARTY.md", "share/doc/ffd/licenses/glibc.txt", "share/ffd/blender/ffd_export.py"):
             check(os.path.isfile(os.path.join(tree, page)), f"{name}: lacks {page}")
         program = os.path.join(tree, "bin/ffd")
         check(not needed(program) and "INTERP" not in run("readelf", "-lW", program), f"{name}: needs a loader or a library")
@@ -154,14 +155,14 @@ def do_jobs_in_wine(what, program, folder, options=()):
 def test_wheel_windows(out):
     """Without Python: its files, what they need, and the program."""
     path = os.path.join(out, NAMES["wheel-windows"])
-    check(os.path.getsize(path) <= 6 * MEGABYTE, f"wheel-windows: {os.path.getsize(path)} bytes")
+    check(os.path.getsize(path) <= 4 * MEGABYTE, f"wheel-windows: {os.path.getsize(path)} bytes")
     with tempfile.TemporaryDirectory() as folder:
         with zipfile.ZipFile(path) as archive:
             archive.extractall(folder)
             names = archive.namelist()
             (tag,) = [name for name in names if name.endswith(".dist-info/WHEEL")]
             check(b"Tag: cp311-abi3-win_amd64\n" in archive.read(tag) + b"\n", "wheel-windows: another tag")
-        for name, others in (("libffd.dll", set()), ("_native.pyd", {"python3.dll"}), ("ffd.exe", set())):
+        for name, others in (("libffd.dll", set()), ("_native.pyd", {"python3.dll"}), ("ffd.exe", {"libffd.dll"})):
             needs = imported(os.path.join(folder, "ffd_mesh", name))
             check(others <= needs <= WINDOWS | others, f"wheel-windows: {name} needs {sorted(needs)}")
         do_jobs_in_wine("wheel-windows", os.path.join(folder, "ffd_mesh/ffd.exe"), folder, ["--every", "10"])
@@ -187,7 +188,7 @@ def test_macos(out):
             check(os.path.isfile(os.path.join(package, "NOT-RUN")), f"{wheel}: does not say that it was not run")
             check_notices(names, wheel, ("llvm", "zig"))
             modules = glob.glob(os.path.join(package, f"ffd-{ABI}/*.so"))
-            check(len(modules) == 5, f"{wheel}: {len(modules)} modules")
+            check(len(modules) == 6, f"{wheel}: {len(modules)} modules")
             for library, wanted in shows.items():
                 path = os.path.join(package, library)
                 check_macos(path, processor)
@@ -362,6 +363,17 @@ def test_npm(out):
         with tarfile.open(os.path.join(out, NAMES["npm"])) as archive:
             archive.extractall(folder)
         do_jobs("npm", "node", os.path.join(folder, "package/bin/ffd-mesh.mjs"), options=("--without", "batch"))
+
+
+def test_blender(out):
+    """It holds the wheel of the same release. tests/blender installs and runs such a file."""
+    with zipfile.ZipFile(os.path.join(out, NAMES["blender"])) as archive:
+        check(f'version = "{VERSION}"' in archive.read("blender_manifest.toml").decode(), "blender: another version")
+        packed = archive.read(f"wheels/{NAMES['wheel']}")
+        check({entry.date_time for entry in archive.infolist()} == {(1980, 1, 1, 0, 0, 0)}, "blender: times")
+    if os.path.exists(os.path.join(out, NAMES["wheel"])):
+        with open(os.path.join(out, NAMES["wheel"]), "rb") as file:
+            check(file.read() == packed, "blender: another wheel")
 
 
 def main():

@@ -18,6 +18,7 @@ LAYERS = {
     "base/text": {"base", "base/memory", "base/vector"},
     "base/system": {"base", "base/memory", "base/text", "base/windows"},
     "io/npy": {"base", "base/file", "base/memory"},
+    "io/csv": {"base/text", "json"},
     "json": {"base", "base/memory", "base/text"},
     "splat": {"base", "base/vector"},
     "mesh": {"base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "json", "splat"},
@@ -47,6 +48,7 @@ LAYERS = {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/edit", "io/gltf/file",
         "io/gltf/model", "io/gltf/read", "io/gltf/write", "json", "mesh", "mesh/resource", "splat",
     },
+    "io/deflate": {"base", "base/system"},
     "io/openmesh": {"base/memory", "base/system", "base/vector", "mesh"},
     "io/text": {"base/file", "base/memory", "base/text", "mesh"},
     "io/obj/resource": {"base", "base/file", "base/memory", "base/text", "io/text", "mesh", "mesh/resource"},
@@ -72,8 +74,8 @@ LAYERS = {
     "spline": {"base", "base/memory", "base/text"},
     "lattice": {"base", "base/file", "base/memory", "base/text", "base/vector", "spline"},
     "author": {"base", "base/file", "base/memory", "base/system", "base/vector", "lattice", "spline"},
-    "lattice/file": {"base", "base/file", "base/memory", "base/text", "base/vector", "json", "lattice"},
-    "lattice/table": {"base", "base/file", "base/memory", "base/text", "io/npy", "lattice"},
+    "lattice/file": {"base", "base/file", "base/memory", "base/text", "base/vector", "json", "lattice", "lattice/formats"},
+    "lattice/formats": {"base", "base/file", "base/memory", "base/text", "base/vector", "io/deflate", "io/npy", "json", "lattice"},
     "lattice/tangent": {"base/memory", "base/vector", "lattice"},
     "embed/frame": {"base", "base/memory", "base/vector", "lattice", "spline"},
     "embed/boundary": {"base", "base/memory", "base/vector", "embed/frame", "lattice", "spline"},
@@ -81,6 +83,7 @@ LAYERS = {
     "embed/cells": {"base/memory", "base/vector", "embed/frame", "lattice", "spline"},
     "embed/direct": {"base", "base/memory", "base/vector", "embed/frame", "spline"},
     "embed": {"base", "base/memory", "base/vector", "embed/boundary", "embed/cells", "embed/direct", "embed/frame"},
+    "fit": {"author", "base", "base/memory", "base/system", "base/vector", "lattice", "points", "spline"},
     "fold/affine": {"base/vector", "lattice"},
     "fold": {"base", "base/memory", "base/system", "base/vector", "embed/frame", "fold/affine", "lattice", "spline"},
     "points": {
@@ -92,7 +95,7 @@ LAYERS = {
         "mesh",
     },
     "job/chain": {
-        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/boundary",
+        "author", "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/boundary",
         "embed/frame", "job/input", "lattice", "lattice/file", "mesh",
     },
     "job/figures": {"base/text", "mesh"},
@@ -105,6 +108,10 @@ LAYERS = {
         "base", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/frame", "io/openmesh",
         "job/chain", "job/figures", "job/input", "job/pass", "lattice", "mesh",
     },
+    "job/animate": {
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "job", "job/chain", "job/input", "json", "lattice",
+        "lattice/file", "mesh", "mesh/morph",
+    },
     "job/jacobian": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed/boundary", "io/npy",
         "job", "job/chain", "job/input", "job/judge", "job/pass", "lattice/tangent", "points",
@@ -114,11 +121,11 @@ LAYERS = {
         "job/measure", "job/pass", "job/report", "lattice", "lattice/file", "mesh", "view",
     },
     "job/author": {
-        "author", "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "job", "job/chain", "job/input", "job/report",
-        "lattice", "lattice/file", "lattice/table", "mesh",
+        "author", "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/csv", "io/npy", "job", "job/chain", "job/input", "job/pass",
+        "job/report", "lattice", "lattice/file", "lattice/formats", "mesh",
     },
     "batch/manifest": {
-        "base", "base/file", "base/memory", "base/system", "base/text", "io", "job/input", "json", "mesh",
+        "base", "base/file", "base/memory", "base/system", "base/text", "io", "io/csv", "job/input", "json", "mesh",
     },
     "batch/files": {"base/file", "base/memory", "base/text", "batch/manifest", "io"},
     "batch": {

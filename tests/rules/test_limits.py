@@ -10,7 +10,7 @@ LIMITS, REFERENCE = "data/promises.md", "data/reference.md"
 # or with commas.
 STATED = (
     (LIMITS, "| control points of a lattice | N |", "src/lattice/lattice.h", "FFD_MAX_CONTROL_POINTS"),
-    (LIMITS, "| lattices of a job | N |", "src/job/chain/chain_load.c", "MOST_LATTICES"),
+    (LIMITS, "| lattices of a job | N |", "include/ffd/result.h", "FFD_LATTICES_MOST"),
     (LIMITS, "OBJ (and normals), OFF, glTF (of its scene), conversions: N;", "src/io/obj/obj_document.h", "OBJ_ELEMENTS_MAX"),
     (LIMITS, "OBJ (and normals), OFF, glTF (of its scene), conversions: N;", "src/io/off/off_header.h", "OFF_VERTICES_MAX"),
     (LIMITS, "OBJ (and normals), OFF, glTF (of its scene), conversions: N;", "src/io/gltf/model/gltf_parts.c", "MOST_VERTICES"),

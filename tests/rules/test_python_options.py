@@ -13,6 +13,7 @@ COMMON = ("description", "library")
 STRUCTURES = {
     "ffd_deform_desc": ("job", "jobs"), "ffd_source": ("job", "jobs"), "ffd_view_desc": ("job", "views"),
     "ffd_compare_desc": ("job", "facts"), "ffd_info_desc": ("job", "facts"), "ffd_jacobian_desc": ("jacobian", "jacobian"),
+    "ffd_animate_desc": ("animate", "animate"),
 }
 
 

@@ -43,8 +43,8 @@ def statements(version, abi, build):
     for path in ("README.md", "data/promises.md", "data/reference.md", DEBIAN + "control"):
         for name in sorted(set(re.findall(r"\blibffd(\d[\d.]*\d)\b", tree.read(path)))):
             yield path, f"libffd{name}", library
-    for path in ("README.md", "data/python.md"):
-        for name in sorted(set(re.findall(r"\bffd(?:_mesh|-mesh|_|-|\d[\d.]*\d_)?[-_]?(\d+\.\d+\.\d+)\b", tree.read(path)))):
+    for path in ("README.md", "data/python.md", "data/blender/README.md"):
+        for name in sorted(set(re.findall(r"\bffd(?:_mesh|-mesh|_lattice|_|-|\d[\d.]*\d_)?[-_]?(\d+\.\d+\.\d+)\b", tree.read(path)))):
             yield path, name, version
 
 

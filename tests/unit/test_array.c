@@ -68,6 +68,19 @@ static void floats_are_read_and_rounded(void **state)
 }
 
 /* At any alignment, and without writing past the end. */
+static void check_span(const array_kernel *kernel, const uint32_t *values, size_t count)
+{
+    uint32_t least, greatest, low = UINT32_MAX, high = 0;
+    for (size_t i = 0; i < count; i++) {
+        low = values[i] < low ? values[i] : low;
+        high = values[i] > high ? values[i] : high;
+    }
+    if (count == 0)
+        return;
+    kernel->span(values, count, &least, &greatest);
+    assert_true(least == low && greatest == high);
+}
+
 static void whole_numbers_are_read(void **state)
 {
     draw d = {draw_seed()};
@@ -88,7 +101,26 @@ static void whole_numbers_are_read(void **state)
             assert_true(kernel->read_u32(bytes + at, count, read) == largest);
             assert_memory_equal(read, values, count * sizeof *read);
             assert_true(read[count] == 0);
+            check_span(kernel, values, count);
         }
+    }
+    (void)state;
+}
+
+static void magnitudes_are_of_finite_numbers(void **state)
+{
+    draw d = {draw_seed()};
+    for (int round = 0; round < ROUNDS; round++) {
+        const size_t count = (size_t)draw_int(&d, 0, MOST);
+        const bool tame = draw_int(&d, 0, 1);
+        double numbers[MOST], greatest = 0;
+        for (size_t i = 0; i < count; i++) {
+            numbers[i] = number(&d, tame);
+            greatest = isfinite(numbers[i]) ? fmax(greatest, fabs(numbers[i])) : greatest;
+        }
+        ffd_isa isa = FFD_ISA_AUTO;
+        for (const array_kernel *kernel; (kernel = next_kernel(&isa));)
+            assert_true(kernel->magnitude(numbers, count) == greatest);
     }
     (void)state;
 }
@@ -171,6 +203,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(floats_are_read_and_rounded),
         cmocka_unit_test(whole_numbers_are_read),
+        cmocka_unit_test(magnitudes_are_of_finite_numbers),
         cmocka_unit_test(boxes_are_widened),
         cmocka_unit_test(points_are_displaced),
     };

@@ -72,7 +72,7 @@ static void what_does_not_fit_is_refused(void **state)
     check_refused(&desc, "in needs a lattice (lattices)");
     jobs.lattices = &memory;
     jobs.lattice_count = 1;
-    check_refused(&desc, "lattices and embedding of a batch are files: its processes read them");
+    check_refused(&desc, "lattices, embedding and weight of a batch are files: its processes read them");
     jobs.lattices = files;
     check_refused(&desc, "in needs out_dir, in_place or positions");
     jobs.lattice_count = 2;

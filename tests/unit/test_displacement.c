@@ -25,11 +25,12 @@ static const char *const names[] = {"auto", "scalar", "sse2", "avx2", "avx512"};
 static ffd_lattice *random_lattice(draw *d, int number)
 {
     static const knot_kind kinds[] = {KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_UNIFORM, KNOTS_CLOSED};
+    const bool is_cell = number % 11 == 10; /* there is only one */
     knot_vector knots[3];
     for (int a = 0; a < 3; a++) {
         const int degree = number % 2 ? draw_int(d, 1, number % 5 ? 4 : 9) : 3;
-        const size_t points = (size_t)(degree + 2 + draw_int(d, 0, 6));
-        const knot_kind kind = kinds[draw_int(d, 0, 3)];
+        const size_t points = (size_t)(degree + 1 + (is_cell ? 0 : draw_int(d, 1, 7)));
+        const knot_kind kind = kinds[draw_int(d, 0, is_cell ? 2 : 3)];
         assert_int_equal(ffd_knots_make(kind, degree, points, NULL, 0, "uvw"[a], &knots[a], NULL), FFD_OK);
     }
     ffd_lattice *lattice = lattice_of_knots(knots);

@@ -87,6 +87,7 @@ static void fill(ffd_job_result *result)
     result->folds.is_known = result->rig.is_there = true;
     result->folds.verdict = FFD_FOLDS_UNKNOWN;
     result->folds.relative_to = FFD_FOLDS_TO_PLACE;
+    result->seam = (ffd_seam_figures){true, FFD_SEAM_C2, 3, {1, 0, 63}};
 }
 
 /* Writes a result, and reads it back. */
@@ -125,6 +126,10 @@ static void a_report_is_read_back(void **state)
     assert_true(read.has_flipped && read.rig.is_there && !read.folds.witness.is_there);
     assert_int_equal(read.folds.verdict, FFD_FOLDS_UNKNOWN);
     assert_int_equal(read.folds.relative_to, FFD_FOLDS_TO_PLACE);
+    assert_true(read.seam.is_there);
+    assert_int_equal(read.seam.continuity, FFD_SEAM_C2);
+    assert_int_equal(read.seam.count, 3);
+    assert_memory_equal(read.seam.faces, result.seam.faces, sizeof read.seam.faces);
 }
 
 static void what_is_not_known_is_null_or_absent(void **state)

@@ -597,20 +597,19 @@ static void other_jobs_take_memory_too(void **state)
         "{\"format\": \"ffd-lattice\", \"version\": 1, \"size\": [4, 4, 4], \"rest\": {\"box\": "
         "\"mesh\"}, \"moves\": [{\"at\": [1, 1, 1], \"by\": [1, 0, 0]}]}";
     ffd_refine_desc finer;
-    ffd_lattice_refine_desc refine;
+    ffd_author_desc refine;
     char refined[4096];
     ffd_refine_desc_init(&finer, sizeof finer);
-    ffd_lattice_refine_desc_init(&refine, sizeof refine);
+    ffd_author_desc_init(&refine, sizeof refine);
     snprintf(refined, sizeof refined, "%s/out/refined.json", folder);
     finer.size[1] = 6;
     refine.lattice = (ffd_lattice_source){.text = {text, sizeof text - 1}};
     refine.meshes = &b.desc.input;
     refine.mesh_count = 1;
-    refine.refine = &finer;
     refine.output = refined;
     refine.sink = take;
     refine.sink_user = &b.sink;
-    assert_int_equal(ffd_lattice_refine_run(&refine, NULL, NULL), FFD_OK);
+    assert_int_equal(ffd_lattice_refine_run(&refine, &finer, NULL, NULL), FFD_OK);
     ffd_shared_box *box;
     assert_int_equal(ffd_shared_box_create(&box, NULL), FFD_OK);
     assert_int_equal(ffd_shared_box_add(box, &b.desc, NULL), FFD_OK);
@@ -624,7 +623,7 @@ static void other_jobs_take_memory_too(void **state)
     assert_string_equal(ours, theirs);
     made.sink = refine.sink = NULL;
     assert_int_equal(ffd_lattice_new_run(&made, NULL), FFD_OK);
-    assert_int_equal(ffd_lattice_refine_run(&refine, NULL, NULL), FFD_OK);
+    assert_int_equal(ffd_lattice_refine_run(&refine, &finer, NULL, NULL), FFD_OK);
     check_same(&b.sink.files, "out");
     ffd_free(ours);
     ffd_free(theirs);

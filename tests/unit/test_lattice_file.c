@@ -235,7 +235,7 @@ static void bad_versions_sizes_degrees_and_weights_are_refused(void **state)
         {HEAD "\"a/b~c\":1}", FFD_E_INVALID,
          "f.json:1: /a~1b~0c: unknown key \"a/b~c\"; known ones are \"format\", \"version\", \"size\", "
          "\"degree\", \"knots\", \"rest\", \"weights\", "
-         "\"deformed\", \"units\", \"moves\", \"parameters\", \"comment\", \"name\""},
+         "\"deformed\", \"units\", \"moves\", \"parameters\", \"keys\", \"comment\", \"name\""},
         {HEAD UNIT "}", FFD_E_INVALID, "f.json:1: \"size\" is missing"},
         {HEAD "\"size\":[2,2,2]}", FFD_E_INVALID, "f.json:1: \"rest\" is missing"},
         {HEAD "\"size\":4," UNIT "}", FFD_E_INVALID,

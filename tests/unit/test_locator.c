@@ -8,6 +8,7 @@
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
 #include "../support/lattice_maps.h"
+#include "../support/locations.h"
 #include "../support/repetitions.h"
 #include "base/vector/vec.h"
 #include "embed/cells/cells.h"
@@ -772,9 +773,7 @@ static void draw_points(draw *d, const ffd_lattice *lattice, size_t count, doubl
 
 static void check_same(const ffd_location *a, const ffd_location *b, ffd_isa isa, const double p[3])
 {
-    if (memcmp(a->uvw, b->uvw, sizeof a->uvw) != 0 ||
-        memcmp(&a->residual, &b->residual, sizeof a->residual) != 0 || a->status != b->status ||
-        a->unresolved != b->unresolved || a->evaluations != b->evaluations || a->leaves != b->leaves)
+    if (!same_locations(a, b))
         fail_msg("instruction set %d: %.17g %.17g %.17g has status %d, u %.17g after %u evaluations, not %d, "
                  "%.17g, %u",
                  (int)isa, p[0], p[1], p[2], a->status, a->uvw[0], a->evaluations, b->status, b->uvw[0],

@@ -16,6 +16,9 @@
 #include "base/file/input.h"
 #include "base/memory/memory.h"
 #include <dirent.h>
+#include <ffd/animate.h>
+#include <ffd/fit.h>
+#include <ffd/jacobian.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -102,12 +105,110 @@ static ffd_status run_morphs(ffd_error *error)
     return ffd_deform_run(&desc, &result, error);
 }
 
+/* With values that have defaults too, and without: keys are looked for in both. */
+static ffd_status run_animate(ffd_error *error)
+{
+    static const char keys[] =
+        "{\"format\": \"ffd-lattice\", \"version\": 1, \"size\": [4, 4, 4], \"rest\": {\"box\": \"mesh\"}, "
+        "\"parameters\": {\"A\": {\"default\": 1}, \"F\": {\"default\": [1, 2, 1]}}, \"moves\": ["
+        "{\"twist\": {\"axis\": \"y\", \"degrees\": {\"$\": \"A\"}}}, {\"scale\": {\"factor\": {\"$\": "
+        "\"F\"}}}], "
+        "\"keys\": [{\"time\": 0, \"set\": {\"A\": 0}}, {\"time\": 0.05, \"set\": {\"A\": 30}}]}";
+    ffd_deform_desc animated = describe();
+    ffd_animate_desc desc;
+    const ffd_lattice_source source = {.path = "k.json", .text = {keys, sizeof keys - 1}};
+    ffd_animate_desc_init(&desc, sizeof desc);
+    char written[PATH];
+    path_of("animated.glb", written);
+    animated.lattices = &source;
+    animated.lattice_count = 1;
+    animated.output = written;
+    animated.output_format = FFD_FORMAT_AUTO;
+    desc.job = &animated;
+    const ffd_status status = ffd_animate_run(&desc, NULL, error);
+    if (!status)
+        unlink(written);
+    return status;
+}
+
 static ffd_status run_check(ffd_error *error)
 {
     ffd_deform_desc desc = describe();
     ffd_job_result result = {.struct_size = sizeof result};
     desc.outside = FFD_OUTSIDE_EXTEND;
     return ffd_check_run(&desc, &result, error);
+}
+
+/* Two squares, one of which leaves both lattices: a box, and a curved volume whose knots have to be
+   clamped. */
+static const char cut_mesh[] = "v -1 0.2 0.5\nv 0.5 0.2 0.5\nv 0.5 0.8 0.5\nv -1 0.8 0.5\nv 0.7 0.2 0.5\n"
+                               "v 0.7 0.8 0.5\nf 1 2 3 4\nf 2 5 6 3\n";
+static const char cut_box[] =
+    "{\"format\": \"ffd-lattice\", \"version\": 1, \"size\": [3, 2, 2], \"rest\": {\"box\": "
+    "{\"min\": [0, 0, 0], \"max\": [1, 1, 1]}}, \"moves\": [{\"by\": [0, 0, 0.125]}]}";
+static const char cut_curve[] =
+    "{\"format\": \"ffd-lattice\", \"version\": 1, \"size\": [3, 2, 2], \"degree\": [2, 1, 1], "
+    "\"knots\": [\"open\", \"clamped\", \"clamped\"], \"weights\": [1, 2, 1, 1, 2, 1, 1, 2, 1, 1, 2, 1], "
+    "\"rest\": {\"points\": [[-1, 0, 0], [0.5, 0, 0], [2, 0.25, 0], [-1, 1, 0], [0.5, 1, 0], [2, 1, 0], "
+    "[-1, 0, 1], [0.5, 0, 1], [2, 0.25, 1], [-1, 1, 1], [0.5, 1, 1], [2, 1, 1]]}, "
+    "\"moves\": [{\"by\": [0, 0, 0.125]}]}";
+
+static ffd_deform_desc describe_cut(const ffd_lattice_source *lattices, size_t count)
+{
+    ffd_deform_desc desc;
+    ffd_deform_desc_init(&desc, sizeof desc);
+    desc.input.path = "m.obj";
+    desc.input.bytes = (ffd_bytes){cut_mesh, sizeof cut_mesh - 1};
+    desc.lattices = lattices;
+    desc.lattice_count = count;
+    desc.seam = FFD_SEAM_C0;
+    desc.threads = 1;
+    return desc;
+}
+
+static const ffd_lattice_source cut_lattices[] = {
+    {.path = "b.json", .text = {cut_box, sizeof cut_box - 1}},
+    {.path = "c.json", .text = {cut_curve, sizeof cut_curve - 1}},
+};
+
+/* One after the other, and side by side. */
+static ffd_status run_seam(ffd_error *error)
+{
+    ffd_deform_desc desc = describe_cut(cut_lattices, 2);
+    ffd_job_result result = {.struct_size = sizeof result};
+    ffd_status status = ffd_check_run(&desc, &result, error);
+    if (!status)
+        assert_true(result.seam.faces[0] == 1 && result.seam.faces[1] == 1);
+    desc.blocks = true;
+    return status ? status : ffd_check_run(&desc, &result, error);
+}
+
+static ffd_status run_seam_of_one(ffd_error *error)
+{
+    const ffd_deform_desc desc = describe_cut(cut_lattices + 1, 1);
+    ffd_job_result result = {.struct_size = sizeof result};
+    return ffd_check_run(&desc, &result, error);
+}
+
+static ffd_status drop_output(void *user, const char *name, const void *bytes, size_t size)
+{
+    (void)user;
+    (void)name;
+    (void)bytes;
+    (void)size;
+    return FFD_OK;
+}
+
+static ffd_status run_jacobian(ffd_error *error)
+{
+    ffd_deform_desc cut = describe_cut(cut_lattices, 2);
+    ffd_jacobian_desc desc;
+    ffd_jacobian_desc_init(&desc, sizeof desc);
+    cut.sink = drop_output;
+    desc.job = &cut;
+    desc.output = "j.npz";
+    desc.check = true;
+    return ffd_jacobian_run(&desc, NULL, error);
 }
 
 static ffd_status run_embed(ffd_error *error)
@@ -148,37 +249,131 @@ static ffd_status run_lattice_refine(ffd_error *error)
     ffd_refine_desc finer;
     ffd_refine_desc_init(&finer, sizeof finer);
     finer.size[0] = finer.degree[1] = 3;
-    ffd_lattice_refine_desc desc;
-    ffd_lattice_refine_desc_init(&desc, sizeof desc);
+    ffd_author_desc desc;
+    ffd_refine_result result = {.struct_size = sizeof result};
+    ffd_author_desc_init(&desc, sizeof desc);
     desc.lattice = (ffd_lattice_source){.path = "l.json", .text = {box_text, sizeof box_text - 1}};
     desc.meshes = &source;
     desc.mesh_count = 1;
-    desc.refine = &finer;
-    desc.measure = true;
     desc.threads = 1;
-    desc.output = array; /* any name that is not a mesh's */
-    return ffd_lattice_refine_run(&desc, NULL, error);
+    char written[PATH];
+    path_of("finer.json", written);
+    desc.output = written;
+    const ffd_status status = ffd_lattice_refine_run(&desc, &finer, &result, error);
+    if (!status)
+        unlink(written);
+    return status;
 }
+
+/* Places that are dragged, one exactly. */
+static const char pairs_text[] = "px,py,pz,x,y,z,weight\n0.25,0.25,0.25,0.25,0.5,0.25,exact\n"
+                                 "0.5,0.75,0.5,0.5,0.75,0.625,2\n0.75,0.5,0.25,0.75,0.5,0.25,1\n";
+
+/* Runs a fit of a new box, with a report of its figures or without. */
+static ffd_status fit_box(ffd_fit_job *fit, ffd_fit_job_result *result, ffd_error *error)
+{
+    ffd_lattice_desc box;
+    ffd_author_desc desc;
+    char written[PATH];
+    ffd_lattice_desc_init(&box, sizeof box);
+    ffd_author_desc_init(&desc, sizeof desc);
+    path_of("fitted.json", written);
+    desc.threads = 1;
+    desc.output = written;
+    fit->job = &desc;
+    fit->lattice = &box;
+    const ffd_status status = ffd_fit_run(fit, result, error);
+    if (!status)
+        unlink(written);
+    return status;
+}
+
+static ffd_status run_fit(ffd_error *error)
+{
+    ffd_fit_job fit;
+    ffd_fit_job_result result = {.struct_size = sizeof result};
+    ffd_fit_job_init(&fit, sizeof fit);
+    fit.pairs_bytes = (ffd_bytes){pairs_text, sizeof pairs_text - 1};
+    return fit_box(&fit, &result, error);
+}
+
+static ffd_status run_fit_of_meshes(ffd_error *error)
+{
+    const ffd_source source = {.path = input};
+    ffd_fit_job fit;
+    ffd_fit_job_init(&fit, sizeof fit);
+    fit.before = fit.after = fit.cover = &source;
+    fit.cover_count = 1;
+    fit.symmetric = 1;
+    return fit_box(&fit, NULL, error);
+}
+
+/* A table of as many control points. */
+static const char table_text[] = "i,j,k,x,y,z,dx,dy,dz\n"
+                                 "0,0,0,0,0,0,0,0,0\n"
+                                 "1,0,0,1,0,0,0,0.01,0\n"
+                                 "0,1,0,0,1,0,0,0.01,0\n"
+                                 "1,1,0,1,1,0,0,0.02,0\n"
+                                 "0,2,0,0,2,0,0,0.02,0\n"
+                                 "1,2,0,1,2,0,0,0.03,0\n"
+                                 "0,0,1,0,0,1,0,0,0\n"
+                                 "1,0,1,1,0,1,0,0.01,0\n"
+                                 "0,1,1,0,1,1,0,0.01,0\n"
+                                 "1,1,1,1,1,1,0,0.02,0\n"
+                                 "0,2,1,0,2,1,0,0.02,0\n"
+                                 "1,2,1,1,2,1,0,0.03,0\n";
 
 static ffd_status run_lattice_set(ffd_error *error)
 {
     const ffd_lattice_source box = {.path = "l.json", .text = {box_text, sizeof box_text - 1}};
+    const ffd_lattice_source table = {.path = "l.csv", .text = {table_text, sizeof table_text - 1}};
     const ffd_operation operations[] = {{.kind = FFD_OPERATION_STRENGTH, .number = 0.5},
                                         {.kind = FFD_OPERATION_ADD, .other = box},
                                         {.kind = FFD_OPERATION_MIRROR, .direction = 1},
+                                        {.kind = FFD_OPERATION_DEFORMED_OFFSETS, .other = table},
+                                        {.kind = FFD_OPERATION_SEAL, .continuity = 0, .faces = 4},
                                         {.kind = FFD_OPERATION_ROTATE, .number = 30},
                                         {.kind = FFD_OPERATION_INVERT}};
     const ffd_source source = {.path = input};
-    ffd_lattice_set_desc desc;
-    ffd_lattice_set_desc_init(&desc, sizeof desc);
+    ffd_author_desc desc;
+    ffd_author_desc_init(&desc, sizeof desc);
     desc.lattice = box;
     desc.meshes = &source;
     desc.mesh_count = 1;
-    desc.operations = operations;
-    desc.operation_count = sizeof operations / sizeof *operations;
     desc.threads = 1;
-    desc.output = array;
-    return ffd_lattice_set_run(&desc, error);
+    char written[PATH];
+    path_of("changed.json", written);
+    desc.output = written;
+    const ffd_status status =
+        ffd_lattice_set_run(&desc, operations, sizeof operations / sizeof *operations, error);
+    if (!status)
+        unlink(written);
+    return status;
+}
+
+/* An array of 27 points, whose order is looked for, as a table. */
+static ffd_status run_lattice_convert(ffd_error *error)
+{
+    static const char head[] = "{'descr': '<f8', 'fortran_order': False, 'shape': (27, 3)}  \n";
+    unsigned char bytes[10 + sizeof head - 1 + 27 * 3 * sizeof(double)] = "\x93NUMPY\1";
+    ffd_convert_desc convert;
+    ffd_author_desc desc;
+    bytes[8] = sizeof head - 1;
+    memcpy(bytes + 10, head, sizeof head - 1);
+    for (int n = 0; n < 27; n++)
+        memcpy(bytes + 10 + sizeof head - 1 + 24 * n, (double[]){n % 3, n / 3 % 3, n / 9}, 24);
+    ffd_convert_desc_init(&convert, sizeof convert);
+    convert.size[0] = convert.size[1] = convert.size[2] = 3;
+    convert.order = FFD_ORDER_AUTO;
+    ffd_author_desc_init(&desc, sizeof desc);
+    desc.lattice = (ffd_lattice_source){.path = "l.npy", .text = {(const char *)bytes, sizeof bytes}};
+    char written[PATH];
+    path_of("written.csv", written);
+    desc.output = written;
+    const ffd_status status = ffd_lattice_convert_run(&desc, &convert, error);
+    if (!status)
+        unlink(written);
+    return status;
 }
 
 static ffd_status run_info(ffd_error *error)
@@ -281,8 +476,10 @@ static const struct {
 
 static void memory_of_ours(void **state)
 {
-    static job *const jobs[] = {run_deform,         run_convert,     run_check, run_embed,  run_lattice_new,
-                                run_lattice_refine, run_lattice_set, run_info,  run_compare};
+    static job *const jobs[] = {run_deform,          run_convert,        run_check,
+                                run_embed,           run_lattice_new,    run_fit,
+                                run_fit_of_meshes,   run_lattice_refine, run_lattice_set,
+                                run_lattice_convert, run_info,           run_compare};
     for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++) {
         take_input(inputs[i].format, inputs[i].name);
         for (size_t j = 0; j < sizeof jobs / sizeof *jobs; j++)
@@ -302,8 +499,10 @@ static void memory_of_morph_targets(void **state)
         take_input(models[i].format, models[i].name);
         assert_true(fail_everywhere(input, run_as_morph, ffd_alloc_fail_after) > 30);
         fail_everywhere(input, run_as_morph, cpp_fail_after);
-        if (i < 4 || i == 5) /* other formats allocate the same */
+        if (i < 4 || i == 5) { /* other formats allocate the same */
             assert_true(fail_everywhere(input, run_morphs, ffd_alloc_fail_after) > 60);
+            assert_true(fail_everywhere(input, run_animate, ffd_alloc_fail_after) > 60);
+        }
         unlink(input);
     }
     (void)state;
@@ -325,6 +524,14 @@ static void memory_of_cpp(void **state)
     }
     assert_true(failures > 100);
     (void)state;
+}
+
+static void memory_of_held_faces(void **state)
+{
+    (void)state;
+    assert_true(fail_everywhere("held faces", run_seam, ffd_alloc_fail_after) > 60);
+    assert_true(fail_everywhere("held faces of one lattice", run_seam_of_one, ffd_alloc_fail_after) > 60);
+    assert_true(fail_everywhere("derivatives", run_jacobian, ffd_alloc_fail_after) > 60);
 }
 
 /* Also placeholders: for numbers, an object, and a text that is not JSON. */
@@ -401,7 +608,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(memory_of_ours),    cmocka_unit_test(memory_of_morph_targets),
         cmocka_unit_test(memory_of_cpp),     cmocka_unit_test(memory_of_lattice_files),
-        cmocka_unit_test(memory_of_reports),
+        cmocka_unit_test(memory_of_reports), cmocka_unit_test(memory_of_held_faces),
     };
     if (argc != 2)
         return 2;

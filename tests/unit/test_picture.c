@@ -13,7 +13,7 @@
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "mesh/bounds.h"
-#include "mesh/positions.h"
+#include "mesh/twins.h"
 #include "picture/letters.h"
 #include "picture/surface.h"
 #include <stdio.h>
@@ -155,7 +155,7 @@ static void normals_break_at_creases_only(void **state)
     ffd_free(found.origins);
     ffd_free(found.triangles);
     uint32_t twins[800];
-    assert_int_equal(ffd_positions_twins(ball.positions, 800, twins, &error), FFD_OK);
+    assert_int_equal(ffd_positions_twins(ball.positions, 800, 1, twins, &error), FFD_OK);
     ball.mesh.twins = twins;
     assert_int_equal(ffd_surface_normals(&ball.mesh, 100, NULL, &found, &error), FFD_OK);
     assert_null(found.triangles);

@@ -65,6 +65,7 @@ static void set(ffd_deform_desc *desc, const char *setting)
         put(desc, member->offset, &pointer, sizeof pointer);
         return;
     case FFD_MEMBER_TEXT:
+    case FFD_MEMBER_WEIGHT:
     case FFD_MEMBER_OBJECT:
         put(desc, member->offset, &pointer, sizeof pointer);
         return;
@@ -92,6 +93,8 @@ static const char *const messages[][2] = {
      "--rig follow moves the shape itself, which --as-morph leaves"},
     {"rig = follow moves nodes, which have no place with input.space = mesh",
      "--rig follow moves nodes, which have no place with --space mesh"},
+    {"rig = follow cannot be used with weight: joints have no weights, and would leave the mesh",
+     "--rig follow cannot be used with --weight: joints have no weights, and would leave the mesh"},
     {"embedding works with one lattice, and not with blocks",
      "--embedding works with one lattice, and not with --blocks"},
     {"embedding works with one lattice, but several morphs are given",
@@ -186,6 +189,7 @@ static void a_number_out_of_its_range_is_refused_with_the_member(void **state)
         {"falloff", 0, -1, "the falloff -1 is not a length"},
         {"snap", 0, NAN, "the snap nan is not a length"},
         {"timeout", 0, -2, "the timeout -2 is not a time"},
+        {"seam", 4, 0, "4 is not a value of seam"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         ffd_deform_desc desc;
@@ -234,6 +238,10 @@ static const char *const texts[][2] = {
     {"if_changed", NULL},
     {"in_place", NULL},
     {"timeout", "1.5"},
+    {"time", "-0.25"},
+    {"weight", "1-w.npy"},
+    {"seam", "C2:all"},
+    {"seam", "C1:u+,w-"},
 };
 
 static void check_read(const ffd_deform_desc *desc)
@@ -247,8 +255,11 @@ static void check_read(const ffd_deform_desc *desc)
     assert_string_equal(desc->set[1].name, "B");
     assert_string_equal(desc->set[1].value, "x=y");
     assert_true(desc->snap > 0.2 && desc->snap < 0.3 && desc->snap_relative && desc->timeout > 1);
+    assert_true(desc->has_time && desc->time < -0.2);
     assert_int_equal(desc->fail_on, FFD_GATE_TEAR | FFD_GATE_FOLDS | FFD_GATE_FLIPPED | FFD_GATE_EDGES);
     assert_true(desc->tear_most < 1.5 && desc->flipped_most == 3 && desc->edges_most > 3);
+    assert_int_equal(desc->seam, FFD_SEAM_C1);
+    assert_int_equal(desc->seam_faces, 1U << 1 | 1U << 4);
     assert_int_equal(desc->lattice_count, 3);
     assert_string_equal(desc->lattices[0].path, "l");
     assert_string_equal(desc->lattices[2].path, "k");
@@ -256,6 +267,7 @@ static void check_read(const ffd_deform_desc *desc)
     assert_string_equal(desc->clips[0], "c: 0 n=1, 1 n=0");
     assert_string_equal(desc->only[1], "mesh:b");
     assert_string_equal(desc->as_morph, "a");
+    assert_string_equal(desc->weight.source, "1-w.npy");
 }
 
 /* A job that texts describe is the same after it was bytes, where its content leaves out what cannot change
@@ -287,9 +299,19 @@ static void settings_come_from_texts_and_go_through_bytes(void **state)
     other.input.memory = 0;
     other.force = other.if_changed = false;
     other.embedding.path = "f.npy"; /* its bytes count, not its name */
+    other.weight.source = "1-v.npy";
     ffd_settings_write(&other, SETTINGS_CONTENT, &idle);
     assert_int_equal(content.size, idle.size);
     assert_memory_equal(content.data, idle.data, content.size);
+    other.weight.source = "w.npy"; /* but whether it is inverted counts, */
+    idle.size = 0;
+    ffd_settings_write(&other, SETTINGS_CONTENT, &idle);
+    assert_true(content.size != idle.size);
+    other.weight.source = "1-joint:A"; /* and what is not a file */
+    idle.size = 0;
+    ffd_settings_write(&other, SETTINGS_CONTENT, &idle);
+    assert_true(content.size != idle.size);
+    other.weight.source = "1-w.npy";
     other.falloff = 0.75;
     idle.size = 0;
     ffd_settings_write(&other, SETTINGS_CONTENT, &idle);
@@ -303,6 +325,10 @@ static void settings_come_from_texts_and_go_through_bytes(void **state)
     ffd_buffer_free(&content);
     ffd_buffer_free(&idle);
 }
+
+#define WEIGHT_FORMS                                                                                         \
+    " (FILE.npy, attribute:NAME, color:r|g|b|a, joint:NAME or property:NAME, perhaps after 1-)"
+#define SEAM_FORM "is not C0, C1, C2 or none, alone or with faces (u-,v+,.. or all or cut), like C1:u-,v+"
 
 static void a_text_that_does_not_fit_is_refused_with_the_member(void **state)
 {
@@ -323,7 +349,23 @@ static void a_text_that_does_not_fit_is_refused_with_the_member(void **state)
         {"set", "=2", "set: \"=2\" is not NAME=VALUE"},
         {"morphs", "n=j", "morphs: \"n=j\" has the name of another morph target"},
         {"blocks", "yes", "blocks takes no value"},
+        {"seam", "C3", "seam: \"C3\" " SEAM_FORM},
+        {"seam", "C1:", "seam: \"C1:\" " SEAM_FORM},
+        {"seam", "C1:u", "seam: \"C1:u\" " SEAM_FORM},
+        {"seam", "C1:u+,", "seam: \"C1:u+,\" " SEAM_FORM},
+        {"seam", "C1:u+v+", "seam: \"C1:u+v+\" " SEAM_FORM},
+        {"seam", "none:x-", "seam: \"none:x-\" " SEAM_FORM},
         {"snap", NULL, "snap needs a value"},
+        {"weight", "joint:B", "weight is given twice: \"1-w.npy\" and \"joint:B\""},
+        {"weight", "", "weight: the value is empty"},
+        {"weight", "mask", "weight: \"mask\" is no source of weights" WEIGHT_FORMS},
+        {"weight", "-", "weight: \"-\" is no source of weights" WEIGHT_FORMS},
+        {"weight", "1-", "weight: \"1-\" is no source of weights" WEIGHT_FORMS},
+        {"weight", "group:arm", "weight: \"group:arm\" is no source of weights" WEIGHT_FORMS},
+        {"weight", "attribute:", "weight: \"attribute:\" names nothing" WEIGHT_FORMS},
+        {"weight", "1-joint:", "weight: \"1-joint:\" names nothing" WEIGHT_FORMS},
+        {"weight", "color:x", "weight: \"color:x\" names no channel" WEIGHT_FORMS},
+        {"weight", "color:rg", "weight: \"color:rg\" names no channel" WEIGHT_FORMS},
     };
     ffd_deform_desc desc;
     ffd_error error;
@@ -331,6 +373,7 @@ static void a_text_that_does_not_fit_is_refused_with_the_member(void **state)
     assert_int_equal(ffd_member_read(find("as_morph"), &desc, "a", NULL), FFD_OK);
     assert_int_equal(ffd_member_read(find("set"), &desc, "A=1", NULL), FFD_OK);
     assert_int_equal(ffd_member_read(find("morphs"), &desc, "n=k", NULL), FFD_OK);
+    assert_int_equal(ffd_member_read(find("weight"), &desc, "1-w.npy", NULL), FFD_OK);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         assert_int_equal(ffd_member_read(find(cases[i][0]), &desc, cases[i][1], &error), FFD_E_ARGUMENT);
         assert_string_equal(error.message, cases[i][2]);
@@ -339,6 +382,36 @@ static void a_text_that_does_not_fit_is_refused_with_the_member(void **state)
     assert_int_equal(desc.set_count, 1);
     assert_int_equal(desc.lattice_count, 1);
     ffd_deform_desc_clear(&desc);
+}
+
+static void a_seam_has_a_continuity_and_faces(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        ffd_seam seam;
+        unsigned faces;
+    } cases[] = {
+        {"C0", FFD_SEAM_C0, FFD_FACES_CUT},       {"C1:cut", FFD_SEAM_C1, FFD_FACES_CUT},
+        {"C2:all", FFD_SEAM_C2, FFD_FACES_ALL},   {"C1:u-", FFD_SEAM_C1, 1},
+        {"C0:w+,u-,w+", FFD_SEAM_C0, 1 | 1 << 5}, {"none", FFD_SEAM_NONE, FFD_FACES_CUT},
+        {"none:v+", FFD_SEAM_NONE, 1 << 3},
+    };
+    ffd_deform_desc desc;
+    ffd_error error;
+    ffd_deform_desc_init(&desc, sizeof desc);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        assert_int_equal(ffd_member_read(find("seam"), &desc, cases[i].text, NULL), FFD_OK);
+        assert_int_equal(desc.seam, cases[i].seam);
+        assert_int_equal(desc.seam_faces, cases[i].faces);
+        assert_int_equal(ffd_member_is_set(&desc, find("seam")), desc.seam != FFD_SEAM_NONE);
+        assert_int_equal(ffd_deform_desc_check(&desc, NULL), FFD_OK);
+    }
+    desc.seam_faces = FFD_FACES_ALL + 1;
+    assert_int_equal(ffd_deform_desc_check(&desc, &error), FFD_E_ARGUMENT);
+    assert_string_equal(error.message, "there are no faces 0x41");
+    assert_string_equal(ffd_seam_name(FFD_SEAM_C2), "C2");
+    assert_null(ffd_seam_name((ffd_seam)4));
 }
 
 static void only_the_text_of_a_message_names_members(void **state)
@@ -365,6 +438,7 @@ int main(void)
         cmocka_unit_test(a_number_out_of_its_range_is_refused_with_the_member),
         cmocka_unit_test(settings_come_from_texts_and_go_through_bytes),
         cmocka_unit_test(a_text_that_does_not_fit_is_refused_with_the_member),
+        cmocka_unit_test(a_seam_has_a_continuity_and_faces),
         cmocka_unit_test(only_the_text_of_a_message_names_members),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -128,7 +128,7 @@ static ffd_lattice *built(const sample *s, size_t component, double by, bool der
     static const fit_extent extent = {{-1, 0.5, -1}, {1, 2, 3}, {-0.9, 0.6, -1}, {1, 2, 2.5}};
     double value[3];
     char text[4096], set[200];
-    bool used;
+    bool used = false;
     lattice_spec *spec;
     ffd_lattice *lattice = NULL;
     ffd_error error = {0};
@@ -209,7 +209,7 @@ static void tangents_are_what_differences_say(void **state)
 static void refuse(const char *moves, const char *value, const char *pointer)
 {
     char text[1024];
-    bool used;
+    bool used = false;
     lattice_spec *spec;
     ffd_error error = {0};
     const int size = snprintf(text, sizeof text,

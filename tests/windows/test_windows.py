@@ -310,7 +310,7 @@ def test_package(folder):
 
 
 def check_linking(package):
-    for name, others, shows in (("libffd.dll", set(), "ffd_"), ("_native.pyd", {"python3.dll"}, "PyInit__native"), ("ffd.exe", set(), None)):
+    for name, others, shows in (("libffd.dll", set(), "ffd_"), ("_native.pyd", {"python3.dll"}, "PyInit__native"), ("ffd.exe", {"libffd.dll"}, None)):
         text = subprocess.run(["x86_64-w64-mingw32-objdump", "-p", os.path.join(package, name)], check=True, capture_output=True, text=True).stdout
         needed = set(re.findall(r"DLL Name: (\S+)", text))
         assert needed <= SYSTEM | others and others <= needed, f"{name} needs {sorted(needed)}"
