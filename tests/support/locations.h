@@ -1,4 +1,5 @@
-/* locations.h - compares what searches return by its members: padding between them has no value. Includes come after cmocka.h. */
+/* locations.h - compares what searches return by its members: padding between them has no value. Includes
+ * come after cmocka.h. */
 #ifndef FFD_TESTS_LOCATIONS_H
 #define FFD_TESTS_LOCATIONS_H
 

@@ -159,8 +159,7 @@ static void jobs_share_what_no_face_changes(void **state)
                 assert_int_equal(cached.job.seam.is_there, alone.job.seam.is_there);
                 assert_int_equal(cached.job.seam.continuity, alone.job.seam.continuity);
                 assert_int_equal(cached.job.seam.count, alone.job.seam.count);
-                assert_memory_equal(cached.job.seam.faces, alone.job.seam.faces,
-                                    sizeof alone.job.seam.faces);
+                assert_memory_equal(cached.job.seam.faces, alone.job.seam.faces, sizeof alone.job.seam.faces);
             }
         const cache_counts counts = ffd_job_cache_counts(cache);
         assert_int_equal(counts.reads, 1);
