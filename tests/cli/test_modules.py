@@ -178,7 +178,7 @@ def where_memory_is_short_a_run_says_so(run):
     write_inputs(run)
     for name in ("plain.glb", "draco.glb", "meshopt.glb"):
         codes = set()
-        for kilobytes in range(6000, 28000, 250):
+        for kilobytes in range(6000, 40000, 350):
             limit = kilobytes * 1024
             done = subprocess.run([FFD, "info", name], cwd=run.folder, capture_output=True, text=True, check=False, timeout=SECONDS,
                                   preexec_fn=lambda limit=limit: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
