@@ -18,8 +18,9 @@ export function launch(args = []) {
 }
 
 // A page that is open, in a window of its own. At its end nothing was asked for but what is allowed, or said to the console.
+// options.profile: a context to open it in, which stays: pages of one profile find what the ones before have stored.
 export async function watch(browser, url, isAllowed, options) {
-  const context = await browser.newContext(options);
+  const context = options.profile || await browser.newContext(options);
   const page = await context.newPage();
   const said = [];
   page.on('console', (message) => said.push('console: ' + message.text()));
@@ -31,7 +32,7 @@ export async function watch(browser, url, isAllowed, options) {
   const end = async () => {
     assert.deepEqual(said, []);
     if (process.env.FFD_SCREENSHOTS) await page.screenshot({path: join(process.env.FFD_SCREENSHOTS, `${options.name}.png`)});
-    await context.close();
+    await (options.profile ? page : context).close();
   };
   return {page, end, said};
 }
