@@ -470,6 +470,33 @@ FFD_API void ffd_view_desc_init(ffd_view_desc *desc, size_t size);
    Returns result->status. Errors: any. */
 FFD_API ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error);
 
+/* A job of `ffd edit`: a web page in which a lattice is shaped by hand. */
+typedef struct ffd_edit_desc {
+    size_t struct_size; /* sizeof(ffd_edit_desc) in the caller's header */
+    /* The mesh, and lattices of which the last is edited; lattice_count may be 0. Of the other members only,
+       outside, falloff, snap, space (of the mesh), set, time, isa, threads, timeout, progress, cancel, log
+       and written apply. The mesh is shown with the default weights of its morph targets, and without
+       animations. */
+    const ffd_deform_desc *job;
+    /* Without lattices: the new one, laid round the mesh or what `only` leaves of it; NULL: defaults. With
+       lattices it must be NULL. */
+    const ffd_lattice_desc *lattice;
+    const char *output; /* .html */
+    bool force;         /* overwrite an existing output */
+    bool full; /* show all vertices; else a mesh of more than 200,000 is simplified, and the page says so */
+    ffd_up up; /* the axis that points upwards; the mesh stays as it is. Default FFD_UP_Y */
+    ffd_sink_function sink; /* as ffd_deform_desc.sink; job->sink is ignored */
+    void *sink_user;
+} ffd_edit_desc;
+
+/* Sets desc to defaults. size: sizeof(ffd_edit_desc) in the caller's header. */
+FFD_API void ffd_edit_desc_init(ffd_edit_desc *desc, size_t size);
+/* Runs the job. The output is complete or absent. A missing or broken image of the mesh is left out, with a
+   warning. The memory budget of the mesh is by default at least 400 MB. Of result are filled: vertices,
+   inside, outside, seconds, picture (the page) and status. Thread-safe. Returns result->status. Errors: any
+   but FFD_E_GATE. */
+FFD_API ffd_status ffd_edit_run(const ffd_edit_desc *desc, ffd_job_result *result, ffd_error *error);
+
 /* A job of `ffd embed`: writes the u,v,w of all vertices to output (.npy version 1.0, float64, N x 3, C
    order, NaN without u,v,w), and their statuses to status_output (.npy, uint8, N). A lattice whose box is
    "mesh" is fitted to the mesh. */

@@ -28,7 +28,7 @@ typedef struct cli_command {
 
 /* The commands, each in the source file of its name. */
 extern const cli_command cli_animate, cli_batch, cli_deform, cli_check, cli_embed, cli_compare, cli_fit,
-    cli_info, cli_lattice_new, cli_lattice_convert, cli_lattice_refine, cli_lattice_set, cli_view,
+    cli_edit, cli_info, cli_lattice_new, cli_lattice_convert, cli_lattice_refine, cli_lattice_set, cli_view,
     cli_jacobian, cli_report_merge, cli_report_junit;
 
 /* Prints the help of a command to stdout. */

@@ -1,4 +1,5 @@
 /* lattice_new.c - the job of `ffd lattice new`. */
+#include "job/lattice_new.h"
 #include "base/file/mapping.h"
 #include "base/memory/memory.h"
 #include "base/struct_size.h"
@@ -109,9 +110,10 @@ static ffd_status list_points(const ffd_lattice_new_desc *desc, place_list *poin
     return FFD_OK;
 }
 
-static ffd_status create_round(const ffd_lattice_new_desc *desc, ffd_lattice **lattice, ffd_error *error)
+ffd_status ffd_lattice_new_round(const ffd_lattice_new_desc *desc, ffd_lattice **lattice, ffd_error *error)
 {
     place_list points = {0};
+    TRY(check_memory(desc, error));
     const unsigned losses = ffd_mapping_losses();
     ffd_status status;
     TRY_END(ffd_mapping_judge(losses, list_points(desc, &points, error), error));
@@ -180,8 +182,7 @@ ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *callers, ffd_error *e
     ffd_status status;
     TRY_END(take_memory(&memory, &own, &meshes, error));
     TRY_END(check_desc(desc, error));
-    TRY_END(check_memory(desc, error));
-    TRY_END(create_round(desc, &lattice, error));
+    TRY_END(ffd_lattice_new_round(desc, &lattice, error));
     TRY_END(save(desc, lattice, error));
 end:
     status = ffd_in_memory_end(&memory, status, error);

@@ -23,6 +23,7 @@ typedef struct page_work {
     page_images images;
     page_rig rig;
     page_targets targets;
+    page_edit edit;
     page_description description;
     bool *has_cage;
     page_writer writer;
@@ -131,9 +132,13 @@ static ffd_status prepare(page_work *work, ffd_error *error)
 {
     TRY(ffd_page_mesh_take(work->scene, &work->mesh, error));
     const size_t used = ffd_page_mesh_mark(&work->mesh);
-    if (!work->options->full)
+    if (!work->options->full && used > VIEW_PAGE_VERTICES) {
         TRY(ffd_page_reduce(&work->mesh, VIEW_PAGE_VERTICES, error));
+        ffd_free(work->mesh.continues); /* a triangle is no longer a part of one polygon */
+        work->mesh.continues = NULL;
+    }
     TRY(ffd_page_mesh_index(&work->mesh, error));
+    TRY(ffd_page_edit_make(&work->mesh, &work->edit, error));
     ffd_page_data_measure(&work->mesh, &work->data);
     log_omissions(work, used);
     TRY(make_textures(work, error));
@@ -180,6 +185,7 @@ static void write_data(page_work *work)
     ffd_page_images_write(&work->images, &work->writer);
     ffd_page_rig_write(&work->rig, &work->writer);
     ffd_page_targets_write(&work->targets, &work->writer);
+    ffd_page_edit_write(&work->edit, &work->writer);
     for (size_t i = 0; i < scene->cage_count; i++) {
         char id[40];
         snprintf(id, sizeof id, "data-cage-%zu", i);
@@ -187,6 +193,17 @@ static void write_data(page_work *work)
             ffd_page_data_write_cage(&scene->cages[i], id, &work->writer);
     }
 }
+
+/* The title goes between the first two, the data between the last two. */
+typedef struct page_pieces {
+    const unsigned char *start, *middle, *end;
+    const size_t *start_size, *middle_size, *end_size;
+} page_pieces;
+
+static const page_pieces view_page = {ffd_page_start,       ffd_page_middle,       ffd_page_end,
+                                      &ffd_page_start_size, &ffd_page_middle_size, &ffd_page_end_size};
+static const page_pieces edit_page = {ffd_edit_start,       ffd_edit_middle,       ffd_edit_end,
+                                      &ffd_edit_start_size, &ffd_edit_middle_size, &ffd_edit_end_size};
 
 ffd_status ffd_view_page_write(const view_scene *scene, const view_page_options *options, file_output *output,
                                ffd_error *error)
@@ -197,15 +214,17 @@ ffd_status ffd_view_page_write(const view_scene *scene, const view_page_options 
     work.description.images = &work.images;
     work.description.rig = &work.rig;
     work.description.targets = &work.targets;
+    work.description.edit = &work.edit;
     work.description.options = options;
     ffd_status status;
     TRY_END(prepare(&work, error));
     if (!ffd_page_writer_begin(&work.writer, output, error)) {
-        ffd_page_write(&work.writer, ffd_page_start, ffd_page_start_size);
+        const page_pieces *const page = scene->edit ? &edit_page : &view_page;
+        ffd_page_write(&work.writer, page->start, *page->start_size);
         write_title(&work);
-        ffd_page_write(&work.writer, ffd_page_middle, ffd_page_middle_size);
+        ffd_page_write(&work.writer, page->middle, *page->middle_size);
         write_data(&work);
-        ffd_page_write(&work.writer, ffd_page_end, ffd_page_end_size);
+        ffd_page_write(&work.writer, page->end, *page->end_size);
     }
     TRY_END(ffd_page_writer_end(&work.writer));
 end:
@@ -214,6 +233,7 @@ end:
     ffd_page_mesh_free(&work.mesh);
     ffd_page_rig_free(&work.rig);
     ffd_page_targets_free(&work.targets);
+    ffd_page_edit_free(&work.edit);
     ffd_free(work.has_cage);
     return status;
 }

@@ -147,8 +147,10 @@ void ffd_page_data_write(const page_data *data, page_writer *w)
 {
     const page_mesh *const mesh = data->mesh;
     const view_scene *const scene = mesh->scene;
-    ffd_page_write_block(w, "data-before", mesh->vertex_count, 6, fill_before, data);
-    ffd_page_write_block(w, "data-move", mesh->vertex_count, 6, fill_moves, data);
+    if (!scene->edit) { /* else in doubles (page_edit.h) */
+        ffd_page_write_block(w, "data-before", mesh->vertex_count, 6, fill_before, data);
+        ffd_page_write_block(w, "data-move", mesh->vertex_count, 6, fill_moves, data);
+    }
     if (scene->statuses)
         ffd_page_write_block(w, "data-status", mesh->vertex_count, 1, fill_statuses, data);
     if (scene->dets)
@@ -165,10 +167,13 @@ void ffd_page_data_write(const page_data *data, page_writer *w)
     ffd_page_write_block(w, "data-point", mesh->point_count, 4, fill_points, data);
 }
 
+/* Bytes of a control point. */
+#define CAGE_POINT 48
+
 static void fill_cage(const void *of, size_t first, size_t count, unsigned char *bytes)
 {
     const view_cage *const cage = of;
-    for (size_t p = first; p < first + count; p++, bytes += PAGE_ELEMENT)
+    for (size_t p = first; p < first + count; p++, bytes += CAGE_POINT)
         for (size_t a = 0; a < 3; a++) {
             store_double(bytes + 8 * a, cage->rest[3 * p + a]);
             store_double(bytes + 24 + 8 * a, cage->deformed[3 * p + a]);
@@ -177,5 +182,5 @@ static void fill_cage(const void *of, size_t first, size_t count, unsigned char 
 
 void ffd_page_data_write_cage(const view_cage *cage, const char *id, page_writer *w)
 {
-    ffd_page_write_block(w, id, cage->size[0] * cage->size[1] * cage->size[2], PAGE_ELEMENT, fill_cage, cage);
+    ffd_page_write_block(w, id, cage->size[0] * cage->size[1] * cage->size[2], CAGE_POINT, fill_cage, cage);
 }

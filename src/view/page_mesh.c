@@ -102,6 +102,7 @@ static void take_texcoords(const view_scene *scene, size_t triangle, float *to)
 static void take_part(page_mesh *mesh, size_t first, size_t count, bool has_texture, page_part *part)
 {
     const view_scene *const scene = mesh->scene;
+    size_t drawn = first; /* the triangle before it is drawn if this is its number */
     part->first_triangle = mesh->triangle_count;
     for (size_t t = first; t < first + count; t++) {
         const uint32_t *const corners = scene->triangles + 3 * t;
@@ -111,6 +112,9 @@ static void take_part(page_mesh *mesh, size_t first, size_t count, bool has_text
         }
         if (mesh->flipped)
             mesh->flipped[mesh->triangle_count] = scene->flipped[t] != 0;
+        if (mesh->continues)
+            mesh->continues[mesh->triangle_count] = scene->continues[t] && t > first && drawn == t;
+        drawn = t + 1;
         if (has_texture)
             take_texcoords(scene, t, mesh->texcoords + 3 * mesh->texcoord_width * mesh->triangle_count);
         memcpy(mesh->triangles + 3 * mesh->triangle_count++, corners, 3 * sizeof *corners);
@@ -131,6 +135,7 @@ static bool allocate(page_mesh *mesh, size_t triangles, size_t points)
     const view_scene *const scene = mesh->scene;
     mesh->triangles = ffd_alloc(triangles, 3 * sizeof *mesh->triangles);
     mesh->flipped = scene->flipped ? ffd_alloc(triangles, 1) : NULL;
+    mesh->continues = scene->continues ? ffd_alloc(triangles, 1) : NULL;
     mesh->texcoord_width = !has_textures(scene) ? 0 : scene->glow_texcoords ? 4 : 2;
     const size_t texcoords = 3 * mesh->texcoord_width;
     mesh->texcoords = texcoords ? ffd_alloc_sparse(triangles, texcoords * sizeof *mesh->texcoords) : NULL;
@@ -138,8 +143,8 @@ static bool allocate(page_mesh *mesh, size_t triangles, size_t points)
     mesh->segments = ffd_alloc(scene->segment_count, 2 * sizeof *mesh->segments);
     mesh->points = ffd_alloc(points, sizeof *mesh->points);
     mesh->places = ffd_alloc(scene->vertex_count, sizeof *mesh->places);
-    return mesh->triangles && (mesh->flipped || !scene->flipped) && (mesh->texcoords || !texcoords) &&
-           mesh->parts && mesh->segments && mesh->points && mesh->places;
+    return mesh->triangles && (mesh->flipped || !scene->flipped) && (mesh->continues || !scene->continues) &&
+           (mesh->texcoords || !texcoords) && mesh->parts && mesh->segments && mesh->points && mesh->places;
 }
 
 /* Counts the triangles of all parts, which may overlap. Returns SIZE_MAX on overflow. */
@@ -237,7 +242,7 @@ size_t ffd_page_corner_list(uint32_t vertex, const float *texcoords, size_t widt
 
 void ffd_page_mesh_free(page_mesh *mesh)
 {
-    void *const blocks[] = {mesh->triangles, mesh->flipped, mesh->texcoords, mesh->parts,
+    void *const blocks[] = {mesh->triangles, mesh->flipped, mesh->continues, mesh->texcoords, mesh->parts,
                             mesh->segments,  mesh->points,  mesh->vertices,  mesh->places};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
         ffd_free(blocks[i]);

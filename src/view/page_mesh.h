@@ -14,6 +14,7 @@ typedef struct page_mesh {
     const view_scene *scene;
     uint32_t *triangles;   /* 3 indices each, part by part */
     uint8_t *flipped;      /* one flag a triangle, or NULL */
+    uint8_t *continues;    /* as the scene has them; NULL: unknown, also of a mesh that is simplified */
     float *texcoords;      /* texcoord_width a corner, zeros where no texture is shown; NULL: none is */
     size_t texcoord_width; /* 2, or 4 with those of the emission; 0: none */
     size_t triangle_count;

@@ -203,6 +203,7 @@ void ffd_page_describe(const page_description *page, byte_buffer *out)
     if (ffd_page_rig_is_there(page->rig))
         ffd_page_rig_describe(page->rig, &json);
     ffd_page_targets_describe(page->targets, &json);
+    ffd_page_edit_describe(page->edit, &json);
     ffd_json_array(&json, "notices", false);
     for (size_t i = 0; i < page->notice_count; i++)
         ffd_json_string(&json, NULL, page->notices[i]);

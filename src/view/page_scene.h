@@ -3,6 +3,7 @@
 #define FFD_VIEW_PAGE_SCENE_H
 
 #include "view/page_data.h"
+#include "view/page_edit.h"
 #include "view/page_images.h"
 #include "view/page_options.h"
 #include "view/page_rig.h"
@@ -18,6 +19,7 @@ typedef struct page_description {
     const page_images *images;
     const page_rig *rig;
     const page_targets *targets;
+    const page_edit *edit;
     const view_page_options *options;
     const bool *has_cage; /* of each cage: whether the page has its points */
     char notices[PAGE_NOTICES][160];

@@ -15,7 +15,7 @@ typedef struct page_writer {
 } page_writer;
 
 /* The largest size of an element in bytes. */
-#define PAGE_ELEMENT 48
+#define PAGE_ELEMENT 104
 
 /* Fills bytes with the elements first to first + count - 1 of `of`. */
 typedef void (*page_fill)(const void *of, size_t first, size_t count, unsigned char *bytes);

@@ -1,5 +1,6 @@
 #include "view/view_scene.h"
 #include "base/memory/memory.h"
+#include "view/view_edit.h"
 
 static void free_lists(view_scene *scene)
 {
@@ -73,6 +74,7 @@ void ffd_view_scene_free(view_scene *scene)
                             scene->texcoords,
                             scene->glow_texcoords,
                             scene->flipped,
+                            scene->continues,
                             scene->segments,
                             scene->points,
                             scene->parts,
@@ -84,6 +86,7 @@ void ffd_view_scene_free(view_scene *scene)
                             scene->splats[0],
                             scene->splats[1]};
     free_lists(scene);
+    ffd_view_edit_free(scene->edit);
     ffd_view_scene_free_rigs(scene);
     ffd_view_scene_free_targets(scene);
     ffd_materials_free(&scene->materials);

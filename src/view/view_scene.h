@@ -87,6 +87,9 @@ typedef struct view_scene {
     float *glow_texcoords; /* as the texture of the emission takes them; NULL: the same */
     uint8_t *flipped;      /* one flag a triangle: its face is flipped; NULL: no face is */
     uint64_t flipped_faces;
+    uint8_t
+        *continues; /* one flag a triangle: it is of the same polygon as the one before it; NULL: unknown */
+    struct view_edit *edit; /* view_edit.h: the page edits a lattice; NULL: it shows a deformation */
     size_t segment_count, point_count;
     uint32_t *segments, *points;                   /* of the mesh: 2 vertices and 1 vertex each */
     uint32_t *segment_materials, *point_materials; /* of each one: a material, or VIEW_NONE */

@@ -117,8 +117,8 @@ LAYERS = {
         "job", "job/chain", "job/input", "job/judge", "job/pass", "lattice/tangent", "points",
     },
     "job/view": {
-        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "job", "job/chain", "job/figures", "job/input",
-        "job/measure", "job/pass", "job/report", "lattice", "lattice/file", "mesh", "view",
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/boundary", "job",
+        "job/chain", "job/figures", "job/input", "job/measure", "job/pass", "job/report", "json", "lattice", "lattice/file", "mesh", "view",
     },
     "job/author": {
         "author", "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/csv", "io/npy", "job", "job/chain", "job/input", "job/pass",

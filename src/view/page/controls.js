@@ -4,7 +4,11 @@ const CLICK_PIXELS = 5;
 
 function addPointers(canvas, viewer) {
   const pointers = new Map();
-  let travelled = 0, most = 0;
+  let travelled = 0, most = 0, drag = null;  // drag: of a tool that has taken the pointer
+  const place = (event) => {
+    const box = canvas.getBoundingClientRect();
+    return [event.clientX - box.left, event.clientY - box.top];
+  };
   const middle = () => {
     const all = [...pointers.values()];
     const sum = all.reduce((s, p) => [s[0] + p.x, s[1] + p.y], [0, 0]);
@@ -17,6 +21,10 @@ function addPointers(canvas, viewer) {
     pointers.set(event.pointerId, {x: event.clientX, y: event.clientY});
     most = Math.max(most, pointers.size);
     viewer.stopMotion();
+    if (drag && pointers.size > 1) {
+      drag.cancel();
+      drag = null;
+    } else if (viewer.tools && pointers.size === 1) drag = viewer.tools.take(event, place(event));
   });
   canvas.addEventListener('pointermove', (event) => {
     const pointer = pointers.get(event.pointerId);
@@ -26,6 +34,10 @@ function addPointers(canvas, viewer) {
     const after = middle();
     const dx = after.x - before.x, dy = after.y - before.y, size = canvas.clientHeight;
     travelled += Math.hypot(dx, dy);
+    if (drag) {
+      if (travelled >= CLICK_PIXELS) drag.move(place(event));
+      return;
+    }
     if (pointers.size > 1) {
       viewer.camera.shift(dx / size, dy / size);
       if (before.spread > 0 && after.spread > 0) viewer.camera.zoom(before.spread / after.spread);
@@ -38,9 +50,16 @@ function addPointers(canvas, viewer) {
   });
   const leave = (event) => {
     const wasDown = pointers.delete(event.pointerId);
+    if (drag && wasDown) {
+      const ended = drag;
+      drag = null;
+      if (event.type !== 'pointerup') ended.cancel();
+      else if (travelled >= CLICK_PIXELS) ended.end(place(event));
+      else ended.click(event);
+      return;
+    }
     if (event.type === 'pointerup' && wasDown && most === 1 && travelled < CLICK_PIXELS && event.button === 0) {
-      const box = canvas.getBoundingClientRect();
-      viewer.clickAt(event.clientX - box.left, event.clientY - box.top);
+      viewer.clickAt(...place(event));
     }
   };
   canvas.addEventListener('pointerup', leave);

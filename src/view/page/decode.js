@@ -127,8 +127,12 @@ function readScene() {
   if (!scene) return null;
   scene.report = readJson('report');
   scene.cages = scene.cages.map(readCage);
-  scene.quantized = readArray('data-before', Uint16Array);
-  scene.moves = readArray('data-move', Int16Array);
+  if (scene.edit && !readEdit(scene)) return null;
+  if (scene.edit) quantizeRest(scene);
+  else {
+    scene.quantized = readArray('data-before', Uint16Array);
+    scene.moves = readArray('data-move', Int16Array);
+  }
   scene.statuses = readArray('data-status', Uint8Array);
   scene.dets = readArray('data-det', Float32Array);
   scene.colors = readArray('data-color', Uint8Array);
@@ -151,7 +155,8 @@ function readScene() {
   scene.before = new Float32Array(count);
   scene.move = new Float32Array(count);
   for (let i = 0; i < count; i++) {
-    scene.before[i] = (scene.low[i % 3] - center[i % 3] + scene.quantized[i] * scene.step[i % 3]) / scale;
+    const x = scene.edit ? scene.edit.rest[i] - center[i % 3] : scene.low[i % 3] - center[i % 3] + scene.quantized[i] * scene.step[i % 3];
+    scene.before[i] = x / scale;
     scene.move[i] = (scene.moves[i] * scene.moveStep) / scale;
   }
   for (const slider of scene.sliders) slider.value = slider.weight;
@@ -165,10 +170,12 @@ function vertexNumber(scene, vertex) {
 
 // A vertex in the file's units, to the page's precision.
 function vertexBefore(scene, vertex) {
+  if (scene.edit) return [...scene.edit.rest.subarray(3 * vertex, 3 * vertex + 3)];
   return [0, 1, 2].map((a) => scene.low[a] + scene.quantized[3 * vertex + a] * scene.step[a]);
 }
 
 function vertexMove(scene, vertex) {
+  if (scene.edit) return [...scene.move.subarray(3 * vertex, 3 * vertex + 3)].map((x) => x * scene.space.scale);
   return [0, 1, 2].map((a) => scene.moves[3 * vertex + a] * scene.moveStep);
 }
 

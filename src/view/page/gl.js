@@ -287,6 +287,27 @@ class Renderer {
     this.splats.fill();
   }
 
+  // Takes the positions after, and with them their normals, as the scene has them now.
+  updateMove(withNormals) {
+    const {gl, scene, surface} = this;
+    surface.gathered = surface.gathered || new Float32Array(3 * surface.sources.length);
+    const {gathered, sources} = surface, {move} = scene;
+    for (let i = 0, to = 0; i < sources.length; i++) {
+      const from = 3 * sources[i];
+      gathered[to++] = move[from];
+      gathered[to++] = move[from + 1];
+      gathered[to++] = move[from + 2];
+    }
+    gl.bindBuffer(gl.ARRAY_BUFFER, surface.move);
+    gl.bufferData(gl.ARRAY_BUFFER, gathered, gl.DYNAMIC_DRAW);
+    if (withNormals) {
+      setNormalsAfter(scene, surface.split);
+      gl.bindBuffer(gl.ARRAY_BUFFER, surface.normals);
+      gl.bufferData(gl.ARRAY_BUFFER, surface.split.normals, gl.DYNAMIC_DRAW);
+    }
+    if (this.splats.count) this.splats.fill();
+  }
+
   // Lines and discs under a name, in place of those that it had.
   setMarks(name, floats, perMark) {
     freeMarks(this.gl, this.marks[name]);
@@ -338,6 +359,10 @@ class Renderer {
     if (state.showTears && !state.isPosed && !state.isMorphed) this.drawLines('tears', 3.4, state.colors.tear, 0.55, state.blend);
     this.drawLines('chosen', 6, state.colors.chosen, 0.8, state.blend);
     this.drawDiscs('chosenPoint', 13, state.colors.chosen, state.colors.rim, 1, state.blend);
+    for (const {name, isLine, size, color, hiddenShare} of state.tools || []) {
+      if (isLine) this.drawLines(name, size, color, hiddenShare, state.blend);
+      else this.drawDiscs(name, size, color, state.colors.rim, hiddenShare, state.blend);
+    }
     gl.depthMask(true);
   }
 
@@ -477,11 +502,11 @@ class Renderer {
   }
 
   drawCage() {
-    const {state} = this;
-    if (state.showRest) this.drawLines('cage', 1.2, state.colors.rest, 0.5, 0);
+    const {state} = this, seen = state.hidesBehind ? 0 : 1;
+    if (state.showRest) this.drawLines('cage', 1.2, state.colors.rest, 0.5 * seen, 0);
     if (state.showCage) {
-      this.drawLines('cage', 1.6, state.colors.cage, 0.3, state.blend);
-      this.drawDiscs('controls', 8.5, state.colors.control, state.colors.rim, 0.4, state.blend);
+      this.drawLines('cage', 1.6, state.colors.cage, 0.3 * seen, state.blend);
+      this.drawDiscs('controls', 8.5, state.colors.control, state.colors.rim, 0.4 * seen, state.blend);
     }
   }
 

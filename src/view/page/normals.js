@@ -175,16 +175,25 @@ function poseNormals(split, poses, restNormals) {
   return normals;
 }
 
-// The same where morph targets have changed the shape: by the faces as they are now. Their sides stay those at rest.
-function morphNormals(scene, split) {
-  const {groups, groupCount, indices} = split, normals = split.normals.slice();
-  for (const share of [0, 1]) {
-    const faces = faceNormals(scene.before, scene.move, scene.triangleIndices, share), sums = new Float32Array(3 * groupCount);
-    for (let i = 0; i < indices.length; i++) {
-      const to = 3 * groups[indices[i]], from = i - (i % 3);
-      for (let a = 0; a < 3; a++) sums[to + a] += faces[from + a];
-    }
-    groups.forEach((group, at) => storeNormal(normals, 8 * at + 4 * share, sums[3 * group], sums[3 * group + 1], sums[3 * group + 2]));
+// Sets the normals before (share 0) or after (1) by the faces as they are now. Their sides stay those at rest.
+function smoothFaces(scene, split, share, normals) {
+  const {groups, groupCount, indices} = split;
+  const faces = faceNormals(scene.before, scene.move, scene.triangleIndices, share), sums = new Float32Array(3 * groupCount);
+  for (let i = 0; i < indices.length; i++) {
+    const to = 3 * groups[indices[i]], from = i - (i % 3);
+    for (let a = 0; a < 3; a++) sums[to + a] += faces[from + a];
   }
+  groups.forEach((group, at) => storeNormal(normals, 8 * at + 4 * share, sums[3 * group], sums[3 * group + 1], sums[3 * group + 2]));
+}
+
+// The same where morph targets have changed the shape.
+function morphNormals(scene, split) {
+  const normals = split.normals.slice();
+  for (const share of [0, 1]) smoothFaces(scene, split, share, normals);
   return normals;
+}
+
+// Where a lattice is edited.
+function setNormalsAfter(scene, split) {
+  smoothFaces(scene, split, 1, split.normals);
 }

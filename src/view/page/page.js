@@ -39,7 +39,7 @@ function showNames(scene) {
 
 // A mesh alone has no way to go.
 function hasTwoShapes(scene) {
-  return Boolean(scene.statuses || scene.output);
+  return Boolean(scene.statuses || scene.output || scene.edit);
 }
 
 function startControls(viewer) {
@@ -87,6 +87,7 @@ function start() {
   }
   showPanel(viewer);
   if (viewer.renderer) viewer.motionRow.start();
+  for (const begin of extensions) begin(viewer);
   document.documentElement.dataset.ready = viewer.renderer ? 'picture' : 'figures';
 }
 

@@ -135,7 +135,7 @@ function findingSection(viewer) {
   if (scene.tears.length) found.push(...tearFindings(viewer));
   if (scene.flipped) found.push(...flippedFindings(viewer));
   if (found.length === 0) {
-    if (!scene.statuses) return null;
+    if (!scene.statuses || scene.edit) return null;
     found.push(make('p', 'more', 'No folds, torn edges or flipped faces were found.'));
   }
   const card = section('Where it went wrong', ...found);
@@ -238,7 +238,7 @@ function figureSection(viewer) {
   const job = jobOf(scene.report);
   const list = make('dl', 'figures');
   const rows = job ? figureRows(job) : [['Vertices', numberText(scene.verticesAll), '']];
-  if (!job && scene.vertices && hasTwoShapes(scene)) rows.push(['Displacement', 'max ' + numberText(scene.displacementMax), '']);
+  if (!job && scene.vertices && hasTwoShapes(scene) && !scene.edit) rows.push(['Displacement', 'max ' + numberText(scene.displacementMax), '']);
   rows.push(['Triangles', numberText(scene.trianglesAll), '']);
   for (const [label, value, kind] of rows) list.append(make('div', kind, make('dt', '', label), make('dd', '', value)));
   const card = section('Figures', list);
@@ -289,4 +289,5 @@ function showPanel(viewer) {
   if (viewer.renderer) cards.push(partSection(viewer));
   cards.push(figureSection(viewer));
   byId('panel').replaceChildren(...cards.filter(Boolean));
+  if (viewer.tools) viewer.tools.showCards(byId('panel'));
 }

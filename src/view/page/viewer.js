@@ -18,6 +18,9 @@ function palette(isDark) {
   };
 }
 
+// What begins once a page of tools has its picture.
+const extensions = [];
+
 // Lines along u, v and w of the cages, and their control points, as the renderer takes them.
 function cageMarks(scene) {
   const lines = [], controls = [];
@@ -65,9 +68,7 @@ class Viewer {
 
   // Once there is a renderer.
   start() {
-    const {lines, controls} = cageMarks(this.scene);
-    this.renderer.setMarks('cage', lines, 12);
-    this.renderer.setMarks('controls', controls, 6);
+    this.markCages();
     this.resize();
     this.setPaint(this.paint);
     this.renderer.loadTextures(() => this.redraw());
@@ -77,6 +78,12 @@ class Viewer {
     addKeys(this.canvas, this);
     new ResizeObserver(() => this.resize()).observe(this.canvas);
     byId('witness').addEventListener('click', () => this.chooseWitness());
+  }
+
+  markCages() {
+    const {lines, controls} = cageMarks(this.scene);
+    this.renderer.setMarks('cage', lines, 12);
+    this.renderer.setMarks('controls', controls, 6);
   }
 
   resize() {
@@ -290,6 +297,7 @@ class Viewer {
   }
 
   chooseControl(cage, p) {
+    if (this.tools && this.tools.chooseControl(cage, p)) return;
     const [nu, nv] = cage.size;
     const rest = [...cage.rest.subarray(3 * p, 3 * p + 3)], deformed = [...cage.deformed.subarray(3 * p, 3 * p + 3)];
     const from = toPicture(this.scene, rest), to = toPicture(this.scene, deformed);
