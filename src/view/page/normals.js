@@ -62,12 +62,53 @@ function listCorners(triangles, ids, places) {
   return {starts, corners};
 }
 
+// Numbers that are added one by one: a browser keeps the memory that arrays of its own have once had.
+class Numbers {
+  constructor(Type) {
+    this.list = new Type(1024);
+    this.length = 0;
+  }
+
+  // Returns the index of the number.
+  push(value) {
+    if (this.length === this.list.length) {
+      const larger = new this.list.constructor(2 * this.length);
+      larger.set(this.list);
+      this.list = larger;
+    }
+    this.list[this.length] = value;
+    return this.length++;
+  }
+
+  done() {
+    return this.list.slice(0, this.length);
+  }
+}
+
+// The sides of a place: they are used again for the next one.
+class Sides {
+  constructor(shapes) {
+    this.shapes = shapes;
+    this.list = [];
+    this.count = 0;
+  }
+
+  // Returns the number of a new side.
+  add() {
+    if (this.count === this.list.length) this.list.push({sums: new Float64Array(3 * this.shapes), drawn: []});
+    const side = this.list[this.count];
+    side.sums.fill(0);
+    side.drawn.length = 0;
+    return this.count++;
+  }
+}
+
 // Which of a place's sides a face belongs to; a new one where none is near.
-function findSide(sides, shapes, x, y, z) {
+function findSide(sides, x, y, z) {
   const length = Math.hypot(x, y, z);
   let best = -1, most = CREASE;
-  for (let s = 0; s < sides.length; s++) {
-    const [sx, sy, sz] = sides[s].sums;
+  for (let s = 0; s < sides.count; s++) {
+    const {sums} = sides.list[s], sx = sums[0], sy = sums[1], sz = sums[2];
     const size = Math.hypot(sx, sy, sz);
     const cosine = size > 0 && length > 0 ? (sx * x + sy * y + sz * z) / (size * length) : 1;
     if (cosine >= most) {
@@ -75,11 +116,7 @@ function findSide(sides, shapes, x, y, z) {
       best = s;
     }
   }
-  if (best < 0 && sides.length < MOST_SIDES) {
-    best = sides.length;
-    sides.push({sums: new Float64Array(3 * shapes), drawn: []});
-  }
-  return Math.max(best, 0);
+  return best < 0 && sides.count < MOST_SIDES ? sides.add() : Math.max(best, 0);
 }
 
 function storeNormal(normals, at, x, y, z) {
@@ -107,17 +144,18 @@ function splitVertices(scene) {
   const faces = listFaces(scene);
   const {starts, corners} = listCorners(triangles, ids, places);
   const indices = new Uint32Array(triangles.length);
-  const sources = [], wedges = [], sums = faces.map(() => []);
+  const sources = new Numbers(Uint32Array), wedges = new Numbers(Int32Array), groups = new Numbers(Uint32Array);
+  const sums = faces.map(() => new Numbers(Float32Array));
   const wedgeOf = scene.wedges ? scene.wedges.corners : null;
   const drawn = new Int32Array(scene.vertices).fill(-1);
-  const sideOf = [], groups = [];
+  const sideOf = [], sides = new Sides(faces.length);
   let groupCount = 0;
   for (let place = 0; place < places; place++) {
-    const sides = [];
+    sides.count = 0;
     for (let i = starts[place]; i < starts[place + 1]; i++) {
       const face = corners[i] - (corners[i] % 3);
-      const number = findSide(sides, faces.length, faces[0][face], faces[0][face + 1], faces[0][face + 2]);
-      const side = sides[number];
+      const number = findSide(sides, faces[0][face], faces[0][face + 1], faces[0][face + 2]);
+      const side = sides.list[number];
       sideOf[i - starts[place]] = number;
       for (let s = 0; s < faces.length; s++) {
         for (let a = 0; a < 3; a++) side.sums[3 * s + a] += faces[s][face + a];
@@ -125,34 +163,35 @@ function splitVertices(scene) {
     }
     for (let i = starts[place]; i < starts[place + 1]; i++) {
       const vertex = triangles[corners[i]];
-      const side = sides[sideOf[i - starts[place]]];
+      const side = sides.list[sideOf[i - starts[place]]];
       const wedge = wedgeOf ? wedgeOf[corners[i]] : undefined;
-      let at = side.drawn.find((one) => sources[one] === vertex && wedges[one] === wedge);
-      if (at === undefined) {
-        at = sources.push(vertex) - 1;
+      let at = -1;
+      for (const one of side.drawn) if (sources.list[one] === vertex && (!wedgeOf || wedges.list[one] === wedge)) at = one;
+      if (at < 0) {
+        at = sources.push(vertex);
         if (wedgeOf) wedges.push(wedge);
         side.drawn.push(at);
-        groups[at] = groupCount + sideOf[i - starts[place]];
-        for (let s = 0; s < faces.length; s++) sums[s].push(side.sums[3 * s], side.sums[3 * s + 1], side.sums[3 * s + 2]);
+        groups.push(groupCount + sideOf[i - starts[place]]);
+        for (let s = 0; s < faces.length; s++) for (let a = 0; a < 3; a++) sums[s].push(side.sums[3 * s + a]);
         drawn[vertex] = at;
       }
       indices[corners[i]] = at;
     }
-    groupCount += sides.length;
+    groupCount += sides.count;
   }
   for (let v = 0; v < scene.vertices; v++) {
     if (drawn[v] >= 0) continue;
-    drawn[v] = sources.push(v) - 1;
+    drawn[v] = sources.push(v);
     groups.push(groupCount++);
     if (wedgeOf) wedges.push(-1);
-    for (const list of sums) list.push(0, 0, 1);
+    for (const list of sums) for (const x of [0, 0, 1]) list.push(x);
   }
   const count = sources.length;
   const normals = new Int16Array(8 * count);
   for (let i = 0; i < count; i++) {
-    for (const s of [0, 1]) storeNormal(normals, 8 * i + 4 * s, sums[s][3 * i], sums[s][3 * i + 1], sums[s][3 * i + 2]);
+    for (const s of [0, 1]) storeNormal(normals, 8 * i + 4 * s, sums[s].list[3 * i], sums[s].list[3 * i + 1], sums[s].list[3 * i + 2]);
   }
-  return {sources: Uint32Array.from(sources), wedges, indices, normals, drawn, groups: Uint32Array.from(groups), groupCount, anchorNormals: sums.slice(2).map((list) => Float32Array.from(list))};
+  return {sources: sources.done(), wedges: wedges.done(), indices, normals, drawn, groups: groups.done(), groupCount, anchorNormals: sums.slice(2).map((list) => list.done())};
 }
 
 // The normals of what is drawn in a pose (rig.js), as splitVertices has them at rest.

@@ -55,7 +55,7 @@ class EditPanel {
   constructor(editor) {
     this.editor = editor;
     const {edits} = editor;
-    this.count = make('p', 'more');
+    this.count = make('p', 'more count-line');
     this.position = new Triple('Position', (a, value) => this.setPosition(a, value));
     this.offset = new Triple('Offset', (a, value) => this.setOffset(a, value));
     this.cards = [this.fileCard(), this.selectionCard(), this.moveCard(), this.wholeCard(), this.figureCard()];
@@ -138,6 +138,8 @@ class EditPanel {
     const by = new Triple('By'), factors = new Triple('Factor');
     by.show([0, 0, 0]);
     factors.show([1, 1, 1]);
+    by.row.append(button('Move', () => editor.tryTo(() => edits.move(by.values()))));
+    factors.row.append(button('Scale', () => editor.tryTo(() => edits.scale(factors.values(), editor.about()))));
     const axis = choice('Axis of the rotation', AXIS_NAMES.map((name) => [name, name])), degrees = numberField('Degrees', '15');
     this.about = choice('Turn and scale about', [['middle', 'the middle of the selection'], ['point', 'the point']]);
     this.aboutPoint = new Triple('Point', () => editor.redraw());
@@ -146,9 +148,9 @@ class EditPanel {
     this.lock = radios('lock', 'Along', [['-1', 'Screen', 'Points move along the screen'], ['0', 'x', 'X'], ['1', 'y', 'Y'], ['2', 'z', 'Z']], (value) => editor.setLock(Number(value), true));
     this.stepField = numberField('Step of the arrow keys', String(Number((edits.diagonal / 100).toPrecision(2))));
     const line = (...children) => make('div', 'tools', ...children);
-    return section('Move', this.position.row, this.offset.row, by.row, line(button('Move', () => editor.tryTo(() => edits.move(by.values())))),
+    return section('Move', this.position.row, this.offset.row, by.row,
       line(make('span', 'quiet', 'Rotate about'), axis, degrees, button('Rotate', () => editor.tryTo(() => edits.rotate(axis.value, Number(degrees.value), editor.about())))),
-      factors.row, line(button('Scale', () => editor.tryTo(() => edits.scale(factors.values(), editor.about())))),
+      factors.row,
       line(make('span', 'quiet', 'About'), this.about), this.aboutPoint.row, make('p', 'more', 'Points that are dragged go along:'), this.lock,
       line(make('span', 'quiet', 'Shift + arrows move by'), this.stepField));
   }
@@ -185,6 +187,9 @@ class EditPanel {
   showFigures(found) {
     const rows = found ? [['Flipped faces', numberText(found.flipped), found.flipped ? 'bad' : ''], ['Torn edges', numberText(found.torn), found.torn ? 'bad' : ''],
       ['Least det F', numberText(found.minDet), found.minDet <= 0 ? 'bad' : ''], ['Vertices moved', numberText(found.moved), '']] : [['Figures', 'counting \u2026', '']];
+    if (found) {
+      byId('verdicts').replaceChildren(...rows.slice(0, 3).map(([label, value, kind]) => chip(kind || 'good', `${label} ${value}`)));
+    }
     this.figures.replaceChildren(...rows.map(([label, value, kind]) => make('div', kind, make('dt', '', label), make('dd', '', value))));
   }
 
