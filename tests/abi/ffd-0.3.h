@@ -584,6 +584,19 @@ typedef struct ffd_view_desc {
 } ffd_view_desc;
 void ffd_view_desc_init(ffd_view_desc *desc, size_t size);
 ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error);
+typedef struct ffd_edit_desc {
+    size_t struct_size;
+    const ffd_deform_desc *job;
+    const ffd_lattice_desc *lattice;
+    const char *output;
+    bool force;
+    bool full;
+    ffd_up up;
+    ffd_sink_function sink;
+    void *sink_user;
+} ffd_edit_desc;
+void ffd_edit_desc_init(ffd_edit_desc *desc, size_t size);
+ffd_status ffd_edit_run(const ffd_edit_desc *desc, ffd_job_result *result, ffd_error *error);
 typedef struct ffd_embed_desc {
     size_t struct_size;
     ffd_source input;
@@ -1096,6 +1109,11 @@ bool ffd_paths_meet(const char *a, const char *b);
 ffd_status ffd_output_path(const char *folder, const char *input, const char *ending, char **path,
                            ffd_error *error);
 ffd_status ffd_check_output_folder(const char *folder, ffd_error *error);
+typedef struct ffd_bar ffd_bar;
+ffd_bar *ffd_bar_create(const char *what);
+bool ffd_bar_show(void *bar, double done);
+void ffd_bar_clear(ffd_bar *bar);
+void ffd_bar_destroy(ffd_bar **bar);
 bool ffd_worker_main(int argc, char **argv, int *exit_code);
 typedef enum ffd_member_kind {
     FFD_MEMBER_FLAG = 0,

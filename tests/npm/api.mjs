@@ -193,6 +193,8 @@ for (const [name, beside] of Object.entries(MODELS))
     run(folder, ['view', join(root, 'data/models', name), '-l', 'lattice', '-o', 'a.png', '--size', '80x60', '--camera', 'front', '-q']);
     sameBytes(picture, readFileSync(join(folder, 'a.png')), 'the picture');
     assert.match(new TextDecoder().decode((await ffd.view(mesh)).bytes), /^<!doctype html>/i);
+    run(folder, ['edit', join(root, 'data/models', name), '--size', '3,4,5', '-o', 'edit.html', '-q']);
+    sameBytes((await ffd.edit(mesh, null, {size: [3, 4, 5]})).bytes, readFileSync(join(folder, 'edit.html')), 'the page of tools');
   });
 
 test('a .gltf comes with its buffers, whose names follow the result', async (folder) => {

@@ -42,6 +42,12 @@ async function examplePage() {
   await page.locator('#twist').blur();
   await page.waitForFunction((before) => document.getElementById('lattice').href && document.getElementById('said').textContent !== 'Working ..' &&
     fetch(document.getElementById('result').href).then((answer) => answer.text()).then((text) => text !== before), read('spot-out.obj'));
+  await page.click('#edit');
+  const tools = page.frameLocator('#view');
+  await tools.getByRole('button', {name: 'Save', exact: true}).waitFor();
+  const saved = page.waitForEvent('download');
+  await tools.getByRole('button', {name: 'Save', exact: true}).click();
+  await saved;
   // A drop of what is no model.
   await page.evaluate(() => {
     const data = new DataTransfer();

@@ -215,6 +215,22 @@ class Views(Folder):
         with self.assertRaises(ffd.ExistsError):
             ffd.view_file("spot.obj", "v.png")
 
+    def test_pages_of_tools_are_those_of_the_program(self):
+        for lattices, words, options in ((None, ["--size", "3,4,5", "--margin", "0.1"], {"size": (3, 4, 5), "margin": 0.1}), (None, [], {}),
+                                         ("twist.json", ["--outside", "extend", "--up", "z"], {"outside": "extend", "up": "z"})):
+            support.program("edit", "spot.obj", *(["-l", lattices] if lattices else []), "-o", "e.html", "--force", *words)
+            made = ffd.edit_bytes(read("spot.obj"), lattices, name="spot.obj", **options)
+            self.assertEqual(made.data, read("e.html"))
+            result = ffd.edit_file("spot.obj", "ours.html", lattices, force=True, **options)
+            self.assertTrue(filecmp.cmp("e.html", "ours.html", shallow=False))
+            self.assertEqual((result.vertices, made.result.vertices), (11533, 11533))
+        with self.assertRaises(ffd.ExistsError):
+            ffd.edit_file("spot.obj", "ours.html")
+        with self.assertRaises(ValueError):
+            ffd.edit_file("spot.obj", "ours.html", "twist.json", size=4)
+        with self.assertRaises(ValueError):
+            ffd.edit_file("spot.obj", "ours.html", normals="keep")
+
     def test_morph_targets_are_those_of_the_program(self):
         for output, words in (("v.html", []), ("v.png", ["--size", "200x100"])):
             support.program("view", "spot.obj", "--morph", "turn=twist.json", "--morph", "more=twist.json", "-o", output, "--force", *words)

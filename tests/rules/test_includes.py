@@ -117,7 +117,7 @@ LAYERS = {
         "job", "job/chain", "job/input", "job/judge", "job/pass", "lattice/tangent", "points",
     },
     "job/view": {
-        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/boundary", "job",
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "job",
         "job/chain", "job/figures", "job/input", "job/measure", "job/pass", "job/report", "json", "lattice", "lattice/file", "mesh", "view",
     },
     "job/author": {

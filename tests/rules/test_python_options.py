@@ -11,7 +11,7 @@ NOT_OFFERED = {"struct_size", "output_set", "cache", "shared_box", "depfile", "m
 # Structure -> the header, and the files that name its members.
 COMMON = ("description", "library")
 STRUCTURES = {
-    "ffd_deform_desc": ("job", "jobs"), "ffd_source": ("job", "jobs"), "ffd_view_desc": ("job", "views"),
+    "ffd_deform_desc": ("job", "jobs"), "ffd_source": ("job", "jobs"), "ffd_view_desc": ("job", "views"), "ffd_edit_desc": ("job", "views"),
     "ffd_compare_desc": ("job", "facts"), "ffd_info_desc": ("job", "facts"), "ffd_jacobian_desc": ("jacobian", "jacobian"),
     "ffd_animate_desc": ("animate", "animate"),
 }

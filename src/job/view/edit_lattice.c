@@ -1,3 +1,4 @@
+/* edit_lattice.c - the lattice that a page edits. */
 #include "base/file/input.h"
 #include "base/memory/memory.h"
 #include "job/input/embedding_file.h"

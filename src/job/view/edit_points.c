@@ -1,3 +1,4 @@
+/* edit_points.c - where the vertices of a mesh are in the lattice that a page edits. */
 #include "base/memory/memory.h"
 #include "base/system/deadline.h"
 #include "base/vector/vec.h"

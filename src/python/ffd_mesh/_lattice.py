@@ -17,7 +17,7 @@ from ._convert import convert, is_other
 from ._embedding import Embedding
 from ._errors import InvalidError
 from ._library import Owned, Progress, Run, call, lib
-from ._values import (Deformed, Folds, Parameter, csr, described, direction_of, faces_of, folds_of, parameters, parameters_of, settings, shape_of, three,
+from ._values import (Deformed, Folds, Parameter, box_desc, csr, described, direction_of, faces_of, folds_of, parameters, parameters_of, settings, three,
                       triangles_of, vertices_of, wishes_of)
 
 REST, DEFORMED = declared.ENUMERATIONS["ffd_volume"].values()
@@ -67,12 +67,9 @@ class Lattice:
         margin: fraction of the extent that is added on both sides
         shape: "box" (principal=True: along the principal axes of the points), or "cylinder" round axis
         """
-        desc = library.filled("ffd_lattice_desc")
+        desc = box_desc(size, degree, knots, margin)
         desc.shape = library.value_of("ffd_lattice_shape", shape, "shape")
         desc.spacing = library.value_of("ffd_spacing", spacing, "spacing")
-        desc.size[:], desc.degree[:] = shape_of(size, degree)
-        desc.knots[:] = [library.value_of("ffd_knots", word, "knots") for word in three(knots, "knots")]
-        desc.margin[:] = [library.real(value, "margin") for value in three(margin, "margin")]
         desc.axis[:] = [library.real(value, "axis") for value in three(axis, "axis")]
         desc.principal = bool(principal)
         xyz = np.ascontiguousarray(arrays.vectors(points, "points"), dtype=np.float64)

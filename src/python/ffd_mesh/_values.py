@@ -104,6 +104,15 @@ def three(value: Any, what: str) -> tuple[Any, Any, Any]:
     return value, value, value
 
 
+def box_desc(size: Any = 4, degree: Any = None, knots: Any = "default", margin: Any = 0.05) -> Any:
+    """The description of a new lattice: of each one value, or three for u, v, w."""
+    desc = library.filled("ffd_lattice_desc")
+    desc.size[:], desc.degree[:] = shape_of(size, degree)
+    desc.knots[:] = [library.value_of("ffd_knots", word, "knots") for word in three(knots, "knots")]
+    desc.margin[:] = [library.real(value, "margin") for value in three(margin, "margin")]
+    return desc
+
+
 def shape_of(size: Any, degree: Any) -> tuple[list[int], list[int]]:
     """Converts sizes and degrees for the library, which takes 0 for a degree that is not given."""
     sizes = [library.integer(value, "size", 1, 2**62) for value in three(size, "size")]

@@ -1,4 +1,4 @@
-"""Pages and pictures of meshes before and after, as `ffd view` makes them."""
+"""Pages and pictures of meshes before and after, as `ffd view` makes them; pages with tools, as `ffd edit` makes them."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from ._description import OPTIONS, AnyLattice, Files, Memory, Path, described, p
 from ._errors import Error, GateError
 from ._library import lib
 from ._result import Result, finish, run
+from ._values import box_desc
 
 # Without the options for outputs of other jobs.
 _OPTIONS = OPTIONS - {"output_format", "resources", "force", "if_changed", "dry_run", "as_morph", "clips"}
@@ -136,4 +137,63 @@ def view_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | Mapping[
         other.reraise()
     if isinstance(raised, GateError):
         raised.data = taken[-1][1]
+    return ViewBytes(taken[-1][1] if taken else b"", finish(found, raised, warnings))
+
+
+# What of a job an edit takes.
+_EDIT_OPTIONS = {"only", "outside", "falloff", "snap", "space", "set", "time", "threads", "isa", "memory", "timeout", "allow_extensions", "strict",
+                 "input_format", "progress"}
+
+
+def _edit(desc: Any, source: Any, output: Any, lattices: Any, full: bool, up: str, new: Mapping[str, Any],
+          options: dict[str, Any]) -> tuple[Any, Error | None, list[str]]:
+    given = {name: value for name, value in new.items() if value is not None}
+    if lattices is not None and given:
+        raise ValueError(f"{', '.join(given)}: of a new lattice, not with lattices")
+    box = box_desc(**given)
+    desc.output, desc.full, desc.up = library.path(output), bool(full), library.value_of("ffd_up", up, "up")
+    if lattices is None:
+        desc.lattice = ctypes.pointer(box)
+    with described(source, lattices, options, OPTIONS & _EDIT_OPTIONS) as (job, warnings):
+        desc.job = ctypes.pointer(job)
+        found, raised = run(lib.ffd_edit_run, desc)
+    return found, raised, warnings
+
+
+def edit_file(source: Path, output: Path, lattices: AnyLattice | Sequence[AnyLattice] | None = None, *,
+              size: Sequence[int] | int | None = None, degree: Sequence[int] | int | None = None, knots: Sequence[str] | str | None = None,
+              margin: Sequence[float] | float | None = None, full: bool = False, up: str = "y", force: bool = False, **options: Any) -> Result:
+    """Makes a page in which a lattice is shaped by hand, as `ffd edit` does. The output is complete or absent.
+
+    output: path of the page (.html), which a browser opens without a network; its Save writes a lattice file
+    lattices: as in `deform_file`; of several the last is edited. None: a new box round the mesh, by size (4, 4, 4), degree, knots and
+      margin, as in `Lattice.around`
+    full=True: the page shows all vertices; else a mesh of more than 200,000 is simplified
+    up: "y" | "z" | "x", the axis that points upwards on the page; the mesh stays as it is
+    force=True: replace the output
+    options: only, outside, falloff, snap, space, set, time, threads, memory, timeout, .. of `deform_file`
+    Returns a result with the numbers of vertices inside and outside of the lattice. Raises `Error`. Threads may call it at the same time.
+    """
+    desc = library.filled("ffd_edit_desc")
+    desc.force = bool(force)
+    new = {"size": size, "degree": degree, "knots": knots, "margin": margin}
+    return finish(*_edit(desc, source, output, lattices, full, up, new, options))
+
+
+def edit_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | None = None, *, name: str, output: str = "edit.html",
+               files: Files | None = None, size: Sequence[int] | int | None = None, degree: Sequence[int] | int | None = None,
+               knots: Sequence[str] | str | None = None, margin: Sequence[float] | float | None = None, full: bool = False, up: str = "y",
+               **options: Any) -> ViewBytes:
+    """Like `edit_file`, for a mesh in memory; reads and writes no files.
+
+    data, name, files: as in `deform_bytes`
+    output: name of the page
+    All other arguments are those of `edit_file`, except force.
+    """
+    desc, taken = library.filled("ffd_edit_desc"), []
+    library.sink_into(desc, taken)
+    memory = Memory(data, name, files)
+    new = {"size": size, "degree": degree, "knots": knots, "margin": margin}
+    found, raised, warnings = _edit(desc, memory, output, lattices, full, up, new, options)
+    memory.reraise()
     return ViewBytes(taken[-1][1] if taken else b"", finish(found, raised, warnings))

@@ -272,6 +272,12 @@ export interface Ffd {
   view(mesh: MeshFile, lattice?: LatticeLike | LatticeLike[] | null, options?: Options & {output?: string; size?: string; frames?: number;
     camera?: string; color?: 'displacement' | 'status' | 'det' | 'plain'; morph?: string | string[]; animation?: string; full?: boolean; up?: 'y' | 'z' | 'x';
     noCage?: boolean}): Promise<Result>;
+  /** A page in which a lattice is shaped by hand, as `ffd edit` makes it: of several lattices the last; without one a new box by `size`,
+      `degree`, `knots` and `margin`. */
+  edit(mesh: MeshFile, lattice?: LatticeLike | LatticeLike[] | null, options?: {output?: string; size?: Three<number> | string;
+    degree?: Three<number> | string; knots?: Three<Knots> | string; margin?: number | Three<number> | string; only?: string | string[];
+    outside?: 'keep' | 'extend' | 'error'; falloff?: number; snap?: number | string; space?: 'scene' | 'mesh'; set?: string[] | {[name: string]: unknown};
+    time?: number; up?: 'y' | 'z' | 'x'; full?: boolean; [option: string]: unknown}): Promise<Omit<Result, 'report'>>;
 }
 
 export type WasmSource = URL | string | BufferSource | WebAssembly.Module;

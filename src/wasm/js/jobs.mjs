@@ -198,6 +198,12 @@ export function defineJobs(createProgram, getModule) {
           ...wordsOf({...options, ...named})], {after, pairs: table, cover, weights});
       return {...resultOf(done, output), fit: done.report.jobs[0].fit};
     },
+    async edit(mesh, lattice, {output = mesh.name + '.html', ...options} = {}) {
+      const done = await run(mesh, lattice, (name, lattices) =>
+        ['edit', name, ...lattices, '-o', `${OUT}/${checkName(output)}`, ...wordsOf(options)]);
+      const {report, ...result} = resultOf(done, output);
+      return result;
+    },
     async view(mesh, lattice, {output = mesh.name + '.html', ...options} = {}) {
       const done = await run(mesh, lattice, (name, lattices) =>
         ['view', name, ...lattices, '-o', `${OUT}/${checkName(output)}`, ...lattices.length > 0 ? REPORT : [], ...wordsOf(options)]);

@@ -36,13 +36,15 @@ class Triple {
   constructor(label, action) {
     this.fields = AXIS_NAMES.map((axis, a) => numberField(`${label} ${axis}`, '', action ? (value) => action(a, value) : null));
     this.row = make('div', 'triple', make('span', 'quiet', label), ...this.fields);
+    this.least = 0;
   }
 
   show(numbers) {
     this.fields.forEach((field, a) => {
       if (document.activeElement === field && field.matches(':focus') && field.dataset.typed) return;
       field.disabled = !numbers;
-      field.value = numbers ? String(Number(numbers[a].toPrecision(7))) : '';
+      // What rounding leaves of 0 is 0.
+      field.value = numbers ? String(Math.abs(numbers[a]) < this.least ? 0 : Number(numbers[a].toPrecision(5))) : '';
     });
   }
 
@@ -58,6 +60,7 @@ class EditPanel {
     this.count = make('p', 'more count-line');
     this.position = new Triple('Position', (a, value) => this.setPosition(a, value));
     this.offset = new Triple('Offset', (a, value) => this.setOffset(a, value));
+    this.position.least = this.offset.least = 1e-9 * edits.diagonal;
     this.cards = [this.fileCard(), this.selectionCard(), this.moveCard(), this.wholeCard(), this.figureCard()];
     this.bar = this.makeBar();
     byId('frame').append(this.bar);
