@@ -129,6 +129,7 @@ void ffd_page_edit_describe(const page_edit *edit, json_text *json)
     ffd_json_count(json, "cage", of->cage);
     ffd_json_vector(json, "degree", degree, 3);
     ffd_json_string(json, "key", of->key);
+    ffd_json_bool(json, "isNew", of->is_new);
     ffd_json_bool(json, "hasMoves", of->has_moves);
     ffd_json_bool(json, "extends", of->extends);
     ffd_json_string(json, "file", of->file);

@@ -40,6 +40,7 @@ typedef struct view_edit {
     double *weights, *deformed_weights; /* of each control point; NULL: all are 1 */
     char *file;                         /* text of the lattice file: JSON, whose moves the offsets replace */
     char *name, *comment;               /* as JSON, of that file; NULL: none */
+    bool is_new;                        /* no file: it was laid round the mesh */
     bool has_moves;                     /* the file has moves or keys */
     char key[66];                       /* names the mesh and the rest lattice */
     bool extends;                       /* points outside are moved */

@@ -286,8 +286,8 @@ def lattices_turned_for_z_up(place):
         place.write(name, "".join("v %r %r %r\n" % point for point in points))
 
     names = [name for name in sorted(os.listdir(os.path.join(place.source, "data/lattices"))) if name.endswith(".json")]
-    # A cylinder and a matrix are turned by hand.
-    lattices = {name: sample_lattice(place, name) for name in names if name not in ("bend-cylinder.json", "overlap.json")}
+    # A cylinder, a matrix and offsets are turned by hand.
+    lattices = {name: sample_lattice(place, name) for name in names if name not in ("bend-cylinder.json", "overlap.json", "snout.json")}
     lattices["all-members.json"] = ALL_MEMBERS
     lattices["box.json"] = {**ALL_MEMBERS, "units": "box"}
     rest = place.points(place.model("spot.obj"))

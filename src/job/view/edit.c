@@ -71,7 +71,7 @@ static ffd_status make_lattice(edit_work *work, ffd_deform_desc *job, ffd_lattic
                                         .only_count = job->only_count,
                                         .lattice = work->desc->lattice ? work->desc->lattice : &defaults};
     TRY(ffd_lattice_new_round(&round, &work->made, error));
-    *source = (ffd_lattice_source){.path = "lattice", .object = work->made};
+    *source = (ffd_lattice_source){.path = "round the mesh", .object = work->made};
     job->lattices = source;
     job->lattice_count = 1;
     return FFD_OK;
@@ -156,6 +156,7 @@ static ffd_status make_scene(edit_work *work, ffd_job_result *result, ffd_error 
         return ffd_fail_memory(error);
     TRY(ffd_edit_find_points(job, &work->scene, &edit->points, &work->counts, error));
     TRY(ffd_edit_take_lattice(job, &work->scene, edit, error));
+    edit->is_new = work->made != NULL;
     warn(work);
     return judge_outside(work, error);
 }

@@ -49,14 +49,24 @@ class Editor {
       this.panel = new EditPanel(this);
       this.tools.addKeys();
       const draw = viewer.renderer.draw.bind(viewer.renderer);
-      viewer.renderer.draw = (state) => draw({...state, tools: [...this.marks(), ...this.tools.placeHandles()]});
+      viewer.renderer.draw = (state) => {
+        draw({...state, tools: [...this.marks(), ...this.tools.placeHandles()]});
+        if (this.turnCompass) this.turnCompass();
+      };
       showPanel(viewer);
       this.setMode('move');
       this.setLock(-1, true);
       viewer.setPaint(viewer.paints[0]);
       this.draw(true);
       this.addDrop();
-      byId('keys').textContent = 'Drag a control point, or the handles of the selection; drag elsewhere to turn, Shift + drag to pan. Keys: N next point, Shift + arrows move it, G O E handles, X Y Z along an axis, A all, Q boxes, [ ] soft radius, M mirror, K smooth, V hide behind, Delete resets, Ctrl Z, Ctrl S.';
+      byId('keys').textContent = 'Click a control point, Shift + click adds one; drag it, or the handles. Drag elsewhere to turn, Shift + drag to pan, wheel to come closer. Keys: N next point, Space keeps it, Shift + arrows move, X Y Z along an axis, M mirror, [ ] soft radius, Ctrl Z, Ctrl S, Escape back to the picture, ? all keys.';
+      this.addCompass();
+      // Views and Fit take in what the cage has become.
+      const look = viewer.look.bind(viewer);
+      viewer.look = (name) => {
+        viewer.camera.hold(listFitPoints(this.scene));
+        look(name);
+      };
     }
     this.offerKept();
     window.addEventListener('pagehide', () => this.files.keep());
@@ -121,8 +131,10 @@ class Editor {
       if (share > 0) (edits.selected[j] ? selected : soft).push(...toPicture(this.scene, edits.point(j)), 0, 0, 0);
     });
     viewer.renderer.setMarks('selectedPoints', selected, 6);
+    const images = edits.imagesOf(shares).flatMap((j) => [...toPicture(this.scene, edits.point(j)), 0, 0, 0]);
     viewer.renderer.setMarks('softPoints', soft, 6);
-    return [{name: 'softPoints', isLine: false, size: 9, color: [1, 0.55, 0.15, 1], hiddenShare: 0.6}, {name: 'selectedPoints', isLine: false, size: 11, color: [1, 0.78, 0.1, 1], hiddenShare: 0.8}];
+    viewer.renderer.setMarks('imagePoints', images, 6);
+    return [{name: 'imagePoints', isLine: false, size: 10, color: [0.1, 0.75, 0.7, 1], hiddenShare: 0.7}, {name: 'softPoints', isLine: false, size: 9, color: [1, 0.55, 0.15, 1], hiddenShare: 0.6}, {name: 'selectedPoints', isLine: false, size: 11, color: [1, 0.78, 0.1, 1], hiddenShare: 0.8}];
   }
 
   // Figures, and normals that waited: a little for each picture.
@@ -211,7 +223,10 @@ class Editor {
 
   mirror(plane) {
     const without = this.edits.mirror(plane);
-    if (plane) this.say(without ? `${countText(without, 'control point')} ${without === 1 ? 'has' : 'have'} no mirror image, and move alone.` : 'Each control point has its mirror image.', without > 0);
+    if (!plane) return;
+    const {axis} = plane, middle = AXES[axis] ? ` (the middle of the lattice is ${axis} = ${numberText(this.middle['xyz'.indexOf(axis)], 6)})` : '';
+    this.say(without ? `${countText(without, 'control point')} ${without === 1 ? 'has' : 'have'} no mirror image there, and ${without === 1 ? 'moves' : 'move'} alone${middle}.`
+      : 'Mirror: each control point has its image, which goes along.', without > 0);
   }
 
   // A drag shows changes of what was there when it began; its end is one step.
@@ -245,6 +260,34 @@ class Editor {
         const after = set(changesOf);
         edits.commit(after, base);
       }),
+    };
+  }
+
+  // The axes of the model, as the camera sees them.
+  addCompass() {
+    const svg = (tag, values) => {
+      const element = document.createElementNS('http://www.w3.org/2000/svg', tag);
+      Object.entries(values).forEach(([key, value]) => element.setAttribute(key, value));
+      return element;
+    };
+    const box = svg('svg', {viewBox: '-40 -40 80 80', class: 'compass', 'aria-hidden': 'true'});
+    const rows = AXIS_NAMES.map((name, a) => {
+      const color = `rgb(${AXIS_COLORS[a].slice(0, 3).map((x) => Math.round(255 * x))})`;
+      const line = svg('line', {x1: 0, y1: 0, stroke: color, 'stroke-width': 2.5}), text = svg('text', {fill: color, 'text-anchor': 'middle', 'dominant-baseline': 'central', 'font-size': 13});
+      text.textContent = name;
+      box.append(line, text);
+      return {line, text, a};
+    });
+    byId('frame').append(box);
+    this.turnCompass = () => {
+      const {right, up} = this.viewer.camera.axes();
+      for (const {line, text, a} of rows) {
+        const x = 24 * right[a], y = -24 * up[a];
+        line.setAttribute('x2', x);
+        line.setAttribute('y2', y);
+        text.setAttribute('x', 1.42 * x);
+        text.setAttribute('y', 1.42 * y);
+      }
     };
   }
 

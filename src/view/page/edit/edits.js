@@ -79,6 +79,17 @@ class Edits {
     return list;
   }
 
+  // Those at the mirror images of what goes along, which go along too.
+  imagesOf(shares) {
+    if (!this.plane) return [];
+    const list = [];
+    shares.forEach((share, j) => {
+      const image = this.plane.images[j];
+      if (share > 0 && image >= 0 && !(shares[image] > 0)) list.push(image);
+    });
+    return list;
+  }
+
   centroid() {
     const list = this.selection(), sum = [0, 0, 0];
     for (const j of list) this.point(j).forEach((x, a) => { sum[a] += x / list.length; });
@@ -205,9 +216,9 @@ class Edits {
     return {indices, values};
   }
 
-  // Sets offsets as one step; the same ones again are none.
-  commit({indices, values}, before = this.offsets) {
-    const step = {indices: [], before: [], after: []};
+  // Sets offsets as one step; the same ones again are none. run: steps in a row with this same word are one.
+  commit({indices, values}, before = this.offsets, run = null) {
+    const step = {indices: [], before: [], after: [], run};
     indices.forEach((j, n) => {
       if ([0, 1, 2].every((a) => Object.is(values[3 * n + a], before[3 * j + a]))) return;
       step.indices.push(j);
@@ -218,7 +229,11 @@ class Edits {
     });
     if (step.after.some((x) => !Number.isFinite(x))) throw new Error('that is too far for numbers');
     if (!step.indices.length) return;
-    this.done.push(step);
+    const last = this.done[this.done.length - 1];
+    const goesOn = run !== null && last && last.run === run && this.undone.length === 0 && this.saved !== this.done.length &&
+      last.indices.length === step.indices.length && last.indices.every((j, n) => j === step.indices[n]);
+    if (goesOn) last.after = step.after;
+    else this.done.push(step);
     this.undone = [];
     if (this.saved > this.done.length - 1) this.saved = -1;
     this.put(step.indices, step.after);
@@ -250,6 +265,12 @@ class Edits {
   move(vector) {
     const by = finite(vector, 3, 'move');
     if (this.selected.some((is) => is)) this.commit(this.offsetsAfter(this.moveBy(by)));
+  }
+
+  // As move; nudges of the same points in a row are one step.
+  nudge(vector) {
+    const list = this.selection();
+    if (list.length) this.commit(this.offsetsAfter(this.moveBy(vector)), this.offsets, `nudge ${list} ${this.radius}`);
   }
 
   rotate(axis, degrees, about) {

@@ -102,8 +102,8 @@ class Files {
   constructor(editor, scene) {
     this.editor = editor;
     this.lattice = new LatticeFile(scene.edit, scene.cages[scene.edit.cage]);
-    const stem = scene.cages[scene.edit.cage].name.replace(/\.[^.]*$/, ''), mesh = scene.name.replace(/\.[^.]*$/, '');
-    this.name = `${scene.edit.name === null && stem === 'lattice' ? mesh + '-lattice' : stem || 'lattice'}.json`.replace(/[^\w .-]/g, '_');
+    const stem = (name) => name.replace(/\.[^.]*$/, '');
+    this.name = `${scene.edit.isNew ? stem(scene.name) + '-lattice' : stem(scene.cages[scene.edit.cage].name) || 'lattice'}.json`.replace(/[^\w .-]/g, '_');
     this.key = `ffd-edit ${scene.edit.key} ${this.hashOf(scene.edit.offset)}`;
     this.handle = null;
     this.timer = 0;
@@ -148,6 +148,7 @@ class Files {
     this.editor.edits.saved = this.editor.edits.done.length;
     this.savedStrength = this.editor.edits.strength;
     this.forget();
+    this.editor.panel.refresh();
     this.editor.say(`Saved as ${this.handle ? this.handle.name : this.name}.`);
   }
 

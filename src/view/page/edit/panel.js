@@ -58,6 +58,7 @@ class EditPanel {
     this.editor = editor;
     const {edits} = editor;
     this.count = make('p', 'more count-line');
+    this.count.setAttribute('role', 'status');
     this.position = new Triple('Position', (a, value) => this.setPosition(a, value));
     this.offset = new Triple('Offset', (a, value) => this.setOffset(a, value));
     this.position.least = this.offset.least = 1e-9 * edits.diagonal;
@@ -85,10 +86,35 @@ class EditPanel {
     this.boxButton = button('Box select', () => this.toggleBoxes());
     this.boxButton.setAttribute('aria-pressed', 'false');
     this.boxButton.title = 'Drag a box round control points (Q, or Ctrl + drag); Shift adds, Alt removes';
-    const bar = make('div', 'edit-bar', this.modes, this.boxButton, this.undoButton, this.redoButton);
+    const help = button('Help', () => this.toggleHelp());
+    help.title = 'All keys (?)';
+    this.message = make('p', 'edit-message');
+    this.message.setAttribute('role', 'status');
+    this.help = this.makeHelp();
+    byId('frame').append(this.help);
+    const bar = make('div', 'edit-bar', this.modes, this.boxButton, this.undoButton, this.redoButton, help, this.message);
     bar.setAttribute('role', 'toolbar');
     bar.setAttribute('aria-label', 'Edit');
     return bar;
+  }
+
+  makeHelp() {
+    const rows = [['Click, Shift + click, Alt + click', 'select a control point, add it, remove it'], ['Double click on the model', 'select the point that moves that place most'],
+      ['Drag a point or a handle', 'moves what is selected'], ['Box select or Ctrl + drag', 'a box of points; Shift adds, Alt removes'],
+      ['Drag elsewhere, Shift + drag, wheel', 'turn, pan, come closer; with fingers: one turns, two pan and zoom'], ['N, Shift + N', 'the next point, the one before'],
+      ['Space', 'keeps the point: N goes on, and adds'], ['A', 'all points, or none'], ['Shift + arrows, Shift + Page Up, Page Down', 'move the selection; X, Y or Z first: along an axis'],
+      ['G, O, E', 'handles for moving, rotating, scaling'], ['[ and ]', 'a smaller, larger radius of the soft selection'], ['M', 'mirror at x, or none'], ['K, Delete', 'smooth, reset'],
+      ['Ctrl Z, Ctrl Y, Ctrl S', 'undo, redo, save'], ['V, C, W, D', 'hide the cage behind the model, the cage, edges, colours'],
+      ['Arrows, + and -, Home, F B L R T I', 'turn, zoom, fit, views'], ['Escape', 'ends a tool, and gives the keys to the picture']];
+    const list = make('dl', 'help-keys');
+    for (const [keys, what] of rows) list.append(make('dt', '', keys), make('dd', '', what));
+    const dialog = make('dialog', 'help', make('h2', '', 'Tools and keys'), list, button('Close', () => dialog.close()));
+    return dialog;
+  }
+
+  toggleHelp() {
+    if (this.help.open) this.help.close();
+    else this.help.showModal();
   }
 
   fileCard() {
@@ -103,12 +129,10 @@ class EditPanel {
     const tools = make('div', 'tools', save);
     if (window.showSaveFilePicker) tools.append(button('Save to \u2026', () => files.saveAs()));
     tools.append(button('Copy text', () => files.copy()), button('Load \u2026', () => input.click()), input);
-    this.message = make('p', 'more');
-    this.message.setAttribute('role', 'status');
     this.offer = make('div', 'offer');
     this.offer.hidden = true;
     const name = make('p', 'more', 'Saves ', nameElement(files.name), '. A lattice file that is dropped on the page is loaded.');
-    const card = section('Lattice file', this.offer, tools, this.message, name);
+    const card = section('Lattice file', this.offer, tools, name);
     if (this.editor.scene.edit.hasMoves) card.append(make('p', 'more', 'The moves of the file are baked: what is saved has their result as offsets.'));
     return card;
   }
@@ -121,19 +145,39 @@ class EditPanel {
     const number = numberField('Number of the layer, from 0', '0');
     number.min = 0;
     number.step = 1;
-    const layer = (mode) => () => {
+    const layerOf = () => {
       const a = Number(direction.value), [nu, nv] = edits.size, which = Number(number.value);
       const list = all().filter((j) => [j % nu, Math.floor(j / nu) % nv, Math.floor(j / (nu * nv))][a] === which);
       if (!list.length) editor.say(`There is no layer ${which} along ${'uvw'[a]}: 0 to ${edits.size[a] - 1}.`, true);
-      else editor.tryTo(() => edits.select(list, mode));
+      return list;
     };
-    const layers = make('div', 'tools', make('span', 'quiet', 'Layer'), direction, number, button('Select', layer('set')), button('Add', layer('add')));
+    const layer = (mode) => () => {
+      const list = layerOf();
+      if (list.length) edits.select(list, mode);
+    };
+    // Of what is selected only this layer.
+    const only = (list) => {
+      if (list.length) edits.select(list.filter((j) => edits.selected[j]));
+    };
+    const layers = make('div', 'tools', make('span', 'quiet', 'Layer'), direction, number, button('Select', layer('set')), button('Add', layer('add')),
+      button('Only', () => only(layerOf())));
+    const at = [0, 1, 2].map((a) => {
+      const field = numberField(`Index along ${'uvw'[a]}, from 0`, '0');
+      Object.assign(field, {min: 0, max: edits.size[a] - 1, step: 1});
+      return field;
+    });
+    const one = (mode) => () => {
+      const [u, v, w] = at.map((field) => Number(field.value)), wrong = [u, v, w].findIndex((x, a) => !Number.isInteger(x) || x < 0 || x >= edits.size[a]);
+      if (wrong >= 0) editor.say(`There is no index ${[u, v, w][wrong]} along ${'uvw'[wrong]}: 0 to ${edits.size[wrong] - 1}.`, true);
+      else edits.select([u + edits.size[0] * (v + edits.size[1] * w)], mode);
+    };
+    const points = make('div', 'tools', make('span', 'quiet', 'Point'), ...at, button('Select', one('set')), button('Add', one('add')));
     this.softBox = checkbox('soft', 'Soft selection, radius', false, (on) => this.setSoft(on));
     this.radius = numberField('Radius of the soft selection', String(Number((edits.diagonal / 4).toPrecision(3))), () => this.setSoft(this.radiusIsOn));
     this.radius.min = 0;
     this.softBox.append(this.radius);
     this.behindBox = checkbox('behind', 'Hide the cage behind the model', false, () => this.toggleBehind());
-    return section('Selection', this.count, tools, layers, this.softBox, this.behindBox);
+    return section('Selection', this.count, tools, layers, points, this.softBox, this.behindBox);
   }
 
   moveCard() {
@@ -151,7 +195,7 @@ class EditPanel {
     this.lock = radios('lock', 'Along', [['-1', 'Screen', 'Points move along the screen'], ['0', 'x', 'X'], ['1', 'y', 'Y'], ['2', 'z', 'Z']], (value) => editor.setLock(Number(value), true));
     this.stepField = numberField('Step of the arrow keys', String(Number((edits.diagonal / 100).toPrecision(2))));
     const line = (...children) => make('div', 'tools', ...children);
-    return section('Move', this.position.row, this.offset.row, by.row,
+    return section('Move', make('div', 'triple heads', make('span', ''), ...AXIS_NAMES.map((name) => make('span', 'quiet', name))), this.position.row, this.offset.row, by.row,
       line(make('span', 'quiet', 'Rotate about'), axis, degrees, button('Rotate', () => editor.tryTo(() => edits.rotate(axis.value, Number(degrees.value), editor.about())))),
       factors.row,
       line(make('span', 'quiet', 'About'), this.about), this.aboutPoint.row, make('p', 'more', 'Points that are dragged go along:'), this.lock,
@@ -172,6 +216,8 @@ class EditPanel {
     this.planePoint.show(editor.middle);
     this.planeNormal.show([1, 0, 0]);
     const set = () => this.setMirror();
+    // The middle of the lattice is where a mirror is wanted mostly.
+    this.plane.addEventListener('change', () => { this.planeAt.value = AXES[this.plane.value] ? String(editor.middle['xyz'.indexOf(this.plane.value)]) : '0'; });
     for (const input of [this.plane, this.planeAt, ...this.planePoint.fields, ...this.planeNormal.fields]) input.addEventListener('change', set);
     this.setPlaneRows();
     return section('Whole edit', make('div', 'target', make('span', '', 'Strength'), this.strength, this.strengthText),
@@ -182,7 +228,8 @@ class EditPanel {
 
   figureCard() {
     this.figures = make('dl', 'figures');
-    const card = section('Figures of the shape', this.figures, make('p', 'more', 'As ffd deform reports them. Colour by det F shows where space shrinks, stretches or folds.'));
+    const {edits} = this.editor, wide = `A control point of this ${edits.size.join(' \u00d7 ')} lattice moves a wide part of the model: for details begin with a finer one (ffd edit --size).`;
+    const card = section('What it does', this.figures, make('p', 'more', 'As ffd deform reports them. Colour by det F shows where space shrinks, stretches or folds.'), make('p', 'more', wide));
     card.id = 'edit-figures';
     return card;
   }
@@ -213,7 +260,7 @@ class EditPanel {
 
   toggleMirror() {
     this.plane.value = this.plane.value ? '' : 'x';
-    this.setMirror();
+    this.plane.dispatchEvent(new Event('change'));
   }
 
   setPlaneRows() {

@@ -12,6 +12,7 @@ class Tools {
     this.lock = -1;
     this.boxes = false;
     this.handles = [];
+    this.kept = [];
     this.frame = make('div', 'select-box');
     this.frame.id = BOX_ID;
     this.frame.hidden = true;
@@ -164,13 +165,48 @@ class Tools {
   nudge(x, y, z) {
     const {viewer, editor, lock} = this, {right, up, back} = viewer.camera.axes(), step = editor.step();
     const by = lock < 0 ? [0, 1, 2].map((a) => step * (x * right[a] + y * up[a] - z * back[a])) : [0, 1, 2].map((a) => (a === lock ? step * (x + y + z) : 0));
-    editor.tryTo(() => editor.edits.move(by));
+    editor.tryTo(() => editor.edits.nudge(by));
   }
 
-  // The next control point, or the one before, becomes the selection.
+  // The next control point, or the one before, becomes the selection, beside those that are kept.
   walk(step) {
-    const {edits} = this.editor, list = edits.selection(), last = list.length ? list[list.length - 1] : step > 0 ? -1 : 0;
-    edits.select([(last + step + edits.count) % edits.count]);
+    const {edits} = this.editor, list = edits.selection();
+    if (this.cursor === undefined || !edits.selected[this.cursor]) this.cursor = list.length ? list[list.length - 1] : step > 0 ? -1 : 0;
+    this.cursor = (this.cursor + step + edits.count) % edits.count;
+    this.kept = this.kept.filter((j) => edits.selected[j]);
+    edits.select([...this.kept, this.cursor]);
+  }
+
+  // Keeps the point of the walk, which then goes on; or lets it go.
+  keep() {
+    const {editor} = this, {edits} = editor;
+    if (this.cursor === undefined || !edits.selected[this.cursor]) return;
+    this.kept = this.kept.includes(this.cursor) ? this.kept.filter((j) => j !== this.cursor) : [...this.kept, this.cursor];
+    editor.say(this.kept.length ? `${countText(this.kept.length, 'point')} kept: N goes on, and adds.` : 'No point is kept.');
+  }
+
+  // The control point that moves a vertex of the mesh most becomes the selection.
+  chooseMover(x, y, event) {
+    const {viewer, editor: {edits, shown, scene}} = this, found = pick(viewer, x, y);
+    if (!found || found.vertex === undefined) return;
+    const {uvw} = scene.edit, at = 3 * found.vertex;
+    let best = -1, most = 0;
+    if (Number.isNaN(uvw[at])) return;
+    shown.volume.visit(uvw[at], uvw[at + 1], uvw[at + 2], (j, value) => {
+      if (value > most) {
+        most = value;
+        best = j;
+      }
+    });
+    if (best >= 0) edits.select([best], this.modeOf(event));
+  }
+
+  // Ends what is going on, and gives the keys to the picture.
+  leave() {
+    const {viewer, editor} = this;
+    if (this.boxes) editor.panel.toggleBoxes();
+    viewer.clearChoice();
+    viewer.canvas.focus();
   }
 
   addKeys() {
@@ -180,13 +216,19 @@ class Tools {
       v: () => editor.panel.toggleBehind(), g: () => editor.setMode('move'), o: () => editor.setMode('rotate'), e: () => editor.setMode('scale'),
       x: () => editor.setLock(0), y: () => editor.setLock(1), z: () => editor.setLock(2), k: () => editor.tryTo(() => edits.smooth()),
       u: () => edits.undo(), U: () => edits.redo(), '[': () => editor.panel.changeRadius(1 / 1.25), ']': () => editor.panel.changeRadius(1.25),
-      Delete: () => editor.tryTo(() => edits.reset()), Backspace: () => editor.tryTo(() => edits.reset()),
+      ' ': () => this.keep(), '?': () => editor.panel.toggleHelp(), Delete: () => editor.tryTo(() => edits.reset()), Backspace: () => editor.tryTo(() => edits.reset()),
     };
     const shifted = {ArrowLeft: [-1, 0, 0], ArrowRight: [1, 0, 0], ArrowUp: [0, 1, 0], ArrowDown: [0, -1, 0], PageUp: [0, 0, 1], PageDown: [0, 0, -1]};
     const commands = {z: () => edits.undo(), Z: () => edits.redo(), y: () => edits.redo(), s: () => editor.files.save(), a: () => edits.select(Array.from({length: edits.count}, (_, j) => j))};
+    this.viewer.canvas.addEventListener('dblclick', (event) => this.chooseMover(event.offsetX, event.offsetY, event));
     document.addEventListener('keydown', (event) => {
+      if (event.key === 'Escape') {
+        this.leave();
+        return;
+      }
       const isText = /^(INPUT|SELECT|TEXTAREA)$/.test(event.target.tagName) && event.target.type !== 'checkbox' && event.target.type !== 'radio';
-      const onPicture = event.target === this.viewer.canvas || event.target === document.body;
+      // Buttons and boxes have Space and Enter for themselves.
+      const onPicture = event.target === this.viewer.canvas || event.target === document.body || !(isText || event.key === ' ' || event.key.startsWith('Arrow'));
       const action = event.ctrlKey || event.metaKey ? (isText && event.key !== 's' ? null : commands[event.key])
         : event.altKey || isText || !onPicture ? null : event.shiftKey && shifted[event.key] ? () => this.nudge(...shifted[event.key]) : plain[event.key];
       if (!action) return;
