@@ -16,6 +16,7 @@ import tempfile
 
 import authoring
 import batches
+import edits
 import fits
 import jobs
 import kernels
@@ -54,6 +55,7 @@ SUBJECTS = {
     "python": pythons.calls,
     "picture": pictures.picture,
     "views": views.views,
+    "edits": edits.edits,
     "batch": batches.batch,
     "sweep": batches.sweep,
     "positions": batches.positions,

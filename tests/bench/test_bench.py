@@ -56,7 +56,7 @@ if platform.machine() == "x86_64":
     SUBJECTS["Fits"] += ["registers, sse2", "factor, 6^3, sse2, 1 thread", "factor, 8^3, sse2, 2 threads"]
     SUBJECTS["Displacement"] += ["multiplications alone, sse2", "kernel alone, general, sse2, with gradient"]
 # Peers that need not be there: a row, or a line that says so.
-MAY_MISS = ["tinyobjloader", "assimp", "SciPy", "VTK", "ffd_mesh", "MeshLib"]
+MAY_MISS = ["tinyobjloader", "assimp", "SciPy", "VTK", "ffd_mesh", "MeshLib", "The page of ffd edit"]
 # Takes the arguments after -- as Blender hands them to its script.
 STUB = '#!/bin/sh\nwhile [ "$1" != -- ]; do shift; done\ncp "$2" "$3"\n'
 
