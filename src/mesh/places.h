@@ -67,11 +67,30 @@ typedef ffd_status mesh_follow_function(mesh_document *document, const mesh_plac
                                         mesh_place_move *moves, const mesh_log *log,
                                         mesh_following *following, ffd_error *error);
 
+/* In place of the number of a piece or a node. */
+#define MESH_NONE UINT32_MAX
+
+/* Finds which places are those of pieces that move as one: a place whose vertices (those of its mesh, or that
+   follow it as a joint with more than half of their weight; if it has none, those of all below it) are all of
+   one piece; and one without vertices below such a place. pieces: of each vertex of the document its piece,
+   or MESH_NONE; those that are not selected do not count. of_places: filled likewise for each place. Errors:
+   FFD_E_MEMORY. */
+typedef ffd_status mesh_place_pieces_function(const mesh_document *document, const mesh_places *places,
+                                              const uint32_t *pieces, uint32_t *of_places, ffd_error *error);
+/* Finds for each vertex of the document the nearest node above it whose rotation an animation changes, by the
+   index for mesh_place_calls.name, or MESH_NONE: the node of its mesh, or the joint that it follows with more
+   than half of its weight, or a node above that. Joints some of whose vertices follow others too bend what
+   they carry: these vertices have none. Animations that cannot be read turn nothing. *nodes: allocated if
+   there is one, else NULL; the caller frees it. Errors: FFD_E_MEMORY. */
+typedef ffd_status mesh_find_turned_function(mesh_document *document, uint32_t **nodes, ffd_error *error);
+
 struct mesh_place_calls {
     mesh_list_places_function *list;
     mesh_place_name_function *name;
     mesh_count_skins_function *count_skins;
     mesh_follow_function *follow;
+    mesh_place_pieces_function *find_pieces;
+    mesh_find_turned_function *find_turned;
 };
 
 #endif

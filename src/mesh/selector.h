@@ -1,4 +1,4 @@
-/* selector.h - selectors of `--only`: a kind of thing and a name. */
+/* selector.h - selectors of `--only`, `--rigid` and `--uniform`: a kind of thing and a name. */
 #ifndef FFD_MESH_SELECTOR_H
 #define FFD_MESH_SELECTOR_H
 
@@ -12,9 +12,10 @@ typedef enum selector_kind {
     SELECT_MESH,
     SELECT_MATERIAL,
     SELECT_GROUP,
-    SELECT_OBJECT
+    SELECT_OBJECT,
+    SELECT_JOINT /* not of `--only` */
 } selector_kind;
-#define SELECTOR_KINDS 5
+#define SELECTOR_KINDS 6
 
 /* The bit of a kind in a set. */
 #define SELECTOR_BIT(kind) (1u << (kind))
@@ -23,6 +24,7 @@ typedef struct mesh_selector {
     selector_kind kind;
     const char *name; /* points into the text, after the colon */
     size_t size;
+    const char *option; /* the setting that it is of, for messages: "only" */
 } mesh_selector;
 
 typedef struct mesh_document mesh_document; /* mesh.h */
@@ -33,6 +35,10 @@ typedef struct mesh_listing mesh_listing;   /* listing.h */
    Errors: FFD_E_ARGUMENT (a name that is not in the file). */
 typedef ffd_status mesh_select_function(mesh_document *document, const mesh_selector *selectors, size_t count,
                                         ffd_error *error);
+/* Sets the marks of the vertices (one byte for each vertex of the document) that a selector names; those of a
+   joint follow it with more than half of their weight. Errors: as mesh_select_function. */
+typedef ffd_status mesh_mark_function(mesh_document *document, const mesh_selector *selector, uint8_t *marks,
+                                      ffd_error *error);
 /* Adds to a listing every name that select accepts, with everything that its bearers draw, by kind and in
    the order of the file; and every unnamed thing of a kind that can have names. Errors: FFD_E_MEMORY,
    FFD_E_UNSUPPORTED, and those of the file's content. */
@@ -46,8 +52,9 @@ typedef uint64_t mesh_name_owner_function(const mesh_document *document, uint64_
 
 /* The calls of a format whose meshes have things with names. */
 typedef struct mesh_selector_calls {
-    unsigned kinds; /* the set of kinds that the format has */
+    unsigned kinds, mark_kinds; /* the sets of kinds that select and mark take */
     mesh_select_function *select;
+    mesh_mark_function *mark;
     mesh_list_things_function *list;
     mesh_name_owner_function *name_owner;
 } mesh_selector_calls;
@@ -55,8 +62,10 @@ typedef struct mesh_selector_calls {
 /* Returns the name of a kind: "node", "mesh", ... */
 const char *ffd_selector_kind_name(selector_kind kind);
 
-/* Parses "KIND:NAME". Errors: FFD_E_ARGUMENT, with the most similar kind. */
-ffd_status ffd_selector_parse(const char *text, mesh_selector *selector, ffd_error *error);
+/* Parses "KIND:NAME", with a kind of the setting's: "only", "rigid" or "uniform". Errors: FFD_E_ARGUMENT,
+   with the most similar kind. */
+ffd_status ffd_selector_parse(const char *option, const char *text, mesh_selector *selector,
+                              ffd_error *error);
 
 /* Returns whether this is the name of the selector. */
 bool ffd_selector_is(const mesh_selector *selector, const char *name, size_t size);

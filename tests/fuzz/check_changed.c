@@ -126,7 +126,7 @@ static void convert(const mesh_document *document)
 /* Selects what a file without names has: its faces before any `g`. */
 static void select_group(mesh_document *document)
 {
-    static const mesh_selector selector = {SELECT_GROUP, "default", sizeof "default" - 1};
+    static const mesh_selector selector = {SELECT_GROUP, "default", sizeof "default" - 1, "only"};
     ffd_error error = {0};
     if (document->format->selectors && document->format->selectors->kinds & SELECTOR_BIT(SELECT_GROUP))
         (void)document->format->selectors->select(document, &selector, 1, &error);

@@ -68,7 +68,10 @@ static ffd_status save(mesh_document *document, const mesh_save_options *options
 
 static const mesh_selector_calls selectors = {
     .kinds = SELECTOR_BIT(SELECT_NODE) | SELECTOR_BIT(SELECT_MESH) | SELECTOR_BIT(SELECT_MATERIAL),
+    .mark_kinds = SELECTOR_BIT(SELECT_NODE) | SELECTOR_BIT(SELECT_MESH) | SELECTOR_BIT(SELECT_MATERIAL) |
+                  SELECTOR_BIT(SELECT_JOINT),
     .select = ffd_gltf_select,
+    .mark = ffd_gltf_mark,
     .list = ffd_gltf_list_parts,
     .name_owner = ffd_gltf_name_part,
 };
@@ -85,6 +88,8 @@ static const mesh_sidecar_calls sidecars = {
 static const mesh_place_calls places = {
     .list = ffd_gltf_list_places,
     .name = ffd_gltf_place_name,
+    .find_pieces = ffd_gltf_place_pieces,
+    .find_turned = ffd_gltf_find_turned,
     .count_skins = ffd_gltf_count_skins,
     .follow = follow,
 };

@@ -3,6 +3,7 @@
 #include "base/system/deadline.h"
 #include "base/system/thread.h"
 #include "base/text/words.h"
+#include "io/gltf/model/gltf_joints.h"
 #include "io/gltf/read/gltf_elements.h"
 #include <stdatomic.h>
 #include <stdio.h>
@@ -219,49 +220,10 @@ static ffd_status take_accessor(const weight_reader *r, size_t p, size_t accesso
     return FFD_OK;
 }
 
-/* The share of the named joints in a vertex: their weights, divided by the sum of all. A vertex whose weights
-   sum to 0 follows its first joint (gltf_skin.c). joints, weights: those of all sets. */
-static double share_of(const weight_reader *r, const gltf_skin *skin, const double *joints,
-                       const double *weights, size_t sets, size_t step)
-{
-    double named = 0, total = 0;
-    bool follows = false;
-    for (size_t s = 0; s < sets; s++)
-        for (size_t k = 0; k < 4; k++) {
-            const double joint = joints[s * step + k], weight = weights[s * step + k];
-            const size_t index = joint >= 0 && joint < (double)skin->joint_count ? (size_t)joint : 0;
-            const bool is_named = r->is_named[skin->joints[index]];
-            follows = follows || (s == 0 && k == 0 && is_named);
-            named += is_named ? weight : 0;
-            total += weight;
-        }
-    return total != 0 ? named / total : follows;
-}
-
-/* The most sets of joints and weights (gltf_skin.c). */
-#define MOST_SETS ((size_t)16)
-#define SKIN_BLOCK ((size_t)32) /* vertices read at a time */
-
 static ffd_status take_skin(const weight_reader *r, size_t p, ffd_error *error)
 {
-    const gltf_document *const d = r->document;
-    const gltf_part *const part = &d->parts[p];
-    const size_t vertices = d->mesh_parts[p].vertex_count, sets = part->influence_count;
-    double joints[MOST_SETS * 4 * SKIN_BLOCK], weights[MOST_SETS * 4 * SKIN_BLOCK];
-    for (size_t at = 0; at < vertices; at += SKIN_BLOCK) {
-        const size_t count = vertices - at < SKIN_BLOCK ? vertices - at : SKIN_BLOCK;
-        TRY(ffd_deadline_check_at(at, error));
-        for (size_t s = 0; s < sets; s++) {
-            const gltf_influence *const influence = &part->influences[s];
-            ffd_gltf_read(d, (size_t)influence->joints, at, count, 4, joints + 4 * SKIN_BLOCK * s);
-            ffd_gltf_read(d, (size_t)influence->weights, at, count, 4, weights + 4 * SKIN_BLOCK * s);
-        }
-        for (size_t i = 0; i < count; i++)
-            r->weights[r->first[p] + at + i] =
-                share_of(r, part->skin, joints + 4 * i, weights + 4 * i, sets, 4 * SKIN_BLOCK);
-    }
     r->parts[p].accessor = 0;
-    return FFD_OK;
+    return ffd_gltf_joint_shares(r->document, p, r->is_named, r->weights + r->first[p], error);
 }
 
 static ffd_status take_instance(const weight_reader *r, const gltf_instance *instance, ffd_error *error)

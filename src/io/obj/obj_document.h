@@ -119,6 +119,7 @@ mesh_open_function ffd_obj_open;
 mesh_close_function ffd_obj_close;
 mesh_list_files_function ffd_obj_list_linked;
 mesh_select_function ffd_obj_select;
+mesh_mark_function ffd_obj_mark;
 mesh_list_things_function ffd_obj_list_parts;
 mesh_mark_used_function ffd_obj_mark_used;
 mesh_read_function ffd_obj_read;

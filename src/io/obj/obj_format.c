@@ -5,7 +5,9 @@
 
 static const mesh_selector_calls selectors = {
     .kinds = SELECTOR_BIT(SELECT_GROUP) | SELECTOR_BIT(SELECT_OBJECT) | SELECTOR_BIT(SELECT_MATERIAL),
+    .mark_kinds = SELECTOR_BIT(SELECT_GROUP) | SELECTOR_BIT(SELECT_OBJECT) | SELECTOR_BIT(SELECT_MATERIAL),
     .select = ffd_obj_select,
+    .mark = ffd_obj_mark,
     .list = ffd_obj_list_parts,
     .name_owner = ffd_obj_name_part,
 };

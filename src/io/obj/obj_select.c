@@ -17,6 +17,7 @@ typedef struct selecting {
     bool *found;                  /* a selector: its name was there */
     bool group, object, material; /* is selected, at the current statement */
     bool in_default;              /* no `g` has named a group */
+    uint8_t *marks; /* one a vertex: to be marked in place of the document's selection; or NULL */
 } selecting;
 
 /* Whether a selector has this name. */
@@ -57,7 +58,9 @@ static void mark_corners(selecting *s, obj_walk *walk, bool selected)
     size_t pair;
     while (ffd_obj_walk_corner(walk, &corner)) {
         if (selected)
-            d->selected_vertices[corner.vertex] = 1;
+            (s->marks ? s->marks : d->selected_vertices)[corner.vertex] = 1;
+        if (s->marks)
+            continue;
         if (walk->scan.keyword != OBJ_FACE || !ffd_obj_find_pair(d, &corner, &pair))
             continue;
         if (selected)
@@ -83,7 +86,8 @@ static void mark_elements(selecting *s)
             s->material = names(s, SELECT_MATERIAL, ffd_obj_names_line(&walk.scan));
             break;
         case OBJ_FACE:
-            s->document->selected_faces[walk.faces.seen - 1] = is_selected(s);
+            if (!s->marks)
+                s->document->selected_faces[walk.faces.seen - 1] = is_selected(s);
             mark_corners(s, &walk, is_selected(s));
             break;
         default:
@@ -149,6 +153,21 @@ end:
     d->file.part.selected_normals = d->selected_pairs;
     ffd_free(s.found);
     return status;
+}
+
+ffd_status ffd_obj_mark(mesh_document *document, const mesh_selector *selector, uint8_t *marks,
+                        ffd_error *error)
+{
+    obj_document *const d = (obj_document *)document;
+    bool found = false;
+    selecting s = {.document = d,
+                   .selectors = selector,
+                   .count = 1,
+                   .found = &found,
+                   .in_default = true,
+                   .marks = marks};
+    mark_elements(&s);
+    return found ? FFD_OK : refuse_unknown(d, selector, error);
 }
 
 /* The name of a face's group or, where no `g` has named one, of its object. */

@@ -4,7 +4,7 @@
 ffd_status ffd_selector_check(const char *text, ffd_error *error)
 {
     mesh_selector selector;
-    return ffd_selector_parse(text, &selector, error);
+    return ffd_selector_parse("only", text, &selector, error);
 }
 
 ffd_status ffd_selection_apply(const char *const *only, size_t count, const char *name,
@@ -17,7 +17,7 @@ ffd_status ffd_selection_apply(const char *const *only, size_t count, const char
     ffd_status status;
     TRY_END(selectors ? FFD_OK : ffd_fail_memory(error));
     for (size_t i = 0; i < count; i++) {
-        TRY_END(ffd_selector_parse(only[i], &selectors[i], error));
+        TRY_END(ffd_selector_parse("only", only[i], &selectors[i], error));
         TRY_END(ffd_selector_check_kind(&selectors[i], calls ? calls->kinds : 0, document->format->name, name,
                                         error));
     }

@@ -1,8 +1,8 @@
 /* gltf_functions.h - the functions of glTF in mesh_format's table, which gltf_format.c fills, in the order of
-   folders: gltf_faces.c, gltf_select.c, gltf_instancing.c, gltf_places.c, gltf_skin.c, gltf_faults.c,
-   gltf_results.c and gltf_splats.c of model; gltf_rig_follow.c of edit; gltf_save.c, gltf_container.c and
-   gltf_resources.c of write; gltf_open.c, gltf_as_morph.c, gltf_compare.c, gltf_describe.c, gltf_extract.c,
-   gltf_names.c, gltf_materials.c, gltf_skeleton.c and gltf_anchors.c. */
+   folders: gltf_faces.c, gltf_select.c, gltf_instancing.c, gltf_places.c, gltf_carriers.c, gltf_skin.c,
+   gltf_faults.c, gltf_results.c and gltf_splats.c of model; gltf_rig_follow.c of edit; gltf_save.c,
+   gltf_container.c and gltf_resources.c of write; gltf_open.c, gltf_as_morph.c, gltf_compare.c,
+   gltf_describe.c, gltf_extract.c, gltf_names.c, gltf_materials.c, gltf_skeleton.c and gltf_anchors.c. */
 #ifndef FFD_IO_GLTF_MODEL_GLTF_FUNCTIONS_H
 #define FFD_IO_GLTF_MODEL_GLTF_FUNCTIONS_H
 
@@ -23,6 +23,7 @@ mesh_mixed_faces_function ffd_gltf_mixed_faces;
 mesh_name_owner_function ffd_gltf_name_part;
 mesh_list_things_function ffd_gltf_list_parts;
 mesh_select_function ffd_gltf_select;
+mesh_mark_function ffd_gltf_mark;
 
 mesh_check_reach_function ffd_gltf_check_reach;
 
@@ -35,6 +36,8 @@ mesh_list_places_function ffd_gltf_list_places;
 mesh_count_skins_function ffd_gltf_count_skins;
 /* Returns the name of a node, or "node N" if it has none. */
 mesh_place_name_function ffd_gltf_place_name;
+mesh_place_pieces_function ffd_gltf_place_pieces;
+mesh_find_turned_function ffd_gltf_find_turned;
 
 mesh_read_transforms_function ffd_gltf_read_transforms;
 

@@ -1,11 +1,12 @@
 /* gltf_select.c - the names of parts and of what `--only` takes, and the primitives and nodes that it
- * selects. */
+ * selects; which vertices a selector names. */
 #include "base/memory/intern.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "io/gltf/model/gltf_faces.h"
 #include "io/gltf/model/gltf_functions.h"
 #include "io/gltf/model/gltf_instancing.h"
+#include "io/gltf/model/gltf_joints.h"
 #include "io/gltf/model/gltf_references.h"
 #include "io/gltf/model/gltf_scene.h"
 #include "io/gltf/read/gltf_document.h"
@@ -467,6 +468,12 @@ static ffd_status mark_vertices(gltf_document *d, const gltf_instance *instance,
     return FFD_OK;
 }
 
+/* Whether the selectors name a use of a primitive's mesh. everywhere: they name the mesh or the material. */
+static bool is_wanted(const selecting *s, const gltf_mesh_uses *uses, size_t use, bool everywhere)
+{
+    return everywhere || (uses->nodes && s->nodes[uses->nodes[use]]);
+}
+
 static ffd_status select_primitive(const selecting *s, const gltf_primitive *primitive, ffd_error *error)
 {
     gltf_document *d = s->document;
@@ -475,7 +482,7 @@ static ffd_status select_primitive(const selecting *s, const gltf_primitive *pri
     const bool everywhere = s->meshes[primitive->mesh] || has_material(s, primitive);
     bool any = false;
     for (size_t n = 0; n < uses->node_count; n++) {
-        const bool wanted = everywhere || (uses->nodes && s->nodes[uses->nodes[n]]);
+        const bool wanted = is_wanted(s, uses, n, everywhere);
         gltf_instanced_node *instanced = uses->nodes ? ffd_gltf_instanced_node(d, uses->nodes[n]) : NULL;
         instances[n].selected = wanted && !instanced;
         if (wanted && instanced)
@@ -511,22 +518,133 @@ static ffd_status select_all(selecting *s, ffd_error *error)
     return FFD_OK;
 }
 
+static ffd_status begin(gltf_document *d, const mesh_selector *selectors, size_t count, selecting *s,
+                        ffd_error *error)
+{
+    *s = (selecting){.document = d, .selectors = selectors, .count = count};
+    s->material_count = ffd_json_tree_count(&d->tree, array_of(d, SELECT_MATERIAL));
+    s->nodes = ffd_alloc_zero(d->model.node_count, sizeof *s->nodes);
+    s->pending = ffd_alloc(d->model.node_count, sizeof *s->pending);
+    s->meshes = ffd_alloc_zero(d->model.mesh_count, sizeof *s->meshes);
+    s->materials = ffd_alloc_zero(s->material_count, sizeof *s->materials);
+    return s->nodes && s->pending && s->meshes && s->materials ? FFD_OK : ffd_fail_memory(error);
+}
+
+/* Frees all but nodes. */
+static void end(const selecting *s)
+{
+    ffd_free(s->pending);
+    ffd_free(s->meshes);
+    ffd_free(s->materials);
+}
+
 ffd_status ffd_gltf_select(mesh_document *document, const mesh_selector *selectors, size_t count,
                            ffd_error *error)
 {
     gltf_document *d = (gltf_document *)document;
-    selecting s = {.document = d, .selectors = selectors, .count = count};
-    const uint32_t materials = array_of(d, SELECT_MATERIAL);
-    s.material_count = ffd_json_tree_count(&d->tree, materials);
-    s.nodes = ffd_alloc_zero(d->model.node_count, sizeof *s.nodes);
-    s.pending = ffd_alloc(d->model.node_count, sizeof *s.pending);
-    s.meshes = ffd_alloc_zero(d->model.mesh_count, sizeof *s.meshes);
-    s.materials = ffd_alloc_zero(s.material_count, sizeof *s.materials);
-    const bool allocated = s.nodes && s.pending && s.meshes && s.materials;
-    const ffd_status status = allocated ? select_all(&s, error) : ffd_fail_memory(error);
+    selecting s;
+    const ffd_status begun = begin(d, selectors, count, &s, error);
+    const ffd_status status = begun ? begun : select_all(&s, error);
     d->selected_nodes = s.nodes;
-    ffd_free(s.pending);
-    ffd_free(s.meshes);
-    ffd_free(s.materials);
+    end(&s);
+    return status;
+}
+
+/* Sets the marks of the vertices that the wanted uses of a primitive draw. first: of each part. */
+static ffd_status mark_drawn(const selecting *s, const gltf_primitive *primitive, const size_t *first,
+                             uint8_t *marks, ffd_error *error)
+{
+    const gltf_document *const d = s->document;
+    const gltf_mesh_uses *const uses = &d->mesh_uses[primitive->mesh];
+    const gltf_instance *const instances = ffd_gltf_instances(d, primitive);
+    const bool everywhere = s->meshes[primitive->mesh] || has_material(s, primitive);
+    uint32_t *corners = NULL;
+    size_t count = 0;
+    for (size_t n = 0; n < uses->node_count; n++) {
+        const size_t part = instances[n].part[GLTF_POSITION];
+        if (part == GLTF_NONE || !is_wanted(s, uses, n, everywhere))
+            continue;
+        if (!corners)
+            TRY(ffd_gltf_read_corners(d, primitive, &corners, &count, error));
+        for (size_t i = 0; i < count; i++)
+            marks[first[part] + corners[i]] = 1;
+    }
+    ffd_free(corners);
+    return FFD_OK;
+}
+
+/* Marks the joints of a name. */
+static ffd_status mark_joints(const selecting *s, ffd_error *error)
+{
+    const gltf_document *const d = s->document;
+    selector_nearest nearest = {.selector = s->selectors};
+    bool found = false;
+    for (size_t k = 0; k < d->skin_values.count; k++)
+        for (size_t j = 0; j < d->skins[k].joint_count; j++) {
+            const size_t node = d->skins[k].joints[j];
+            const uint32_t member = ffd_json_tree_member(&d->tree, d->node_values.values[node], "name");
+            if (member == JSON_NONE || d->tree.values[member].kind != JSON_STRING)
+                continue;
+            size_t size;
+            char *const name = ffd_json_tree_string(&d->tree, member, &size);
+            if (!name)
+                return ffd_fail_memory(error);
+            s->nodes[node] = ffd_selector_is(s->selectors, name, size);
+            found = found || s->nodes[node];
+            ffd_selector_offer(&nearest, name, size);
+            ffd_free(name);
+        }
+    return found ? FFD_OK : ffd_selector_unknown(&nearest, d->name, error);
+}
+
+/* Sets the marks of the vertices that follow marked joints with more than half of their weight. */
+static ffd_status mark_followers(const selecting *s, const size_t *first, uint8_t *marks, ffd_error *error)
+{
+    const gltf_document *const d = s->document;
+    double *shares = NULL;
+    ffd_status status = FFD_OK;
+    for (size_t p = 0; p < d->base.part_count; p++) {
+        const size_t count = d->mesh_parts[p].vertex_count;
+        if (!d->parts[p].skin || d->mesh_parts[p].repeats_positions)
+            continue;
+        ffd_free(shares);
+        shares = ffd_alloc(count, sizeof *shares);
+        TRY_END(shares ? FFD_OK : ffd_fail_memory(error));
+        TRY_END(ffd_gltf_joint_shares(d, p, s->nodes, shares, error));
+        for (size_t v = 0; v < count; v++)
+            marks[first[p] + v] = shares[v] > 0.5;
+    }
+end:
+    ffd_free(shares);
+    return status;
+}
+
+static ffd_status mark_all(const selecting *s, const size_t *first, uint8_t *marks, ffd_error *error)
+{
+    const gltf_document *const d = s->document;
+    if (s->selectors->kind == SELECT_JOINT) {
+        TRY(mark_joints(s, error));
+        return mark_followers(s, first, marks, error);
+    }
+    TRY(mark_named(s, s->selectors, error));
+    mark_meshes_of_nodes(s);
+    for (size_t i = 0; i < d->model.primitive_count; i++)
+        TRY(mark_drawn(s, &d->model.primitives[i], first, marks, error));
+    return FFD_OK;
+}
+
+ffd_status ffd_gltf_mark(mesh_document *document, const mesh_selector *selector, uint8_t *marks,
+                         ffd_error *error)
+{
+    selecting s;
+    size_t *first = NULL;
+    ffd_status status;
+    TRY_END(begin((gltf_document *)document, selector, 1, &s, error));
+    TRY_END(ffd_first_vertices(document, &first, error));
+    status = mark_all(&s, first, marks, error);
+end:
+    end(&s);
+    ffd_free(s.nodes);
+    ffd_free(first);
     return status;
 }
