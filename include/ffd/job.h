@@ -374,6 +374,17 @@ typedef struct ffd_deform_desc {
        a closed direction, or a continuity that is not below the degree. */
     ffd_seam seam;
     unsigned seam_faces;
+    /* rigid_count and uniform_count selectors of parts, or NULL: each moves as one piece, by the rigid motion
+       (uniform: the similarity) that is nearest, in least squares, to where its vertices would lie. Of those
+       that `only` leaves: what a selector of `only` names; "joint:NAME", the vertices that follow the joints
+       of that name with more than half of their weight; "component", each connected component by itself of
+       what no other selector names. With FFD_RIG_FOLLOW the nodes of a part move with it. At most
+       FFD_RIGID_PARTS, a vertex in one of them. FFD_E_ARGUMENT for more, for an unknown name, for a vertex of
+       two. Not with morphs. */
+    const char *const *rigid;
+    size_t rigid_count;
+    const char *const *uniform;
+    size_t uniform_count;
 } ffd_deform_desc;
 
 /* Sets desc to defaults: all members 0, NULL or false. size: sizeof(ffd_deform_desc) in the caller's

@@ -70,7 +70,8 @@ typedef enum ffd_tear_cause {
     FFD_TEAR_AXIS,       /* it meets a collapsed face of a lattice that is opened */
     FFD_TEAR_BORDER,     /* outside, where another part of the border becomes the nearest */
     FFD_TEAR_OVERLAP,    /* it leads from one part of a lattice that overlaps itself to another */
-    FFD_TEAR_WEIGHTS     /* it is one of no length: vertices at one position have different weights */
+    FFD_TEAR_WEIGHTS,    /* it is one of no length: vertices at one position have different weights */
+    FFD_TEAR_RIGID       /* likewise: one of them moves with a rigid part, and the other does not */
 } ffd_tear_cause;
 
 /* Torn edges: one end moves and the other stays, where the displacement does not fade; or both move, but the
@@ -249,6 +250,21 @@ typedef struct ffd_weight_figures {
     uint64_t room[2];
 } ffd_weight_figures;
 
+/* The most parts that move as one piece. */
+#define FFD_RIGID_PARTS 64
+/* A part that moves as one piece (ffd_deform_desc.rigid, uniform). */
+typedef struct ffd_rigid_part {
+    char part[128];  /* its selector, shortened to fit */
+    uint64_t pieces; /* 1; of "component" the number of components; 0: it has no vertices */
+    double rotation; /* degrees, 0 to 180: the largest of all pieces */
+    double scale;    /* the one that is farthest from 1; of rigid 1 */
+    double distance; /* the largest of a vertex from where it would lie otherwise */
+} ffd_rigid_part;
+typedef struct ffd_rigid_figures {
+    uint64_t count; /* of parts: those of rigid, then those of uniform; 0: no part is named */
+    ffd_rigid_part parts[FFD_RIGID_PARTS];
+} ffd_rigid_figures;
+
 /* The names of the files that a job has written: first the output, as the caller has named it, then the files
    that belong to it (buffers, copied images and material libraries). ffd/job.h has its functions. One thread
    at a time. */
@@ -324,6 +340,7 @@ typedef struct ffd_job_result {
     const char *own_frame;
     ffd_weight_figures weight;
     ffd_seam_figures seam;
+    ffd_rigid_figures rigid;
 } ffd_job_result;
 
 #ifdef __cplusplus

@@ -29,7 +29,7 @@ typedef enum ffd_member_kind {
     FFD_MEMBER_SEAM,     /* a choice, and unsigned: faces of ffd_lattice_seal, or FFD_FACES_CUT */
     /* Lists: an array, and the count of its elements, size_t. */
     FFD_MEMBER_TEXTS,
-    FFD_MEMBER_SELECTORS, /* of texts (ffd_selector_check) */
+    FFD_MEMBER_SELECTORS, /* of texts "KIND:NAME" */
     FFD_MEMBER_CLIPS,     /* of texts (ffd_clip_check) */
     FFD_MEMBER_VALUES,    /* of ffd_setting */
     FFD_MEMBER_LATTICES,  /* of ffd_lattice_source */

@@ -27,6 +27,7 @@
 #include "job/pass/pass.h"
 #include "job/reads.h"
 #include "job/report/output_set.h"
+#include "job/rigid_motions.h"
 #include "lattice/file/lattice_source.h"
 #include "mesh/places.h"
 #include <string.h>
@@ -56,6 +57,8 @@ static bool is_complete(const ffd_deform_desc *desc)
     const ffd_source *const input = &desc->input;
     return input->path && (desc->lattices || desc->lattice_count == 0) &&
            ffd_desc_has_texts(desc->only, desc->only_count) &&
+           ffd_desc_has_texts(desc->rigid, desc->rigid_count) &&
+           ffd_desc_has_texts(desc->uniform, desc->uniform_count) &&
            ffd_desc_has_texts(desc->clips, desc->clip_count) &&
            ffd_desc_has_texts(input->allow_extensions, input->allow_extension_count) &&
            (!desc->morphs || ffd_desc_has_texts(desc->morphs, desc->lattice_count)) &&
@@ -269,6 +272,7 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, figure_arrays 
         TRY(check_unknown(job, error));
     TRY(ffd_mesh_warn(job->document, &job->file_log, error));
     TRY(ffd_deform_job_load_weights(job, error));
+    TRY(ffd_rigid_pieces_load(job, error));
     job->recomputes = job->desc->normals == FFD_NORMALS_RECOMPUTE && has_normals(job->document);
     const mesh_results results = {.state = ffd_job_written(job),
                                   .directions = job->desc->normals != FFD_NORMALS_KEEP,
@@ -307,6 +311,7 @@ static ffd_status move_rig(deform_job *job, ffd_error *error)
     if (!has_rig(job))
         return FFD_OK;
     TRY(ffd_rig_places_find(job->document, &job->chain, follows, &job->rig, error));
+    TRY(ffd_rigid_move_places(job, error));
     return !follows || job->rig.places.count == 0
                ? FFD_OK
                : format->places->follow(job->document, &job->rig.places, job->rig.moves, &job->log,
@@ -403,7 +408,10 @@ static ffd_status pass_and_judge(deform_job *job, figure_arrays *arrays, figure_
     ffd_job_note_seam(job, result);
     TRY(ffd_symmetry_warn(job, error));
     TRY(ffd_tear_figures_prepare(job, arrays, error));
+    TRY(ffd_rigid_motions_find(job, result, error));
     TRY(move_rig(job, error));
+    if (has_rig(job) && !job->animation)
+        TRY(ffd_turned_parts_find(job->document, &job->turned, error));
     const ffd_status passed = ffd_deform_passes(job, arrays, stored, error);
     ffd_figures_free(stored);
     TRY(passed);
@@ -428,6 +436,8 @@ static ffd_status warn(const deform_job *job, const ffd_job_result *result, ffd_
         ffd_still_warn(&job->totals, &job->chain, &job->weights.figures, &result->bounds.before,
                        job->desc->as_morph != NULL, !job->check, &job->log);
     warn_of_left(job, result);
+    TRY(ffd_turned_parts_warn(job->document, &job->turned, &job->log, error));
+    ffd_rigid_warn(job, result);
     if (job->totals.vertices == 0)
         ffd_log_line(&job->file_log, FFD_LOG_WARNING, "%s",
                      job->desc->only_count ? SPELLED("{only} selects no vertices")
@@ -460,6 +470,7 @@ end:
     ffd_figures_free(&stored);
     ffd_figures_free(&arrays);
     ffd_rig_places_free(&job->rig);
+    ffd_turned_parts_free(&job->turned);
     ffd_free(job->kept);
     ffd_free(job->positions);
     forget_locations(job);
@@ -478,6 +489,7 @@ ffd_status ffd_deform_job_end(deform_job *job, ffd_status status, ffd_job_result
         ffd_fail_name_file(&result->error, ffd_source_name(&job->desc->input));
     ffd_embedding_close(&job->embedding);
     ffd_vertex_weights_free(&job->weights);
+    ffd_rigid_parts_free(&job->rigid);
     forget_locations(job);
     ffd_model_free(&job->base);
     if (!status)

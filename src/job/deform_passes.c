@@ -33,6 +33,7 @@ static mesh_pass describe(const deform_job *job, mesh_state state, chain_pace *p
                        .chain = &job->chain,
                        .links = job->chain.count,
                        .weights = ffd_job_weights(job),
+                       .rigid = ffd_job_rigid(job),
                        .threads = job->threads,
                        .pace = pace,
                        .write = true,
@@ -46,6 +47,8 @@ static void fill_figures(const deform_job *job, const figure_arrays *figures, me
     pass->deformed = figures->deformed;
     pass->gradients = figures->gradients;
     pass->collapsed = figures->collapsed;
+    pass->stretches = job->turned.stretches;
+    pass->turned = job->turned.nodes;
     pass->statuses = job->details ? job->details->statuses : NULL;
     pass->determinants = wants_determinants(job);
     /* A mesh that is written must not turn inside out without a word. */

@@ -252,7 +252,8 @@ typedef enum ffd_tear_cause {
     FFD_TEAR_AXIS,
     FFD_TEAR_BORDER,
     FFD_TEAR_OVERLAP,
-    FFD_TEAR_WEIGHTS
+    FFD_TEAR_WEIGHTS,
+    FFD_TEAR_RIGID
 } ffd_tear_cause;
 typedef struct ffd_tear_figures {
     bool is_known;
@@ -362,6 +363,17 @@ typedef struct ffd_weight_figures {
     double mean;
     uint64_t room[2];
 } ffd_weight_figures;
+typedef struct ffd_rigid_part {
+    char part[128];
+    uint64_t pieces;
+    double rotation;
+    double scale;
+    double distance;
+} ffd_rigid_part;
+typedef struct ffd_rigid_figures {
+    uint64_t count;
+    ffd_rigid_part parts[64];
+} ffd_rigid_figures;
 typedef struct ffd_output_list ffd_output_list;
 typedef struct ffd_job_result {
     size_t struct_size;
@@ -409,6 +421,7 @@ typedef struct ffd_job_result {
     const char *own_frame;
     ffd_weight_figures weight;
     ffd_seam_figures seam;
+    ffd_rigid_figures rigid;
 } ffd_job_result;
 typedef enum ffd_format {
     FFD_FORMAT_AUTO = 0,
@@ -547,6 +560,10 @@ typedef struct ffd_deform_desc {
     ffd_weight_source weight;
     ffd_seam seam;
     unsigned seam_faces;
+    const char *const *rigid;
+    size_t rigid_count;
+    const char *const *uniform;
+    size_t uniform_count;
 } ffd_deform_desc;
 void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size);
 ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *desc, ffd_error *error);

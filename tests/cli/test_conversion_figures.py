@@ -131,7 +131,7 @@ TURNS_ROUND = {**lattice(size=(3, 2, 2), moves=[{"at": [1, 1, 1], "by": [0.5, 0,
 LATTICES = {"l.json": lattice(low=(0.25, 0.25, -1), high=(1.5, 2, 1), moves=FOLD), "turns.json": TURNS_ROUND,
             "next.json": lattice(low=(1.5, 0.25, -1), high=(3, 2, 1), moves=[{"by": [0, 0, 0.5]}])}
 OPTIONS = (("-l", "l.json"), ("-l", "l.json", "--outside", "extend", "--falloff", "0.3"), ("-l", "turns.json", "--normals", "recompute"),
-           ("-l", "l.json", "-l", "next.json", "--blocks", "--snap", "0.1", "--seam", "C0:w-"))
+           ("-l", "l.json", "-l", "next.json", "--blocks", "--snap", "0.1", "--seam", "C0:w-", "--uniform", "component"))
 # Weights of the vertices of obj_file, which differ from row to row.
 WEIGHTS = [(37 * v % 16) / 15 for v in range(len(GRID) + 1)]
 FORMATS = ("obj", "ply", "off", "stl", "glb")

@@ -219,20 +219,20 @@ def keep_says_how_far_joints_lag(run):
     """Once, with the number and the name; not under follow, not for less than a thousandth of the scene."""
     before, _, job = deformed(run, plain(), BENT, rig="keep")
     done = run.ffd("deform", "a.glb", "c.glb", "-l", "l0.json", "--force", err=anything)
-    line = one_line(done, "--rig")
+    line = one_line(done, r"--rig\b")
     check(job["rig"]["worst"] in line and "1 skin" in line, line)
     number = float(re.search(r"up to ([0-9.e+-]+)", line).group(1))
     check(abs(number - job["rig"]["largest_lag"]) <= 0.05 * number, line)
-    no_line(run.ffd("deform", "a.glb", "c.glb", "-l", "l0.json", "--force", "--rig", "follow", err=anything), "--rig|lie up to")
+    no_line(run.ffd("deform", "a.glb", "c.glb", "-l", "l0.json", "--force", "--rig", "follow", err=anything), r"--rig\b|lie up to")
     done = run.ffd("check", "a.glb", "-l", "l0.json", err=anything)
-    one_line(done, "--rig")
+    one_line(done, r"--rig\b")
     check(f"({job['rig']['worst']})" in done.out.decode(), "check prints whose lag is the largest")
     size = size_of(before.vertices())
     for factor, says in ((0.5e-3, False), (3e-3, True)):
         small = affine((1, 0, 0, factor * size, 0, 1, 0, 0, 0, 0, 1, 0))
         run.write("s.json", text(small))
         done = run.ffd("deform", "a.glb", "c.glb", "-l", "s.json", "--force", err=anything)
-        (one_line if says else no_line)(done, "--rig")
+        (one_line if says else no_line)(done, r"--rig\b")
 
 
 @case

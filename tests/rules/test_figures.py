@@ -13,7 +13,7 @@ STATUSES = ("inside", "outside", "multiple", "singular", "invalid")
 
 # Members of the result that are no figures, or belong to one with another name.
 NO_FIGURES = {"struct_size", "status", "error", "picture", "page", "own_frame", "outputs", "flaw_count", "folds.struct_size", "morphs.count", "morphs.names",
-              "morphs.lattices", "morphs.results"}
+              "morphs.lattices", "morphs.results", "rigid.count", "rigid.parts"}
 # Members of pass_totals that are not joined tile by tile, and not copied to the result.
 OF_PASS = {"of_shown", "rounding.error", "rounding.float_error", "rounding.before", "splats_moved", "splat_parts", "splat_part_count", "others"}
 # Members of an entry that say which job it is, and what became of it.

@@ -100,8 +100,8 @@ static edge_quality measure(const sample *s, int threads)
 {
     edge_quality quality;
     memset(&quality, 0xff, sizeof quality);
-    assert_int_equal(ffd_quality_edges(NULL, MESH_STORED, &s->faces, s->deformed, &s->chain, NULL, threads,
-                                       &quality, NULL),
+    assert_int_equal(ffd_quality_edges(NULL, MESH_STORED, &s->faces, s->deformed, &s->chain, NULL, NULL,
+                                       threads, &quality, NULL),
                      FFD_OK);
     return quality;
 }
@@ -639,8 +639,8 @@ static void every_failed_allocation_is_reported(void **state)
         edge_quality quality;
         ffd_error error = {0};
         ffd_alloc_fail_after(failures);
-        status =
-            ffd_quality_edges(NULL, MESH_STORED, &s.faces, s.deformed, &s.chain, NULL, 1, &quality, &error);
+        status = ffd_quality_edges(NULL, MESH_STORED, &s.faces, s.deformed, &s.chain, NULL, NULL, 1, &quality,
+                                   &error);
         ffd_alloc_fail_after(-1);
         if (status) {
             assert_int_equal(status, FFD_E_MEMORY);

@@ -108,6 +108,8 @@ static const char *const messages[][2] = {
      "--rig follow moves the shape itself, which --morph leaves"},
     {"blocks cannot be used with morphs", "--blocks cannot be used with --morph"},
     {"positions cannot be used with morphs", "--positions cannot be used with --morph"},
+    {"rigid cannot be used with morphs", "--rigid cannot be used with --morph"},
+    {"uniform cannot be used with morphs", "--uniform cannot be used with --morph"},
     {"in_place needs files: here the mesh is in memory",
      "--in-place needs files: here the mesh is in memory"},
     {"depfile needs files: here the mesh is in memory", "--depfile needs files: here the mesh is in memory"},
@@ -242,6 +244,9 @@ static const char *const texts[][2] = {
     {"weight", "1-w.npy"},
     {"seam", "C2:all"},
     {"seam", "C1:u+,w-"},
+    {"rigid", "node:wheel"},
+    {"rigid", "component"},
+    {"uniform", "joint:eye"},
 };
 
 static void check_read(const ffd_deform_desc *desc)

@@ -76,6 +76,7 @@ static void put_tear_reason(const figure_text *text)
         [FFD_TEAR_BORDER] = "along it the nearest part of the lattice's border changes",
         [FFD_TEAR_OVERLAP] = "it leads from one part of a lattice that overlaps itself to another",
         [FFD_TEAR_WEIGHTS] = "vertices at one position have different weights",
+        [FFD_TEAR_RIGID] = "a rigid part leaves vertices that were at its positions",
     };
     const uint64_t faces = result->shared_faces.disagreeing, stay = result->tear.stays;
     if (result->tear.cause == FFD_TEAR_BLOCKS && faces)
@@ -178,6 +179,21 @@ static void write_rig(const figure_text *text)
     ffd_buffer_text(text->out, "\n");
 }
 
+static void write_rigid(const figure_text *text)
+{
+    const ffd_rigid_figures *const rigid = &text->result->rigid;
+    for (uint64_t k = 0; k < rigid->count; k++) {
+        const ffd_rigid_part *const part = &rigid->parts[k];
+        ffd_buffer_format(text->out, "  %-14s %s, ", k == 0 ? "rigid" : "", part->part);
+        if (part->pieces != 1)
+            ffd_buffer_format(text->out, "%" PRIu64 " pieces, ", part->pieces);
+        ffd_buffer_format(text->out, "turned by %.6g degrees, ", part->rotation);
+        if (part->scale < 1 || part->scale > 1)
+            ffd_buffer_format(text->out, "scaled by %g, ", part->scale);
+        ffd_buffer_format(text->out, "%g at most from the deformation\n", part->distance);
+    }
+}
+
 void ffd_lines_write(figure_lines lines, const figure_text *text)
 {
     static void (*const writers[])(const figure_text *text) = {
@@ -185,7 +201,7 @@ void ffd_lines_write(figure_lines lines, const figure_text *text)
         [LINES_OF_FOLDS] = write_folds,       [LINES_OF_FLIPPED] = write_flipped,
         [LINES_OF_TEAR] = write_tear,         [LINES_OF_EXTENT] = write_extent,
         [LINES_OF_DET] = write_det,           [LINES_OF_EDGES] = write_edges,
-        [LINES_OF_RIG] = write_rig,
+        [LINES_OF_RIG] = write_rig,           [LINES_OF_RIGID] = write_rigid,
     };
     writers[lines](text);
 }

@@ -22,7 +22,8 @@ typedef enum figure_lines {
     LINES_OF_EXTENT,
     LINES_OF_DET,
     LINES_OF_EDGES,
-    LINES_OF_RIG
+    LINES_OF_RIG,
+    LINES_OF_RIGID
 } figure_lines;
 
 /* Writes lines such as "  torn edges     3\n"; of a single number that is not finite, none. */

@@ -19,6 +19,7 @@
     ffd_behind *: FIGURE_BEHIND, \
     ffd_flaw *: FIGURE_FLAWS, \
     const ffd_job_result *: FIGURE_MORPHS, \
+    ffd_rigid_part *: FIGURE_RIGID, \
     uint8_t *: FIGURE_FACES)
 #define MEMBER(type, member) {TYPE_OF(((type *)0)->member), offsetof(type, member)}
 #define RESULT(member) MEMBER(ffd_job_result, member)
@@ -161,6 +162,7 @@ const figure ffd_figures[] = {
         {HELD_BACK(rig.lagging_sockets)},
         {HELD_BACK(rig.lagging_joints)},
     END,
+    {.name = "rigid", .result = RESULT(rigid.parts), OF_JOB, ABSENT_UNLESS(rigid.count), LINES(LINES_OF_RIGID)},
     {.name = "morphs", .result = RESULT(morphs.results), OF_JOB, ABSENT_UNLESS(morphs.results)},
     {GROUP(seam), OF_JOB, TARGETS(JOIN_SEAM), ABSENT_UNLESS(seam.is_there)},
         {FIGURE(seam.continuity)},

@@ -22,6 +22,7 @@ typedef enum figure_type {
     FIGURE_BEHIND,    /* an array: ffd_behind of each kind */
     FIGURE_FLAWS,     /* an array: ffd_flaw */
     FIGURE_MORPHS,    /* an array: the results of morph targets */
+    FIGURE_RIGID,     /* an array: ffd_rigid_part */
     FIGURE_FACES,     /* an array: of each lattice an array of the names of faces */
     FIGURE_GROUP,     /* an object: the figures that follow, up to FIGURE_END */
     FIGURE_END

@@ -6,6 +6,7 @@
 #include "base/text/size.h"
 #include "base/text/words.h"
 #include "io/format_names.h"
+#include "job/input/rigid_parts.h"
 #include "job/input/setting_lists.h"
 #include "job/input/settings.h"
 #include <errno.h>
@@ -314,7 +315,10 @@ static ffd_status read_name(const reading *r)
 
 static ffd_status read_selector(const reading *r)
 {
-    TRY(ffd_selector_check(r->text, r->error));
+    const ffd_member *const member = r->member; /* a front end has a name of its own for it */
+    TRY(!member->option || strcmp(member->option, "only") == 0
+            ? ffd_selector_check(r->text, r->error)
+            : ffd_rigid_check(member->option, r->text, r->error));
     return add_text(r);
 }
 

@@ -61,6 +61,8 @@ static const ffd_member members[] = {
     {"time", "time", FFD_MEMBER_MOMENT, AT(time), AT(has_time), NULL, 0},
     {"weight", "weight", FFD_MEMBER_WEIGHT, AT(weight.source), 0, NULL, 0},
     {"seam", "seam", FFD_MEMBER_SEAM, AT(seam), AT(seam_faces), seam_words, 0},
+    {"rigid", "rigid", FFD_MEMBER_SELECTORS, AT(rigid), AT(rigid_count), NULL, 0},
+    {"uniform", "uniform", FFD_MEMBER_SELECTORS, AT(uniform), AT(uniform_count), NULL, 0},
 };
 enum { MEMBERS = sizeof members / sizeof *members };
 
@@ -82,6 +84,8 @@ const job_rule ffd_job_rules[] = {
     {"rig=follow", JOB_EXCLUDES, "morphs", "{rig=follow} moves the shape itself, which {morphs} leaves"},
     {"blocks", JOB_EXCLUDES, "morphs", NULL},
     {"positions", JOB_EXCLUDES, "morphs", NULL},
+    {"rigid", JOB_EXCLUDES, "morphs", NULL},
+    {"uniform", JOB_EXCLUDES, "morphs", NULL},
     {"in_place", JOB_NEEDS_FILES, NULL, NULL},
     {"depfile", JOB_NEEDS_FILES, NULL, NULL},
     {"resources=reference", JOB_NEEDS_FILES, NULL, NULL},

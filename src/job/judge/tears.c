@@ -21,6 +21,7 @@ static const struct {
     [FFD_TEAR_BORDER] = {"outside the lattice the nearest part of its border changes along edges",
                          "see {falloff}, a larger lattice"},
     [FFD_TEAR_WEIGHTS] = {"vertices at one position have different weights", "see {weight}"},
+    [FFD_TEAR_RIGID] = {"a rigid part leaves vertices that were at its positions", "see {rigid}"},
     [FFD_TEAR_OVERLAP] = {"edges lead from one part of a lattice that overlaps itself to another",
                           "two parts have one place at rest"},
 };

@@ -190,7 +190,7 @@ ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_j
     if (!wants_edges(job))
         return FFD_OK;
     TRY(ffd_quality_edges(job->document, ffd_job_judged(job), &arrays->faces, arrays->deformed, &job->chain,
-                          ffd_job_weights(job), job->threads, &edges, error));
+                          ffd_job_weights(job), ffd_job_rigid(job), job->threads, &edges, error));
     result->edges.is_known = true;
     result->edges.count = edges.edges;
     result->edges.deviation.max = edges.deviation_max;

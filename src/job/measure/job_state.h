@@ -6,9 +6,11 @@
 #include "job/chain/chain.h"
 #include "job/figures/pass_totals.h"
 #include "job/input/embedding_file.h"
+#include "job/input/rigid_parts.h"
 #include "job/input/weights.h"
 #include "job/measure/details.h"
 #include "job/measure/rig.h"
+#include "job/measure/stretch.h"
 #include "mesh/mesh.h"
 #include "mesh/morphs.h"
 
@@ -39,8 +41,10 @@ typedef struct deform_job {
     bool document_is_cached;  /* it comes from the cache */
     embedding_file embedding; /* if the job reuses one */
     vertex_weights
-        weights;    /* of the document's vertices; zeros until they are loaded, or if none are given */
-    rig_places rig; /* the document's joints, pivots, sockets and so on */
+        weights;         /* of the document's vertices; zeros until they are loaded, or if none are given */
+    rigid_parts rigid;   /* what moves as one piece; zeros until it is known, or if nothing does */
+    turned_parts turned; /* of the document, and how they are stretched */
+    rig_places rig;      /* the document's joints, pivots, sockets and so on */
     mesh_following following; /* what --rig follow has done */
     pass_totals totals;
     uint8_t *kept;           /* marks of the vertices (job/chain/marks.h); NULL: no vertices */
@@ -66,6 +70,12 @@ static inline bool ffd_job_adds_target(const deform_job *job)
 static inline const vertex_weights *ffd_job_weights(const deform_job *job)
 {
     return job->weights.values ? &job->weights : NULL;
+}
+
+/* What moves as one piece; NULL: nothing. */
+static inline const rigid_parts *ffd_job_rigid(const deform_job *job)
+{
+    return job->rigid.pieces ? &job->rigid : NULL;
 }
 
 /* What the figures are of: what default weights show, because users see that; or the base, if that is asked

@@ -79,6 +79,7 @@ typedef struct edge_work {
     vertex_owners owners; /* for rounding cells; document NULL: coordinates are exact */
     const double *deformed;
     const vertex_weights *weights;
+    const rigid_parts *rigid;
     const lattice_chain *chain;
     size_t layers;
     bounds *reach; /* of each layer: a box outside of which nothing moves */
@@ -235,7 +236,8 @@ static void begin_edge(const edge_work *work, uint64_t key, sampled_edge *edge)
     }
     edge->length = vec_length(edge->along) * edge->share;
     edge->chord_square = vec_dot(edge->chord, edge->chord);
-    edge->left_out = !isfinite(edge->length) || !isfinite(edge->chord_square) ||
+    edge->left_out = ffd_rigid_motion_of(work->rigid, a) || ffd_rigid_motion_of(work->rigid, b) ||
+                     !isfinite(edge->length) || !isfinite(edge->chord_square) ||
                      !vec_is_finite(edge->start_delta) || !vec_is_finite(edge->along_delta);
 }
 
@@ -580,13 +582,14 @@ static edge_scratch *make_scratch(size_t workers, size_t layers)
 
 ffd_status ffd_quality_edges(const mesh_document *document, mesh_state state, const mesh_faces *faces,
                              const double *deformed, const lattice_chain *chain,
-                             const vertex_weights *weights, int threads, edge_quality *result,
-                             ffd_error *error)
+                             const vertex_weights *weights, const rigid_parts *rigid, int threads,
+                             edge_quality *result, ffd_error *error)
 {
     edge_work work = {.state = state,
                       .faces = faces,
                       .deformed = deformed,
                       .weights = weights,
+                      .rigid = rigid,
                       .chain = chain,
                       .layers = ffd_chain_layers(chain)};
     size_t workers = 0, tiles = 0;

@@ -3,6 +3,7 @@
 #define FFD_JOB_MEASURE_QUALITY_EDGES_H
 
 #include "job/chain/chain.h"
+#include "job/input/rigid_parts.h"
 #include "job/input/weights.h"
 #include "mesh/mesh.h"
 #include <stdint.h>
@@ -39,11 +40,12 @@ typedef struct edge_quality {
      document  of the vertices, for their rounding cells; NULL: coordinates are exact
      deformed  3 doubles a vertex: the chain's own results in double, as rounding would count as deviation
      weights   of the vertices, linear along an edge; NULL: all are 1
+     rigid     pieces, whose edges are not measured: the surface between them is straight; NULL: none
      threads   0 for all; never changes the result
    The chain's locators must exist. Errors: FFD_E_MEMORY. */
 ffd_status ffd_quality_edges(const mesh_document *document, mesh_state state, const mesh_faces *faces,
                              const double *deformed, const lattice_chain *chain,
-                             const vertex_weights *weights, int threads, edge_quality *result,
-                             ffd_error *error);
+                             const vertex_weights *weights, const rigid_parts *rigid, int threads,
+                             edge_quality *result, ffd_error *error);
 
 #endif

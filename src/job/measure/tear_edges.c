@@ -246,9 +246,18 @@ static bool is_cut(const list_work *work, uint32_t a, uint32_t b)
            may_pass(work, (const uint32_t[]){a, b}, 2, true);
 }
 
+/* Whether a vertex moves with a piece, and not as the lattices move it. */
+static bool is_rigid(const list_work *work, uint32_t vertex)
+{
+    const tear_mesh *const mesh = work->mesh;
+    return mesh->rigid && mesh->rigid->pieces[ffd_faces_document_vertex(mesh->faces, vertex)] != MESH_NONE;
+}
+
 /* Makes the key of an edge of the kind at hand. Returns false if it is none. */
 static bool make_key(const list_work *work, uint32_t a, uint32_t b, uint64_t *key)
 {
+    if (is_rigid(work, a) || is_rigid(work, b))
+        return false;
     const bool by_a = ffd_marks_take_any(&work->mesh->marks, a, work->layers);
     const bool by_b = ffd_marks_take_any(&work->mesh->marks, b, work->layers);
     if (work->kind == TEAR_STAYS ? by_a == by_b : !by_a || !by_b || !is_cut(work, a, b))

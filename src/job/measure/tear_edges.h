@@ -3,6 +3,7 @@
 #define FFD_JOB_MEASURE_TEAR_EDGES_H
 
 #include "job/chain/marks.h"
+#include "job/input/rigid_parts.h"
 #include "job/input/weights.h"
 #include "job/measure/edge_list.h"
 #include "mesh/mesh.h"
@@ -32,6 +33,7 @@ typedef struct tear_mesh {
     /* As in mesh_pass, of the document's vertices; NULL: not known. They rule out most edges. */
     const double *deformed, *gradients;
     const vertex_weights *weights; /* of the document's vertices, in this state; NULL: all are 1 */
+    const rigid_parts *rigid;      /* edges of pieces are not torn; NULL: there are none */
     mesh_state state;
     const vertex_range
         *hidden; /* hidden_count ranges of vertices of the document, ascending: hidden edges are not listed */

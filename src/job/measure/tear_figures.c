@@ -226,6 +226,7 @@ static ffd_status count_marked(const deform_job *job, const mesh_faces *faces, u
                                        .deformed = arrays->deformed,
                                        .gradients = arrays->gradients,
                                        .weights = ffd_job_weights(job),
+                                       .rigid = ffd_job_rigid(job),
                                        .state = ffd_job_judged(job),
                                        .budget = budget},
                               .marks = marks,
@@ -319,12 +320,26 @@ static ffd_status find_torn(deform_job *job, figure_arrays *arrays, ffd_job_resu
     return FFD_OK;
 }
 
+/* Counts vertices that lie apart since only one of them moves with a piece. Returns whether the largest step
+   is one of theirs. */
+static bool add_rigid_splits(const rigid_splits *splits, ffd_tear_figures *tear)
+{
+    tear->edges += splits->count;
+    if (!(splits->largest > tear->largest))
+        return false;
+    tear->largest = splits->largest;
+    tear->vertex = splits->vertex;
+    tear->cause = FFD_TEAR_RIGID;
+    return true;
+}
+
 ffd_status ffd_tear_figures_find(deform_job *job, figure_arrays *arrays, ffd_job_result *result,
                                  ffd_error *error)
 {
     bool is_largest;
     TRY(find_torn(job, arrays, result, error));
     TRY(ffd_weight_tears_add(job, result, &is_largest, error));
+    is_largest = add_rigid_splits(&job->rigid.splits, &result->tear) || is_largest;
     if (!is_largest)
         return FFD_OK;
     const mesh_selector_calls *const selectors = job->document->format->selectors;

@@ -4,6 +4,7 @@
 
 #include "job/chain/chain.h"
 #include "job/input/embedding_file.h"
+#include "job/input/rigid_parts.h"
 #include "job/input/weights.h"
 #include "mesh/mesh.h"
 
@@ -36,6 +37,7 @@ typedef struct mesh_pass {
     size_t links; /* the number of lattices that act, from the first on */
     int threads;
     const vertex_weights *weights;   /* of the document's vertices; NULL: all are 1 */
+    const rigid_parts *rigid;        /* what moves as one piece; NULL: nothing */
     const embedding_file *embedding; /* of the document in the first link; NULL: search for u,v,w */
     /* Locations in the chain's only link, one a vertex: read if is_located, else filled. Or NULL; must be
        NULL with an embedding. */
@@ -60,6 +62,10 @@ typedef struct mesh_pass {
                           the transform is singular */
     double *gradients; /* 9 a vertex, or NULL: F - I of the whole chain, row-major, in the lattice's space;
                           NaN likewise */
+    /* 2 a vertex, or NULL: the largest and the smallest singular value of F, of the vertices with a node in
+       turned (mesh_find_turned_function); of others, and where F is not known, as before. */
+    float *stretches;
+    const uint32_t *turned;
     uint8_t *collapsed; /* whether space collapses at a vertex, or NULL */
     bool determinants;  /* find the range of det F for the totals */
     bool inversions;    /* count the vertices with det F <= 0 (with determinants always) */

@@ -425,7 +425,8 @@ static gradient_need find_need(const pass_tile *tile, bool directions)
     const mesh_pass *const pass = tile->pass;
     const bool counts = !tile->part->repeats_positions;
     const bool determinants = counts && pass->determinants;
-    return (gradient_need){.all = directions || determinants || (counts && pass->gradients),
+    const bool arrays = counts && (pass->gradients || pass->stretches);
+    return (gradient_need){.all = directions || determinants || arrays,
                            .determinants = determinants,
                            .turns = determinants || (counts && (pass->inversions || pass->collapsed))};
 }
@@ -525,8 +526,11 @@ static ffd_status deform_tile(const pass_tile *tile, ffd_error *error)
     spread(tile);
     if (need.determinants)
         note_determinants(tile);
-    if (!part->repeats_positions)
+    if (!part->repeats_positions) {
         fill_arrays(tile);
+        if (pass->stretches)
+            ffd_tile_note_stretches(tile);
+    }
     count_moved(tile);
     ffd_tile_carry(base, need.all);
     ffd_tile_bring_back(base);

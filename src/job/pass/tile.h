@@ -1,7 +1,8 @@
 /* tile.h - a tile of a pass: the vertices that a thread processes at a time, and what is done with them, each
    in a source of its own: the way of its points through the chain (tile_points.c), their weights
-   (tile_weights.c), morph targets (pass_shapes.c), splats (pass_splats.c), rounding (tile_rounding.c), points
-   that miss the volume by a rounding (tile_misses.c), counting (tile_totals.c). Internal to job/pass. */
+   (tile_weights.c), parts that move as one piece (tile_rigid.c), morph targets (pass_shapes.c), splats
+   (pass_splats.c), rounding (tile_rounding.c), points that miss the volume by a rounding (tile_misses.c),
+   counting (tile_totals.c). Internal to job/pass. */
 #ifndef FFD_JOB_PASS_TILE_H
 #define FFD_JOB_PASS_TILE_H
 
@@ -57,7 +58,7 @@ typedef struct tile_scratch {
         chain;       /* its locations: of the selected vertices, then of those that a morph target moves */
     turn_list turns; /* the points at which det F may be 0 or less */
     uint8_t changed[PASS_TILE];
-    double rest[3 * PASS_TILE]; /* with weights: the points before the chain */
+    double rest[3 * PASS_TILE]; /* with weights or pieces: the points before the chain */
     vertex_transforms transforms;
     double normals[3 * PASS_TILE], tangents[4 * PASS_TILE];
     uint8_t normals_changed[PASS_TILE], tangents_changed[PASS_TILE];
@@ -127,9 +128,17 @@ void ffd_tile_hold(tile_points *points, size_t i, size_t v);
 /* Returns a run of the points through the chain. gradients: whether they are wanted. */
 chain_run ffd_tile_run(tile_points *points, bool gradients);
 
-/* Sends the points of a run through the chain, where each moves by its weight times the displacement. Errors:
-   those of ffd_chain_apply. */
+/* Sends the points of a run through the chain, where each moves by its weight times the displacement, or with
+   its piece. Errors: those of ffd_chain_apply. */
 ffd_status ffd_tile_send(tile_points *points, chain_run *run, ffd_error *error);
+
+/* Gives points of pieces the displacements and gradients of these. rest: the points before the chain. */
+void ffd_tile_move_pieces(tile_points *points, const chain_run *run, const double *rest);
+/* Whether a point is of a piece whose motion the part's node makes too: the point then stays. */
+bool ffd_tile_is_at_rest(const tile_points *points, size_t i);
+/* Notes how the gradients of all vertices stretch those that animations turn (after the selected vertices are
+ * spread). */
+void ffd_tile_note_stretches(const pass_tile *tile);
 
 /* Adds the times of a run to the totals. */
 void ffd_tile_add_times(const pass_tile *tile, const chain_run *run);

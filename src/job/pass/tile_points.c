@@ -96,6 +96,12 @@ void ffd_tile_carry(tile_points *points, bool gradients)
     for (size_t i = 0; i < points->count && part->carried; i++) {
         if (!vec_is_finite(points->position + 3 * i))
             continue;
+        if (ffd_tile_is_at_rest(points, i)) {
+            memset(points->delta + 3 * i, 0, 3 * sizeof *points->delta);
+            if (gradients)
+                memset(points->gradient + 9 * i, 0, 9 * sizeof *points->gradient);
+            continue;
+        }
         ffd_part_carry(part, points->position + 3 * i, points->delta + 3 * i);
         if (gradients)
             ffd_part_carry_gradient(part, points->gradient + 9 * i);

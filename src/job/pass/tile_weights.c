@@ -54,11 +54,14 @@ ffd_status ffd_tile_send(tile_points *points, chain_run *run, ffd_error *error)
     const mesh_pass *const pass = points->tile->pass;
     double *const kept = points->tile->scratch->rest;
     const bool is_stored = rests_are_stored(points);
-    if (!pass->weights)
+    if (!pass->weights && !pass->rigid)
         return ffd_chain_apply(pass->chain, pass->links, run, error);
     if (!is_stored)
         memcpy(kept, run->x, 3 * run->count * sizeof *kept);
     TRY(ffd_chain_apply(pass->chain, pass->links, run, error));
-    weigh(points, run, is_stored ? points->stored : kept);
+    if (pass->weights)
+        weigh(points, run, is_stored ? points->stored : kept);
+    if (pass->rigid)
+        ffd_tile_move_pieces(points, run, is_stored ? points->stored : kept);
     return FFD_OK;
 }

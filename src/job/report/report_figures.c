@@ -92,6 +92,22 @@ static face_text face_name(int bit)
     return (face_text){{"uvw"[bit / 2], "-+"[bit % 2], 0}};
 }
 
+static void write_rigid(json_text *json, const char *key, const ffd_rigid_figures *rigid)
+{
+    ffd_json_array(json, key, false);
+    for (uint64_t k = 0; k < rigid->count; k++) {
+        const ffd_rigid_part *const part = &rigid->parts[k];
+        ffd_json_object(json, NULL, true);
+        ffd_json_string(json, "part", part->part);
+        ffd_json_count(json, "pieces", part->pieces);
+        ffd_json_number(json, "rotation", part->rotation);
+        ffd_json_number(json, "scale", part->scale);
+        ffd_json_number(json, "distance", part->distance);
+        ffd_json_end(json, '}');
+    }
+    ffd_json_end(json, ']');
+}
+
 /* Writes the faces of each lattice that are held. */
 static void write_faces(json_text *json, const char *key, const ffd_seam_figures *seam)
 {
@@ -187,6 +203,9 @@ static void write_value(json_text *json, const figure *f, const ffd_job_result *
         break;
     case FIGURE_MORPHS:
         write_morphs(json, key, &result->morphs);
+        break;
+    case FIGURE_RIGID:
+        write_rigid(json, key, &result->rigid);
         break;
     case FIGURE_FACES:
         write_faces(json, key, &result->seam);

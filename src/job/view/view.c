@@ -360,8 +360,8 @@ static void judge_color(const view_work *work)
 static void warn_of_unused(const view_work *work)
 {
     const ffd_deform_desc *const job = work->desc->job;
-    static const char *const settings[] = {"set", "outside",  "snap",   "blocks", "normals",
-                                           "rig", "as_morph", "weight", "seam"};
+    static const char *const settings[] = {"set",      "outside", "snap", "blocks", "normals", "rig",
+                                           "as_morph", "weight",  "seam", "rigid",  "uniform"};
     char names[300] = "";
     const size_t first = job->lattice_count > 0 ? 1 : 0; /* the cages of lattices are shown by set */
     for (size_t i = first; i < sizeof settings / sizeof *settings; i++)

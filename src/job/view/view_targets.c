@@ -172,6 +172,7 @@ static ffd_status deform_targets(const deform_job *job, mesh_document *document,
                             .chain = &job->chain,
                             .links = job->chain.count,
                             .weights = ffd_job_weights(job),
+                            .rigid = ffd_job_rigid(job),
                             .threads = job->threads,
                             .embedding = job->desc->embedding.path ? &job->embedding : NULL,
                             .write = true};
