@@ -23,6 +23,7 @@ def deform_file(source: Path, output: Path | None, lattices: AnyLattice | Sequen
       set={"NAME": value}, time=SECONDS (of lattices with keys), outside="keep" | "extend" | "error", falloff=, snap=LENGTH or "0.001r", blocks=True,
       seam="C1" (hold the faces that the mesh cuts, so that it joins the rest smoothly) or "C2:u-,v+" or "C0:all",
       normals="transform" | "keep" | "recompute", as_morph="NAME", only=["node:NAME"], embedding="uvw.npy" or its bytes,
+      rigid=["node:Wheel", "joint:NAME", "component"] (parts that move as one piece), uniform= (likewise, with a scale each),
       weight="FILE.npy" | "attribute:NAME" | "color:r" | "joint:NAME" | "property:NAME", "1-.." of one, or an array (how much of the
       displacement each vertex takes),
       fail_on=["folds", "tear=0.1"], quality=True (fills the figures of `check_file`), space="scene" | "mesh",

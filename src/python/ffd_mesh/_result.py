@@ -31,6 +31,7 @@ class Result:
     folds: a `Folds`
     tear, det, edges, displacement, ..: groups of figures, as result.tear.largest; tear.cause is a word: "stays", "blocks", ..;
       seam has continuity, "C1", and faces, a list for each lattice, as [["u+"]]
+    rigid: a list of groups, one for each part of rigid= and uniform=: part, pieces, rotation, scale, distance
     A group is None if the job did not look for it (folds, tear, det, edges) or if there is nothing (rig, seam).
     """
 
@@ -42,6 +43,7 @@ class Result:
     moved: int
     tear: Any
     displacement: Any
+    rigid: Any
     behind: Any
     flaws: Any
     # Of a job of a batch:
@@ -76,6 +78,8 @@ def figures(value: Any) -> Any:
         return [figures(entry) for entry in value]
     if not isinstance(value, ctypes.Structure):
         return plain(value)
+    if isinstance(value, declared.ffd_rigid_figures):
+        return [figures(part) for part in value.parts[:value.count]]
     known = getattr(value, "is_known", getattr(value, "is_there", True))
     names = (name for name, *_ in value._fields_ if name not in ("room", "is_known", "is_there"))
     group = Group(**{name: figures(getattr(value, name)) for name in names}) if known else None

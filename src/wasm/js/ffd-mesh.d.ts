@@ -90,6 +90,9 @@ export interface Options {
   space?: 'scene' | 'mesh';
   rig?: 'keep' | 'follow';
   only?: string | string[];
+  /** Parts that move as one piece: `node:Wheel`, `joint:NAME`, `component`; `uniform`: each with a scale. */
+  rigid?: string | string[];
+  uniform?: string | string[];
   failOn?: string | string[];
   asMorph?: string;
   /** `weights.npy`, one of `files`, or `color:r` and so on. */
