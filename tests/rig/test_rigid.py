@@ -218,7 +218,7 @@ def wheel_faces(sides=12):
     return [[i] for s in range(sides) for a, b in [(s, (s + 1) % sides)] for i in (a, b, a + sides, b, b + sides, a + sides)]
 
 
-def car(pointer=False, skinned=False, pivot=False, still=False, lift=0.0, second=False):
+def car(pointer=False, skinned=False, pivot=False, still=False, lift=0.0, second=False, none=0):
     """A body, and a wheel that an animation turns, perhaps as a joint of a skin or below a pivot."""
     scene = Scene(scene=0, scenes=[{"nodes": [0]}], nodes=[{"name": "car", "children": [1, 2]}, {"name": "body", "mesh": 0},
                                                            {"name": "wheel", "translation": [1.5, 0.5, 0.6 + lift]}],
@@ -237,7 +237,7 @@ def car(pointer=False, skinned=False, pivot=False, still=False, lift=0.0, second
         nodes[0]["children"].append(3)
         nodes.append({"name": "tyre", "mesh": 1, "skin": 0})
         wheel_mesh["attributes"]["JOINTS_0"] = scene.add([[1 if second else 0, 0, 0, 0]] * len(points), 5121, "VEC4")
-        wheel_mesh["attributes"]["WEIGHTS_0"] = scene.add([[1.0, 0, 0, 0]] * len(points), shape="VEC4")
+        wheel_mesh["attributes"]["WEIGHTS_0"] = scene.add([[float(v >= none), 0, 0, 0] for v in range(len(points))], shape="VEC4")
         bind = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1.5, -0.5, -0.6, 1]
         still_bind = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
         scene.asset["skins"] = [{"joints": [0, 2] if second else [2], "inverseBindMatrices": scene.add([still_bind, bind] if second else [bind], shape="MAT4")}]
@@ -329,6 +329,17 @@ def a_joint_has_what_follows_it_by_more_than_half(run):
     wanted = y.copy()
     wanted[own] = nearest(x[own], y[own])[0]
     is_near(z, wanted, 4e-6, "an arm with a rigid hand")
+
+
+@case
+def a_vertex_without_weights_follows_its_first_joint(run):
+    found = []
+    for none in (0, 3):
+        run.write("a.glb", car(skinned=True, none=none).glb())
+        run.write("l.json", WILD)
+        run.ffd("deform", "a.glb", "b.obj", "-l", "l.json", "--rigid", "joint:wheel", "--force", err=anything)
+        found.append(obj_vertices(run.text("b.obj")))
+    is_near(found[1], found[0], 1e-12, "the tyre")
 
 
 @case
