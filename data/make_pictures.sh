@@ -100,14 +100,15 @@ for seed in 2 3 4; do
     deform models/vase.obj vase-$seed.obj -l noise.json --set SEED=$seed
     draw noise-$seed models/vase.obj vase-$seed.obj $pair $face --size 150x200
 done
-# A lattice that was shaped by hand.
-draw snout models/spot.obj -l lattices/snout.json $pair --camera -1,0.3,-1.2 --size 360x340
-
 deform models/cart.glb wobbling.glb -l drive.json --rig follow
 deform models/cart.glb rolling.glb -l drive.json --rig follow --rigid node:front --rigid node:back --rigid node:sword
 for one in wobbling rolling; do
     draw $one $one.glb --color plain --animation roll --frames 4 --camera 0.2,0.15,1 --size 220x170
 done
+
+# A lattice that was shaped by hand.
+draw snout models/spot.obj -l lattices/snout.json $pair --camera -1,0.3,-1.2 --size 360x340
+
 # Fits: what ffd fit finds carries clothes, coarser meshes, the rest of a mesh and a scan.
 dress() { # OUT BODY TUNIC HAT, of OBJ: one mesh, each part in a colour
     awk 'FNR == 1 {base = count; split("0.8 0.6 0.5,0.2 0.4 0.6,0.5 0.1 0.1", colours, ","); ++part}
