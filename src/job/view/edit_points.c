@@ -76,18 +76,23 @@ static ffd_status locate_vertices(point_work *w)
     return ffd_pass_over_mesh(&pass, &totals, w->error);
 }
 
+/* Memory of a point without its way, in bytes. */
+#define POINT_BYTES (7 * sizeof(double) + sizeof(uint32_t) + 1)
+
 /* Makes room for one more point. */
 static ffd_status grow(point_work *w)
 {
     edit_points *const p = w->points;
     const size_t needed = p->count + 1;
-    const bool made = ffd_grow((void **)&p->start, &w->capacity[0], needed, 3 * sizeof *p->start) &&
-                      ffd_grow((void **)&p->uvw, &w->capacity[1], needed, 3 * sizeof *p->uvw) &&
-                      ffd_grow((void **)&p->kinds, &w->capacity[2], needed, 1) &&
-                      ffd_grow((void **)&p->factors, &w->capacity[3], needed, sizeof *p->factors) &&
-                      ffd_grow((void **)&p->owners, &w->capacity[4], needed, sizeof *p->owners) &&
-                      (!w->border || !w->job->chain.outside.extend ||
-                       ffd_grow((void **)&p->ways, &w->capacity[5], needed, EDIT_WAY * sizeof *p->ways));
+    const size_t way = w->job->chain.outside.extend ? EDIT_WAY * sizeof *p->ways : 0;
+    TRY(ffd_budget_take(&w->job->document->budget, 1, POINT_BYTES + way, w->error));
+    const bool made =
+        ffd_grow((void **)&p->start, &w->capacity[0], needed, 3 * sizeof *p->start) &&
+        ffd_grow((void **)&p->uvw, &w->capacity[1], needed, 3 * sizeof *p->uvw) &&
+        ffd_grow((void **)&p->kinds, &w->capacity[2], needed, 1) &&
+        ffd_grow((void **)&p->factors, &w->capacity[3], needed, sizeof *p->factors) &&
+        ffd_grow((void **)&p->owners, &w->capacity[4], needed, sizeof *p->owners) &&
+        (way == 0 || ffd_grow((void **)&p->ways, &w->capacity[5], needed, EDIT_WAY * sizeof *p->ways));
     return made ? FFD_OK : ffd_fail_memory(w->error);
 }
 

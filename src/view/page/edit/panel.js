@@ -71,7 +71,8 @@ class EditPanel {
   }
 
   showCards(panel) {
-    panel.prepend(...this.cards);
+    // What is not shown is told first.
+    panel.prepend(...[byId('notice'), ...this.cards].filter(Boolean));
   }
 
   // On the picture: what is used most.
