@@ -99,6 +99,27 @@ typedef struct ffd_folds {
 FFD_API ffd_status ffd_folds_find(const ffd_lattice *lattice, int threads, ffd_folds *folds,
                                   ffd_error *error);
 
+/* The result of ffd_folds_barrier. */
+typedef struct ffd_barrier {
+    size_t struct_size; /* sizeof(ffd_barrier) in the caller's header, set before the call */
+    double least; /* the least coefficient; above 0: det J_Q has the sign of the rest volume in these cells */
+    double value; /* the sum of max(0, floor - c)^2 over all coefficients c */
+} ffd_barrier;
+
+/* A smooth measure of folding, for optimizers: from the Bernstein coefficients c of det J_Q in each span
+   cell, (3 degree)^3 of them, divided by the mean of det J_P over the domain (src/maths.md 10.7). They bound
+   the determinant from both sides: an edit with value 0 does not fold in these cells if floor > 0. deformed
+   3 numbers for each control point, u fastest, in place of the lattice's own; or NULL uvw       count places
+   in the range of the knots, 3 numbers each: only the cells that hold one of them count. NaN: none. NULL: all
+   cells count gradient  receives the derivatives of the value by the deformed control points, 3 for each, u
+   fastest; or NULL threads: >= 1, or 0 for all cores; does not affect the result. Thread-safe. Errors:
+   FFD_E_ARGUMENT (the lattice has no control points yet, floor or a control point is not finite, struct_size,
+   threads), FFD_E_UNSUPPORTED (a lattice with weights), FFD_E_INVALID (the rest volume is 0), FFD_E_MEMORY.
+ */
+FFD_API ffd_status ffd_folds_barrier(const ffd_lattice *lattice, const double *deformed, double floor,
+                                     const double *uvw, size_t count, int threads, ffd_barrier *barrier,
+                                     double *gradient, ffd_error *error);
+
 #ifdef __cplusplus
 }
 #endif

@@ -71,6 +71,33 @@ void ffd_bernstein_multiply(const double *a, const int order_a[3], const double 
         }
 }
 
+/* slope[i] += factor * sum_j of_product[i + j] b[j] */
+static void multiply_rows_back(const double *of_product, int count_a, const double *b, int count_b,
+                               double factor, double *slope)
+{
+    for (int i = 0; i < count_a; i++) {
+        double sum = 0;
+        for (int j = 0; j < count_b; j++)
+            sum += of_product[i + j] * b[j];
+        slope[i] += factor * sum;
+    }
+}
+
+void ffd_bernstein_multiply_back(const double *of_product, const int order_a[3], const double *b,
+                                 const int order_b[3], double factor, double *slope)
+{
+    const size_t row = (size_t)(order_a[0] + order_b[0] - 1);
+    const size_t plane = row * (size_t)(order_a[1] + order_b[1] - 1);
+    for (int k = 0; k < order_a[2]; k++)
+        for (int j = 0; j < order_a[1]; j++, slope += order_a[0]) {
+            const double *row_b = b;
+            for (int m = 0; m < order_b[2]; m++)
+                for (int l = 0; l < order_b[1]; l++, row_b += order_b[0])
+                    multiply_rows_back(of_product + (size_t)(k + m) * plane + (size_t)(j + l) * row,
+                                       order_a[0], row_b, order_b[0], factor, slope);
+        }
+}
+
 double ffd_bernstein_terms(const int order_a[3], const int order_b[3])
 {
     double terms = 1;

@@ -22,6 +22,10 @@ void ffd_bernstein_unweight(double *coefficients, const int order[3], double fac
 /* product += factor * a * b, all three weighted; product has the order order_a + order_b - 1. */
 void ffd_bernstein_multiply(const double *a, const int order_a[3], const double *b, const int order_b[3],
                             double factor, double *product);
+/* The derivative of that: slope += factor * the derivative, by the coefficients of a, of a function of the
+   product whose derivative by the product's weighted coefficients is `of_product`. */
+void ffd_bernstein_multiply_back(const double *of_product, const int order_a[3], const double *b,
+                                 const int order_b[3], double factor, double *slope);
 /* Returns the greatest number of products in a coefficient of a * b. */
 double ffd_bernstein_terms(const int order_a[3], const int order_b[3]);
 

@@ -217,6 +217,14 @@ typedef struct ffd_folds {
     ffd_fold_witness witness;
 } ffd_folds;
 ffd_status ffd_folds_find(const ffd_lattice *lattice, int threads, ffd_folds *folds, ffd_error *error);
+typedef struct ffd_barrier {
+    size_t struct_size;
+    double least;
+    double value;
+} ffd_barrier;
+ffd_status ffd_folds_barrier(const ffd_lattice *lattice, const double *deformed, double floor,
+                             const double *uvw, size_t count, int threads, ffd_barrier *barrier,
+                             double *gradient, ffd_error *error);
 typedef struct ffd_bounds {
     double min[3], max[3];
 } ffd_bounds;

@@ -151,6 +151,26 @@ class Calculus(unittest.TestCase):
         self.assertLess(np.abs(found - points).max(), 1e-13)
         self.assertTrue((np.linalg.det(jacobians) > 0).all())
 
+    def test_the_barrier_goes_down_along_its_gradient(self):
+        lattice = ffd.Lattice.box((0, 0, 0), (1, 2, 3), size=(4, 5, 6))
+        self.assertEqual(lattice.fold_barrier()[:2], (1, 0))
+        Q = lattice.rest.copy()
+        Q[1, :, :, 0] += 1.5
+        self.assertEqual(lattice.folds(Q).verdict, "some")
+        start = lattice.fold_barrier(Q)
+        step = 1e-7
+        moved = lattice.fold_barrier(Q - step * start.gradient)
+        self.assertLess(start.least, 0)
+        self.assertAlmostEqual((start.value - moved.value) / (step * np.sum(start.gradient**2)), 1, places=4)
+        # Only the cell of the point counts.
+        some = lattice.fold_barrier(Q, embedding=lattice.embed(np.array([[0.1, 0.1, 0.1]])))
+        self.assertTrue(0 < some.value < start.value)
+        self.assertEqual(np.count_nonzero(some.gradient[:, 4]), 0)
+        with self.assertRaises(ffd.UnsupportedError):
+            lattice.moved(weights=np.full((4, 5, 6), 2.0)).fold_barrier()
+        with self.assertRaises(ValueError):
+            lattice.fold_barrier(Q[1:])
+
     def test_folds_are_found_and_excluded(self):
         lattice = ffd.Lattice.box((0, 0, 0), (1, 1, 1), size=4)
         folds = lattice.folds()

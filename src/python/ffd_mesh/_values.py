@@ -73,6 +73,14 @@ class Folds:
     relative_to: str
 
 
+class FoldBarrier(NamedTuple):
+    """What `Lattice.fold_barrier` returns."""
+
+    least: float  # the least Bernstein coefficient of det J, relative to the mean of det J at rest; inf where no cell counts
+    value: float  # the sum of max(0, floor - c)^2 over the coefficients c
+    gradient: np.ndarray  # (nu, nv, nw, 3) float64: of the value by the deformed control points
+
+
 def folds_of(found: Any) -> Folds:
     """Folds of the library's ffd_folds."""
     witness, has = found.witness, found.witness.is_there
