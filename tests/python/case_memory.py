@@ -228,7 +228,7 @@ class Views(Folder):
             ffd.edit_file("spot.obj", "ours.html")
         with self.assertRaises(ValueError):
             ffd.edit_file("spot.obj", "ours.html", "twist.json", size=4)
-        with self.assertRaises(ValueError):
+        with self.assertRaises(TypeError):
             ffd.edit_file("spot.obj", "ours.html", normals="keep")
 
     def test_morph_targets_are_those_of_the_program(self):
