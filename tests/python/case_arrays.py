@@ -83,6 +83,25 @@ class Layouts(unittest.TestCase):
         wide = LATTICE.deform(embedding, Q, out=np.empty((20, 3)))
         self.assertTrue(np.array_equal(wide.astype(np.float32), LATTICE.deform(embedding, Q)))
 
+    def test_other_types_and_byte_orders_are_copied(self):
+        points = RANDOM.integers(0, 4, (20, 3)) / 4
+        wanted = LATTICE.deform(LATTICE.embed(points), Q)
+        for kind, found_as in ((">f8", "f8"), (">f4", "f4"), ("f2", "f4"), (">f2", "f4"), ("g", "f8")):
+            found = LATTICE.deform(LATTICE.embed(points.astype(kind)), Q)
+            self.assertEqual(found.dtype, np.dtype(found_as))
+            self.assertEqual(found.tobytes(), wanted.astype(found_as).tobytes(), kind)
+            self.assertTrue(np.array_equal(LATTICE.evaluate(points.astype(kind)), LATTICE.evaluate(points)))
+            self.assertTrue(np.array_equal(ffd.Lattice.around(points.astype(kind)).rest, ffd.Lattice.around(points).rest))
+        for kind in ("i1", "u2", ">i4", "i8"):
+            whole = np.arange(12).reshape(4, 3).astype(kind)
+            lattice = ffd.Lattice.around(whole, 3)
+            moved = lattice.deform(lattice.embed(whole), 2 * lattice.rest)
+            self.assertTrue(np.array_equal(moved, lattice.deform(lattice.embed(whole.astype(float)), 2 * lattice.rest)))
+            twice = np.round(10 * Q).astype(kind)
+            self.assertTrue(np.array_equal(LATTICE.moved(twice).deformed, twice))
+        for kind in (">f8", ">f4", "f2", "g"):
+            self.assertTrue(np.array_equal(LATTICE.moved(Q.astype(kind)).deformed, Q.astype(kind).astype(float)))
+
     def test_views_live_as_long_as_they_are_used(self):
         uvw = LATTICE.embed(RANDOM.uniform(0, 1, (1000, 3))).uvw
         rest = support.curved(support.rng("views")).rest
@@ -107,8 +126,8 @@ class Refusals(unittest.TestCase):
         good = RANDOM.uniform(0, 1, (5, 3))
         for bad in (good[:, :2], good.ravel(), good[None], good[:, :0], np.float64(3), []):
             self.refused(ValueError, r"points must have the shape \(N, 3\)", LATTICE.embed, bad)
-        for bad in (good.astype(np.float16), good.astype(">f8"), good.astype(int), good.astype(complex), good.astype(object), "xyz", None):
-            self.refused(TypeError, "points must be float32 or float64", LATTICE.embed, bad)
+        for bad in (good.astype(bool), good.astype(complex), good.astype(object), good.astype("M8[s]"), "xyz", None):
+            self.refused(TypeError, "points must hold real numbers", LATTICE.embed, bad)
         self.refused(TypeError, "mask", LATTICE.embed, np.ma.masked_array(good))
 
     def test_out(self):

@@ -300,6 +300,22 @@ class Meshes(unittest.TestCase):
         self.faces = np.arange(30).reshape(10, 3)
         self.wanted = self.lattice.deform(self.lattice.embed(self.points), self.Q, normals=self.normals)
 
+    def test_what_is_not_known_is_none(self):
+        result = ffd.positions_bytes(support.ply(self.points), self.lattice, name="a.ply").result
+        self.assertEqual((result.volume.before, result.faces, result.flipped_faces, result.tear.vertex), (None,) * 4)
+        self.assertEqual(result.behind["camera"].names, [])
+        checked = ffd.check_bytes(support.ply(self.points), self.lattice, name="a.ply")
+        self.assertEqual((checked.det.outside, checked.det.outside_vertex), (None, None))
+        nothing = ffd.check_bytes(support.ply(np.full((1, 3), np.nan)), self.lattice, name="a.ply")
+        self.assertEqual((nothing.bounds.before, nothing.bounds.after), (None, None))
+
+        def numbers(value):
+            members = value.values() if isinstance(value, dict) else value if isinstance(value, (list, tuple)) else vars(value).values() if hasattr(value, "__dict__") else ()
+            return [value] if isinstance(value, (int, float)) else [number for member in members for number in numbers(member)]
+        for one in (result, checked, nothing):
+            for number in numbers(one):
+                self.assertTrue(np.isfinite(number) and number != 2**64 - 1)
+
     def test_trimesh(self):
         import trimesh
         mesh = trimesh.Trimesh(self.points, self.faces, vertex_normals=self.normals, process=False)

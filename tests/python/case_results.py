@@ -49,6 +49,19 @@ class Bits(unittest.TestCase):
         self.assertTrue(np.array_equal(ours.rest, theirs.rest))
         self.assertEqual([list(k) for k in ours.knots], [list(k) for k in theirs.knots])
 
+    def test_a_box_with_even_spacing_is_that_of_a_file(self):
+        for knots, axes in (("default", None), (("clamped", "default", "clamped"), np.eye(3)[[1, 2, 0]]), (["clamped", [0, 0, 0, 0, 1, 1, 1, 1], "clamped"], None)):
+            box = {"min": [0, 0.1, 0], "max": [1, 2, 1 / 3], "spacing": "uniform"} | ({} if axes is None else {"axes": axes.tolist()})
+            wanted = ffd.Lattice.parse({"format": "ffd-lattice", "version": 1, "size": [8, 4, 4], "rest": {"box": box},
+                                        "knots": ["clamped" if knots == "default" or kind == "default" else kind for kind in (list(knots) if knots != "default" else [knots] * 3)]})
+            found = ffd.Lattice.box((0, 0.1, 0), (1, 2, 1 / 3), (8, 4, 4), knots=knots, axes=axes, spacing="uniform")
+            self.assertEqual((found.rest.tobytes(), found.degree), (wanted.rest.tobytes(), (3, 3, 3)))
+            self.assertEqual([list(k) for k in found.knots], [list(k) for k in wanted.knots])
+        self.assertEqual(ffd.Lattice.box((0, 0, 0), (1, 1, 1), (3, 4, 5), 2, spacing="uniform").degree, (2, 2, 2))
+        for bad in ({"spacing": "even"}, {"spacing": "uniform", "size": (3, 3)}, {"spacing": "uniform", "knots": "bent"}, {"spacing": "uniform", "knots": "open"}, {"spacing": "uniform", "degree": 9}):
+            with self.assertRaises(ValueError):
+                ffd.Lattice.box((0, 0, 0), (1, 1, 1), **bad)
+
     def test_text_and_pickles_keep_every_bit(self):
         random = support.rng("text")
         lattice = support.curved(random, weights=True)
@@ -67,6 +80,13 @@ class Bits(unittest.TestCase):
         for one in (fitted, fitted.moved(fitted.deformed + 0.1)):
             again = pickle.loads(pickle.dumps(one))
             self.assertTrue(np.array_equal(again.rest, one.rest) and np.array_equal(again.offsets, one.offsets))
+        content = {"format": "ffd-lattice", "version": 1, "size": [3, 3, 3], "rest": {"box": "mesh"},
+                   "parameters": {"A": {"default": 10, "min": 0}}, "moves": [{"twist": {"axis": "z", "degrees": {"$": "A"}}}]}
+        asked = ffd.Lattice.parse(content)
+        self.assertEqual(asked.parameters["A"], ffd.Parameter("A", 10, None, None, 0.0, None))
+        for one in (asked, asked.fit(points), asked.fit(points).moved(offsets=0 * asked.fit(points).rest), asked.fit(points).embed(points)):
+            again = pickle.loads(pickle.dumps(pickle.loads(pickle.dumps(one))))
+            self.assertEqual(getattr(again, "lattice", again).parameters, asked.parameters)
         with self.assertRaises(ffd.InvalidError):
             ffd.Embedding.from_bytes(embedding.to_bytes()[:-1], lattice, points)
 

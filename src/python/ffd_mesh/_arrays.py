@@ -12,15 +12,23 @@ _NUMBERS = {np.dtype(np.float64): ENUMERATIONS["ffd_number"]["FFD_FLOAT64"],
             np.dtype(np.float32): ENUMERATIONS["ffd_number"]["FFD_FLOAT32"]}
 
 
-def vectors(value: Any, what: str, count: int | None = None) -> np.ndarray:
-    """Checks that value is an array (N, 3) of float32 or float64, with any strides. Returns it uncopied; lists become float64."""
+def numbers(value: Any, what: str) -> np.ndarray:
+    """Checks that value holds real numbers of any type and byte order. Returns an array, uncopied if it is one."""
     array = value if isinstance(value, np.ndarray) else np.asarray(value)
     if isinstance(array, np.ma.MaskedArray):
         raise TypeError(f"{what} must not be a masked array: its mask would be ignored")
-    if isinstance(value, (list, tuple)) and array.dtype.kind in "iu":
-        array = array.astype(np.float64)
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"{what} must hold real numbers, not {array.dtype}")
+    return array
+
+
+def vectors(value: Any, what: str, count: int | None = None) -> np.ndarray:
+    """Checks that value is an array (N, 3) of real numbers, with any strides. Returns float32 and float64 in the machine's byte order
+    uncopied. Floats of at most 32 bits become float32, all other numbers float64."""
+    array = numbers(value, what)
     if array.dtype not in _NUMBERS:
-        raise TypeError(f"{what} must be float32 or float64 in the machine's byte order, not {array.dtype}")
+        narrow = array.dtype.kind == "f" and array.dtype.itemsize <= 4
+        array = array.astype(np.float32 if narrow else np.float64)
     if array.ndim != 2 or array.shape[1] != 3:
         raise ValueError(f"{what} must have the shape (N, 3), not {array.shape}")
     if count is not None and len(array) != count:
@@ -32,6 +40,8 @@ def output(value: Any, what: str, count: int) -> np.ndarray:
     """Checks that value is an array (count, 3) that results can be written to."""
     if not isinstance(value, np.ndarray):
         raise TypeError(f"{what} must be an array of numpy, not {type(value).__name__}")
+    if value.dtype not in _NUMBERS:
+        raise TypeError(f"{what} must be float32 or float64 in the machine's byte order, not {value.dtype}")
     array = vectors(value, what, count)
     if not array.flags.writeable:
         raise ValueError(f"{what} is read-only")
@@ -85,11 +95,7 @@ def address(array: np.ndarray) -> int:
 
 def doubles(value: Any, what: str, shape: tuple[int, ...]) -> np.ndarray:
     """Returns value as contiguous float64 of this shape, in C order; copied only if necessary."""
-    array = np.asanyarray(value)
-    if isinstance(array, np.ma.MaskedArray):
-        raise TypeError(f"{what} must not be a masked array: its mask would be ignored")
-    if array.dtype.kind not in "fiu":
-        raise TypeError(f"{what} must hold real numbers, not {array.dtype}")
+    array = numbers(value, what)
     if array.shape != shape:
         raise ValueError(f"{what} must have the shape {shape}, not {array.shape}")
     return np.ascontiguousarray(array, dtype=np.float64)

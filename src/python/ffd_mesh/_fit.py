@@ -15,7 +15,7 @@ from ._description import AnyLattice, Path, set_lattice
 from ._errors import Error, GateError
 from ._lattice import Lattice
 from ._library import Progress, Run, lib
-from ._values import direction_of, settings, shape_of, three, triangles_of
+from ._values import direction_of, finite, settings, shape_of, three, triangles_of
 
 
 class Fit(NamedTuple):
@@ -34,15 +34,11 @@ class FittedFile(NamedTuple):
     warnings: list[str]
 
 
-def _known(value: float) -> float | None:
-    return value if math.isfinite(value) else None
-
-
 def _folds(found: Any) -> dict[str, Any]:
     """An ffd_folds as the report has it."""
     at = found.witness
     witness = {"lattice": at.lattice, "uvw": list(at.uvw), "xyz": list(at.xyz), "rest": list(at.rest), "det": at.det} if at.is_there else None
-    return {"verdict": library.NAMES["ffd_fold_verdict"][found.verdict], "cells": found.cells, "min_det": _known(found.min_det),
+    return {"verdict": library.NAMES["ffd_fold_verdict"][found.verdict], "cells": found.cells, "min_det": finite(found.min_det),
             "relative_to": library.NAMES["ffd_fold_reference"][found.relative_to], "folded_cells": found.folded_cells,
             "unknown_cells": found.unknown_cells, "witness": witness}
 
@@ -53,10 +49,10 @@ def _report(found: Any, robust: bool) -> dict[str, Any]:
     affine = list(found.affine)
     return {
         **{name: getattr(found, name) for name in counts},
-        "smooth": found.smooth, "smooth_chosen_by": lib.ffd_fit_choice_name(found.smooth_chosen_by).decode(), "gcv": _known(found.gcv),
+        "smooth": found.smooth, "smooth_chosen_by": lib.ffd_fit_choice_name(found.smooth_chosen_by).decode(), "gcv": finite(found.gcv),
         "affine": [affine[3 * row:3 * row + 3] for row in range(4)],
         "residual": {"max": found.residual_max, "rms": found.residual_rms, "p95": found.residual_p95, "worst": found.worst},
-        "residual_exact": _known(found.residual_exact), "largest_offset": found.largest_offset,
+        "residual_exact": finite(found.residual_exact), "largest_offset": found.largest_offset,
         "points_without_data": found.points_without_data, "folds": _folds(found.folds),
         "downweighted": found.downweighted if robust else None,
         "spread": {"positions": found.spread_positions, "largest": found.spread_largest}, "flops": found.flops}

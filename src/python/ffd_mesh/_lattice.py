@@ -17,7 +17,7 @@ from ._convert import convert, is_other
 from ._embedding import Embedding
 from ._errors import InvalidError
 from ._library import Owned, Progress, Run, call, lib
-from ._values import (Deformed, FoldBarrier, Folds, Parameter, box_desc, csr, described, direction_of, faces_of, folds_of, parameters, parameters_of, settings, three,
+from ._values import (Deformed, FoldBarrier, Folds, Parameter, box_content, box_desc, csr, described, direction_of, faces_of, folds_of, parameters, parameters_of, settings, three,
                       triangles_of, vertices_of, wishes_of)
 
 REST, DEFORMED = declared.ENUMERATIONS["ffd_volume"].values()
@@ -111,12 +111,16 @@ class Lattice:
         return cls._new(lib.ffd_lattice_parse, data, len(data), library.encoded(name, "name"), parameters=tuple(found.values()))
 
     @classmethod
-    def box(cls, low: Any, high: Any, size: Any = 4, degree: Any = None, *, knots: Any = "default", axes: Any = None) -> Lattice:
-        """Makes a lattice whose rest volume is the box from low (3,) to high (3,), so that u, v, w are affine in x, y, z.
+    def box(cls, low: Any, high: Any, size: Any = 4, degree: Any = None, *, knots: Any = "default", axes: Any = None,
+            spacing: str = "greville") -> Lattice:
+        """Makes a lattice whose rest volume is the box from low (3,) to high (3,).
 
-        size, degree, knots: as in `around`
+        size, degree: as in `around`; knots: as in `from_points`
         axes: (3, 3), rows are orthogonal unit vectors along which low and high are measured; None: x, y, z
+        spacing: of the control points: "greville", so that u, v, w are affine in x, y, z, or "uniform", evenly
         """
+        if library.value_of("ffd_spacing", spacing, "spacing"):
+            return cls.parse(box_content(low, high, size, degree, knots, axes, spacing), "a box")
         made, kept = described(size, degree, knots)
         made.box_min[:], made.box_max[:] = arrays.doubles(low, "low", (3,)), arrays.doubles(high, "high", (3,))
         if axes is not None:
@@ -527,7 +531,7 @@ class Lattice:
         return self
 
     def __reduce__(self) -> Any:
-        return _again, (self.text, self._bounds, None if self.needs_points or self.keys else self.offsets)
+        return _again, (self.text, self._bounds, None if self.needs_points or self.keys else self.offsets, self._parameters)
 
     # -- internal
 
@@ -597,10 +601,12 @@ class Lattice:
         return source, out
 
 
-def _again(text: str, bounds: np.ndarray | None, offsets: np.ndarray | None) -> Lattice:
-    """Restores a pickled lattice."""
+def _again(text: str, bounds: np.ndarray | None, offsets: np.ndarray | None, parameters: tuple[Parameter, ...] = ()) -> Lattice:
+    """Restores a pickled lattice. parameters: which its text lacks."""
     lattice = Lattice.parse(text)
-    return lattice if bounds is None else lattice._fit(bounds).moved(offsets=offsets)  # None: as the text says
+    lattice = lattice if bounds is None else lattice._fit(bounds).moved(offsets=offsets)  # None: as the text says
+    lattice._parameters = parameters or lattice._parameters
+    return lattice
 
 
 def _weighted(run: Run, points: np.ndarray, weight: Any, triangles: Any, wanted: bool) -> tuple[tuple[Any, ...], Any]:

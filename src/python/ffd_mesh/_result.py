@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import math
 import os
 from types import SimpleNamespace
 from typing import Any
@@ -32,7 +33,9 @@ class Result:
     tear, det, edges, displacement, ..: groups of figures, as result.tear.largest; tear.cause is a word: "stays", "blocks", ..;
       seam has continuity, "C1", and faces, a list for each lattice, as [["u+"]]
     rigid: a list of groups, one for each part of rigid= and uniform=: part, pieces, rotation, scale, distance
-    A group is None if the job did not look for it (folds, tear, det, edges) or if there is nothing (rig, seam).
+    flipped_faces: how many of the visible faces end with their back side out, as far as it was counted
+    What is not known is None: a group that the job did not look for (folds, tear, det, edges) or that has nothing (rig, seam), and a
+    number such as the volume of a mesh that is not closed. No number is infinite or NaN.
     """
 
     warnings: list[str]
@@ -41,6 +44,9 @@ class Result:
     folds: Folds | None
     vertices: int
     moved: int
+    has_flipped: bool
+    faces: int | None
+    flipped_faces: int | None
     tear: Any
     displacement: Any
     rigid: Any
@@ -64,6 +70,8 @@ class Result:
         self.behind = dict(zip(library.WORDS["ffd_behind_kind"], self.behind))
         self.flaws = self.flaws[:found.flaw_count]
         self.folds = folds_of(found.folds) if found.folds.is_known else None
+        if not self.has_flipped:
+            self.faces = self.flipped_faces = None
         self.warnings = warnings
         self.outputs = outputs or []
 
@@ -72,18 +80,37 @@ class Result:
         return f"<Result: {self.vertices} vertices ({counts or 'none'}), {self.moved} moved, {len(self.warnings)} warnings>"
 
 
+_UNKNOWN = 2**64 - 1
+
+
+def _known(value: Any) -> Any:
+    """A number or text as it is; None for a number that says that there is none."""
+    missing = not math.isfinite(value) if isinstance(value, float) else value == _UNKNOWN
+    return None if missing else value
+
+
+def _texts(value: Any) -> list[str | None]:
+    """An array of texts, without the empty ones at its end."""
+    return [library.text(entry.value) for entry in value if entry.value]
+
+
 def figures(value: Any) -> Any:
-    """Converts ctypes values to Python values, recursively. Structures become groups; one that is not known is None."""
-    if isinstance(value, ctypes.Array) and not isinstance(value[0], bytes):
+    """Converts ctypes values to Python values, recursively. Structures become groups; what is not known is None."""
+    if isinstance(value, ctypes.Array):
+        if isinstance(value[0], ctypes.Array) and value[0]._type_ is ctypes.c_char:
+            return _texts(value)
         return [figures(entry) for entry in value]
+    if isinstance(value, declared.ffd_bounds):
+        return Group(min=list(value.min), max=list(value.max)) if value.min[0] <= value.max[0] else None
     if not isinstance(value, ctypes.Structure):
-        return plain(value)
+        return _known(plain(value))
     if isinstance(value, declared.ffd_rigid_figures):
         return [figures(part) for part in value.parts[:value.count]]
     known = getattr(value, "is_known", getattr(value, "is_there", True))
     names = (name for name, *_ in value._fields_ if name not in ("room", "is_known", "is_there"))
     group = Group(**{name: figures(getattr(value, name)) for name in names}) if known else None
     if isinstance(value, declared.ffd_tear_figures) and group:
+        group.vertex = group.vertex if group.edges else None
         group.cause = library.NAMES["ffd_tear_cause"][value.cause]
     if isinstance(value, declared.ffd_seam_figures) and group:
         group.faces = [[face for bit, face in enumerate(FACES) if faces >> bit & 1] for faces in group.faces[:group.count]]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -16,14 +17,14 @@ from . import _library as library
 
 
 class Parameter(NamedTuple):
-    """A placeholder, as a lattice file declares it. default: None if it has none."""
+    """A placeholder, as a lattice file declares it. default, min, max: None if it has none."""
 
     name: str
     default: Any
     unit: str | None
     comment: str | None
-    min: float
-    max: float
+    min: float | None
+    max: float | None
 
 
 class Deformed(NamedTuple):
@@ -56,7 +57,7 @@ class Folds:
     cells, folded_cells, unknown_cells: numbers of span cells
     min_det: a lower bound of the Jacobian determinant, relative to what `relative_to` says: "mean", the mean of the determinant
       at rest; "bounds", the volume of the bounds of the control points at rest, where that mean is 0 to rounding; "place", the
-      determinant at rest at the same place, where one affine map moves the whole lattice
+      determinant at rest at the same place, where one affine map moves the whole lattice. None: no bound is known
     witness_uvw, witness_xyz, witness_rest: (3,) parameters, deformed and rest position of a point that folds; witness_det: the
       determinant there, relative as min_det is. None without such a point
     """
@@ -65,7 +66,7 @@ class Folds:
     cells: int
     folded_cells: int
     unknown_cells: int
-    min_det: float
+    min_det: float | None
     witness_uvw: np.ndarray | None
     witness_xyz: np.ndarray | None
     witness_rest: np.ndarray | None
@@ -76,9 +77,14 @@ class Folds:
 class FoldBarrier(NamedTuple):
     """What `Lattice.fold_barrier` returns."""
 
-    least: float  # the least Bernstein coefficient of det J, relative to the mean of det J at rest; inf where no cell counts
+    least: float | None  # the least Bernstein coefficient of det J, relative to the mean of det J at rest; None where no cell counts
     value: float  # the sum of max(0, floor - c)^2 over the coefficients c
     gradient: np.ndarray  # (nu, nv, nw, 3) float64: of the value by the deformed control points
+
+
+def finite(value: float) -> float | None:
+    """A number, or None for one that is not finite: there is none."""
+    return value if math.isfinite(value) else None
 
 
 def folds_of(found: Any) -> Folds:
@@ -86,7 +92,7 @@ def folds_of(found: Any) -> Folds:
     witness, has = found.witness, found.witness.is_there
     uvw, xyz, rest = (np.array(v) if has else None for v in (witness.uvw, witness.xyz, witness.rest))
     return Folds(library.NAMES["ffd_fold_verdict"][found.verdict], found.cells, found.folded_cells, found.unknown_cells,
-                 found.min_det, uvw, xyz, rest, witness.det if has else None,
+                 finite(found.min_det), uvw, xyz, rest, witness.det if has else None,
                  library.NAMES["ffd_fold_reference"][found.relative_to])
 
 
@@ -119,6 +125,21 @@ def box_desc(size: Any = 4, degree: Any = None, knots: Any = "default", margin: 
     desc.knots[:] = [library.value_of("ffd_knots", word, "knots") for word in three(knots, "knots")]
     desc.margin[:] = [library.real(value, "margin") for value in three(margin, "margin")]
     return desc
+
+
+def box_content(low: Any, high: Any, size: Any, degree: Any, knots: Any, axes: Any, spacing: str) -> dict[str, Any]:
+    """The content of a lattice file with a box from low to high, of the arguments of `Lattice.box`."""
+    sizes, degrees = shape_of(size, degree)
+    box = {"min": arrays.doubles(low, "low", (3,)).tolist(), "max": arrays.doubles(high, "high", (3,)).tolist(), "spacing": spacing}
+    if axes is not None:
+        box["axes"] = arrays.doubles(axes, "axes", (3, 3)).tolist()
+    kinds = (knots,) * 3 if isinstance(knots, str) else three(knots, "knots")
+    for kind in kinds:
+        if isinstance(kind, str) and kind not in ("default", "clamped") or _has_breakpoints(kind):
+            raise ValueError(f"spacing='{spacing}' needs clamped knots, not {kind!r}")
+    made = ["clamped" if isinstance(kind, str) else arrays.doubles(kind, "knots", np.shape(kind)).tolist() for kind in kinds]
+    return {"format": "ffd-lattice", "version": 1, "size": sizes, "knots": made, "rest": {"box": box},
+            "degree": [known or min(3, count - 1) for known, count in zip(degrees, sizes)]}
 
 
 def shape_of(size: Any, degree: Any) -> tuple[list[int], list[int]]:
@@ -232,8 +253,8 @@ def csr(values: np.ndarray, columns: np.ndarray, starts: np.ndarray, shape: tupl
 
 def parameters_of(data: bytes, name: str) -> dict[str, Parameter]:
     """The placeholders that the text of a lattice file declares, by name. name: of the file, for messages."""
-    return {row[0]: Parameter(row[0], None if row[1] is None else json.loads(row[1]), *row[2:])
-            for row in library.list_parameters(data, name)}
+    return {name: Parameter(name, None if default is None else json.loads(default), unit, comment, finite(least), finite(most))
+            for name, default, unit, comment, least, most in library.list_parameters(data, name)}
 
 
 def parameters(path: str | os.PathLike[str]) -> dict[str, Parameter]:
