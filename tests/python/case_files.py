@@ -1,4 +1,4 @@
-"""Files and the meshes of other packages."""
+"""Files, and what results of jobs on them say."""
 
 import filecmp
 import json
@@ -289,24 +289,15 @@ class Files(unittest.TestCase):
         self.assertEqual(os.listdir(), [])
 
 
-class Meshes(unittest.TestCase):
-    def setUp(self):
-        random = support.rng("meshes")
-        self.lattice = support.curved(random)
-        self.Q = support.pushed(random, self.lattice)
-        self.points = random.uniform(0.1, 0.9, (30, 3))
-        self.normals = random.standard_normal((30, 3))
-        self.normals /= np.linalg.norm(self.normals, axis=1, keepdims=True)
-        self.faces = np.arange(30).reshape(10, 3)
-        self.wanted = self.lattice.deform(self.lattice.embed(self.points), self.Q, normals=self.normals)
-
+class Figures(unittest.TestCase):
     def test_what_is_not_known_is_none(self):
-        result = ffd.positions_bytes(support.ply(self.points), self.lattice, name="a.ply").result
+        lattice, points = ffd.Lattice.box((0, 0, 0), (1, 1, 1)), support.rng("figures").uniform(0.1, 0.9, (30, 3))
+        result = ffd.positions_bytes(support.ply(points), lattice, name="a.ply").result
         self.assertEqual((result.volume.before, result.faces, result.flipped_faces, result.tear.vertex), (None,) * 4)
         self.assertEqual(result.behind["camera"].names, [])
-        checked = ffd.check_bytes(support.ply(self.points), self.lattice, name="a.ply")
+        checked = ffd.check_bytes(support.ply(points), lattice, name="a.ply")
         self.assertEqual((checked.det.outside, checked.det.outside_vertex), (None, None))
-        nothing = ffd.check_bytes(support.ply(np.full((1, 3), np.nan)), self.lattice, name="a.ply")
+        nothing = ffd.check_bytes(support.ply(np.full((1, 3), np.nan)), lattice, name="a.ply")
         self.assertEqual((nothing.bounds.before, nothing.bounds.after), (None, None))
 
         def numbers(value):
@@ -315,44 +306,3 @@ class Meshes(unittest.TestCase):
         for one in (result, checked, nothing):
             for number in numbers(one):
                 self.assertTrue(np.isfinite(number) and number != 2**64 - 1)
-
-    def test_trimesh(self):
-        import trimesh
-        mesh = trimesh.Trimesh(self.points, self.faces, vertex_normals=self.normals, process=False)
-        found = ffd.deform_mesh(mesh, self.lattice, self.Q)
-        self.assertIsInstance(found, trimesh.Trimesh)
-        self.assertTrue(np.array_equal(found.vertices, self.wanted.points) and np.array_equal(found.faces, self.faces))
-        self.assertLess(np.abs(found.vertex_normals - self.wanted.normals).max(), 1e-15)
-        self.assertTrue(np.array_equal(mesh.vertices, self.points))
-        cloud = ffd.deform_mesh(trimesh.PointCloud(self.points), self.lattice, self.Q)
-        self.assertTrue(np.array_equal(cloud.vertices, self.wanted.points))
-        with self.assertRaisesRegex(TypeError, "Scene"):
-            ffd.deform_mesh(trimesh.Scene(mesh), self.lattice, self.Q)
-
-    def test_meshio(self):
-        import meshio
-        mesh = meshio.Mesh(self.points, [("triangle", self.faces)], point_data={"Normals": self.normals, "heat": self.points[:, 0]})
-        found = ffd.deform_mesh(mesh, self.lattice, self.Q)
-        self.assertTrue(np.array_equal(found.points, self.wanted.points) and np.array_equal(mesh.points, self.points))
-        self.assertTrue(np.array_equal(found.point_data["Normals"], self.wanted.normals))
-        self.assertTrue(np.array_equal(found.point_data["heat"], self.points[:, 0]))
-        with self.assertRaisesRegex(ValueError, "shape"):
-            ffd.deform_mesh(meshio.Mesh(self.points[:, :2], []), self.lattice)
-
-    def test_pyvista(self):
-        try:
-            import pyvista
-        except ImportError:
-            self.skipTest("pyvista is not among the pinned wheels")
-        mesh = pyvista.PolyData(self.points, np.hstack([np.full((10, 1), 3), self.faces]))
-        mesh.point_data["n"] = self.normals
-        mesh.point_data.active_normals_name = "n"
-        found = ffd.deform_mesh(mesh, self.lattice, self.Q)
-        self.assertTrue(np.array_equal(found.points, self.wanted.points) and np.array_equal(mesh.points, self.points))
-        self.assertTrue(np.array_equal(found.point_data["n"], self.wanted.normals))
-        with self.assertRaises(TypeError):
-            ffd.deform_mesh(pyvista.MultiBlock([mesh]), self.lattice)
-
-    def test_other_things(self):
-        with self.assertRaisesRegex(TypeError, "no mesh"):
-            ffd.deform_mesh(self.points, self.lattice)

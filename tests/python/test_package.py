@@ -7,9 +7,11 @@
 cases, and the speeds with one processor and with two.
 
 All that it installs are the wheels of requirements.txt, which .ci/setup has fetched to .build-test/wheels (FFD_WHEELS names
-another folder): no index is asked. Without them, or with another Python than they are for, it is skipped.
+another folder): no index is asked. Without them, or with another Python than they are for, it is skipped. Those of others.txt are
+installed too where they have been fetched: cases that need pyvista are skipped without it.
 """
 
+import filecmp
 import glob
 import json
 import os
@@ -86,9 +88,20 @@ def check_program(python, kept, folder):
     shutil.rmtree(moved)
 
 
+def folder_of(source, variable, name):
+    """The folder of wheels that .ci/setup fetches, or that the variable names."""
+    return os.environ.get(variable) or os.path.join(source, ".build-test", name)
+
+
+def is_fetched(wheels, name):
+    """Whether a folder has all wheels of a list, as it is now."""
+    kept = os.path.join(wheels, name)
+    return os.path.exists(kept) and filecmp.cmp(kept, os.path.join(HERE, name), shallow=False)
+
+
 def fetched(source, variable, name):
     """The folder of wheels that .ci/setup has fetched, or that the variable names."""
-    wheels = os.environ.get(variable) or os.path.join(source, ".build-test", name)
+    wheels = folder_of(source, variable, name)
     if not glob.glob(os.path.join(wheels, "*.whl")):
         skip(f"wheels: none in {wheels}: .ci/setup could not fetch them")
     return wheels
@@ -114,6 +127,9 @@ def main():
     source, build, cc, cxx, *chosen = sys.argv[1:]
     peers = chosen[:1] == ["--peers"]
     lists = {"requirements.txt": fetched(source, "FFD_WHEELS", "wheels")}
+    others = folder_of(source, "FFD_OTHERS", "others")
+    if not peers and is_fetched(others, "others.txt"):
+        lists["others.txt"] = others
     if peers:
         lists["peers.txt"] = fetched(source, "FFD_PEERS", "peers")
     with tempfile.TemporaryDirectory() as folder:

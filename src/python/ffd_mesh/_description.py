@@ -32,15 +32,16 @@ INPUT_OPTIONS = {option for option, member in _MEMBERS.items() if member.name.st
 
 
 @contextlib.contextmanager
-def described(source: Any, lattices: Any, options: dict[str, Any],
-              known: Collection[str] = OPTIONS) -> Iterator[tuple[Any, list[str]]]:
+def described(source: Any, lattices: Any, options: dict[str, Any], known: Collection[str] = OPTIONS,
+              reword: Callable[[str], str] = str) -> Iterator[tuple[Any, list[str]]]:
     """Yields the description of a job, and a list that gets its warnings at the end.
 
-    source: a path or a `Memory`; lattices: None if the job needs none; known: the options that the job accepts
+    source: a path or a `Memory`; lattices: None if the job needs none; known: the options that the job accepts; reword: of lines of
+      the log
     """
     desc = library.filled("ffd_deform_desc")
     kept = [None if lattices is None else _set_lattices(desc, lattices)]
-    with _logged(desc, source, options, known, kept) as warnings:
+    with _logged(desc, source, options, known, kept, reword) as warnings:
         yield desc, warnings
 
 
@@ -64,11 +65,12 @@ def embedding_described(source: Any, lattice: AnyLattice, options: dict[str, Any
 
 
 @contextlib.contextmanager
-def _logged(desc: Any, source: Any, options: dict[str, Any], known: Collection[str], kept: list[Any]) -> Iterator[list[str]]:
+def _logged(desc: Any, source: Any, options: dict[str, Any], known: Collection[str], kept: list[Any],
+            reword: Callable[[str], str] = str) -> Iterator[list[str]]:
     """Gives a job its mesh and its options, and keeps alive what it has been given."""
     place(source, desc.input)
     kept += [source, *_set_options(desc, options, known)]
-    with library.logged(desc) as warnings:
+    with library.logged(desc, reword) as warnings:
         yield warnings
     del kept
 

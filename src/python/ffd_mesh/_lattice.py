@@ -14,6 +14,7 @@ from . import _arrays as arrays
 from . import _declarations as declared
 from . import _library as library
 from ._convert import convert, is_other
+from ._directions import turned_normals, turned_tangents
 from ._embedding import Embedding
 from ._errors import InvalidError
 from ._library import Owned, Progress, Run, call, lib
@@ -626,22 +627,11 @@ def _weighted(run: Run, points: np.ndarray, weight: Any, triangles: Any, wanted:
 
 
 def _directions(run: Run, out: np.ndarray, gradients: np.ndarray, normals: Any, tangents: Any, wanted: bool) -> Deformed:
-    """Transforms normals and tangents by the gradients of the displacement."""
-    made: list[np.ndarray | None] = [None, None]
-    total = 0
-    packed = arrays.span(np.empty((0, 3)))
-    for i, (value, what) in enumerate(((normals, "normals"), (tangents, "tangents"))):
-        if value is None:
-            continue
-        source = arrays.readable(arrays.vectors(value, what, len(out)))
-        result = made[i] = np.empty(source.shape, source.dtype)
-        collapsed = ctypes.c_size_t()
-        spans = (arrays.span(source), arrays.span(result), ctypes.byref(collapsed))
-        if len(out) and what == "normals":
-            run(lib.ffd_normals_deform, arrays.address(gradients), *spans)
-        elif len(out):
-            run(lib.ffd_tangents_deform, arrays.address(gradients), packed if made[0] is None else arrays.span(made[0]), *spans)
-        total += collapsed.value
-        if collapsed.value:
-            library.LOG.warning("%d %s have no direction any more, and keep theirs", collapsed.value, what)
-    return Deformed(out, made[0], made[1], gradients if wanted else None, total)
+    """Transforms normals and tangents by the gradients of the displacement. wanted: these are, too."""
+    total, turned, along = 0, None, None
+    if normals is not None:
+        turned, total = turned_normals(run, gradients, normals)
+    if tangents is not None:
+        along, more = turned_tangents(run, gradients, tangents, turned)
+        total += more
+    return Deformed(out, turned, along, gradients if wanted else None, total)

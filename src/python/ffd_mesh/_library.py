@@ -204,8 +204,11 @@ _LEVELS = {0: logging.WARNING, 1: logging.INFO, 2: logging.DEBUG}
 
 
 @contextlib.contextmanager
-def logged(structure: Any) -> Iterator[list[str]]:
-    """Passes the log of a job's structure to logging, as "ffd_mesh". Yields a list that gets the warnings at the end."""
+def logged(structure: Any, reword: Callable[[str], str] = str) -> Iterator[list[str]]:
+    """Passes the log of a job's structure to logging, as "ffd_mesh". Yields a list that gets the warnings at the end.
+
+    reword: of each line what is logged
+    """
     lines: list[Any] = []
     warnings: list[str] = []
     structure.log = _native.log
@@ -213,7 +216,7 @@ def logged(structure: Any) -> Iterator[list[str]]:
     try:
         yield warnings
     finally:
-        for level, line in lines:
+        for level, line in ((level, reword(line)) for level, line in lines):
             LOG.log(_LEVELS.get(level, logging.DEBUG), "%s", line)
             if level == 0:
                 warnings.append(line)

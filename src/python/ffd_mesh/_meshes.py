@@ -1,81 +1,157 @@
-"""Meshes of trimesh, meshio and pyvista, none of which is imported here."""
+"""Meshes of other packages, deformed with what they store."""
 
 from __future__ import annotations
 
+import io
 from typing import Any
 
 import numpy as np
 
+from . import _arrays as arrays
+from . import _library as library
+from ._cells import Surface, joined, surface
+from ._description import Memory, described
+from ._directions import turned_normals
 from ._lattice import Lattice
+from ._library import Progress, Run, lib
+from ._mesh_parts import Part, copied
+from ._result import Result, finish, run
+from ._stored import Stored, are_normals, stale, triples, turned_cell_normals, vectors_of
 
-
-def _library_of(mesh: Any) -> str:
-    """The package that defines the mesh's class or one of its base classes; "" if it is none of the three."""
-    for kind in type(mesh).__mro__:
-        package = kind.__module__.partition(".")[0]
-        if package in ("trimesh", "meshio", "pyvista"):
-            return package
-    return ""
+_OPTIONS = {"outside", "falloff", "snap", "threads", "isa"}
 
 
 def deform_mesh(mesh: Any, lattice: Lattice, Q: Any = None, *, offsets: Any = None, weights: Any = None, normals: bool = True,
-                **embed: Any) -> Any:
-    """Returns a copy of a mesh with deformed points, and with its stored normals deformed too. The mesh is not changed.
+                with_result: bool = False, progress: Progress | None = None, **embed: Any) -> Any:
+    """Returns a copy of a mesh with deformed points. Stored normals turn with it. The mesh is not changed.
 
-    mesh: trimesh.Trimesh or PointCloud, meshio.Mesh, pyvista.PolyData or another pyvista data set with points
-    Q, offsets, weights: as in `Lattice.moved`; without them the lattice's own deformed control points are used
-    normals: False: keep stored normals (meshio, pyvista), or let trimesh recompute them
-    embed: options of `Lattice.embed`: outside, falloff, snap, threads, isa, progress
-    Raises TypeError for other kinds of meshes, and `Error`.
+    mesh: trimesh.Trimesh or PointCloud, meshio.Mesh with points (N, 3), a data set of pyvista. An ImageData or RectilinearGrid comes
+      back as a StructuredGrid. A MultiBlock is deformed block by block, as one mesh
+    Q, offsets, weights: as in `Lattice.moved`; without them the lattice's own deformed control points are used. A lattice whose box is
+      "mesh" goes round the points
+    normals: False: stored normals stay as they were, with a warning (trimesh computes its own anew)
+    with_result: True: return (mesh, result), with a `Result` that has moved, counts["outside"], tear.edges, flipped_faces, warnings
+      and the other figures of a job with quality=True
+    progress: called from time to time with the fraction done, 0 to 1; returning False cancels
+    embed: options of `Lattice.embed`: outside, falloff, snap, threads, isa
+
+    All arrays of normals turn, of points and of cells: what the mesh says are normals, what "normals" is in the name of, and nx, ny, nz.
+    One that is not of unit vectors, or belongs to neither points nor cells, is removed with a warning. A warning names other arrays
+    that depend on the shape, and stay: of three components, and with names as "tangents", "Area" or "curvature".
+    Warnings are in the log "ffd_mesh" and in result.warnings: what the program would warn of, and that nothing moved.
+    Raises TypeError for other kinds of meshes, ValueError for points of another shape, and `Error`. Threads may call it at the same time.
     """
-    lattice = lattice.moved(Q, offsets=offsets, weights=weights)
-    package = _library_of(mesh)
-    if package == "trimesh" and hasattr(mesh, "vertices"):
-        return _deform_trimesh(mesh, lattice, normals, embed)
-    if package == "meshio":
-        return _deform_meshio(mesh, lattice, normals, embed)
-    if package == "pyvista" and hasattr(type(mesh), "points") and hasattr(mesh, "point_data"):
-        return _deform_pyvista(mesh, lattice, normals, embed)
-    raise TypeError(f"{type(mesh).__module__}.{type(mesh).__qualname__} is no mesh with points of trimesh, meshio or pyvista")
-
-
-def _deformed(lattice: Lattice, points: Any, normals: Any, embed: dict[str, Any]) -> tuple[np.ndarray, Any]:
-    points = np.asarray(points)
+    copy, parts = copied(mesh)
+    points = [arrays.vectors(part.points, "points") for part in parts]
+    whole = np.concatenate(points) if len(points) > 1 else points[0] if points else np.empty((0, 3))
     if lattice.needs_points:
-        lattice = lattice.fit(points)
-    found = lattice.deform(lattice.embed(points, **embed), normals=normals)
-    return (found, None) if normals is None else (found.points, found.normals)
+        lattice = lattice.fit(whole)
+    lattice = lattice.moved(Q, offsets=offsets, weights=weights)
+    found, result = _deformed(lattice, whole, parts, with_result, progress, embed)
+    _carry(lattice, parts, points, found, normals, result, embed)
+    return (copy, result) if with_result else copy
 
 
-def _deform_trimesh(mesh: Any, lattice: Lattice, normals: bool, embed: dict[str, Any]) -> Any:
-    # Only normals that came with the mesh are cached here; trimesh computes others from the faces when asked.
-    stored = normals and "vertex_normals" in getattr(mesh, "_cache", ())
-    found, carried = _deformed(lattice, mesh.vertices, np.array(mesh.vertex_normals) if stored else None, embed)
-    copy = mesh.copy()
-    copy.vertices = found
-    if stored:
-        copy.vertex_normals = carried
-    return copy
+def _deformed(lattice: Lattice, points: np.ndarray, parts: list[Part], quality: bool, progress: Progress | None,
+              embed: dict[str, Any]) -> tuple[np.ndarray, Result]:
+    """The deformed points, (N, 3) float64, and the result of the program's job on this mesh."""
+    starts = np.cumsum([0] + [len(part.points) for part in parts])
+    seen = surface(joined([part.cells() for part in parts], list(starts)))
+    memory, taken = Memory(_ply(points, seen), "the mesh", None), []
+    count = sum(map(len, seen.faces))
+
+    def reword(line: str) -> str:
+        """Counts no edge as a face."""
+        return line.replace(f" of {count + len(seen.edges)} face", f" of {count} face") if line.endswith("turned over") else line
+    with described(memory, lattice, embed, _OPTIONS, reword) as (desc, warnings), library.progress_into(desc, progress):
+        desc.quality, desc.input.format = quality, library.value_of("ffd_format", "ply", "format")
+        library.positions_into(desc, taken)
+        raw, raised = run(lib.ffd_deform_run, desc)
+    result = finish(raw, raised, warnings)
+    if result.faces is not None:
+        result.faces = count
+    if seen.unknown:
+        _warn(result, f"edges and faces of cells of the kinds {', '.join(map(str, seen.unknown))} of VTK are not looked at")
+    if len(points) and not result.moved:
+        _warn(result, "no point moves" + ("" if lattice.offsets.any() else ": no control point of the lattice does"))
+    return np.frombuffer(taken[-1], np.float64).reshape(-1, 3) if len(points) else np.empty((0, 3)), result
 
 
-def _deform_meshio(mesh: Any, lattice: Lattice, normals: bool, embed: dict[str, Any]) -> Any:
-    names = [name for name, data in mesh.point_data.items()
-             if normals and name.lower() == "normals" and np.shape(data) == np.shape(mesh.points)]
-    name = names[0] if names else None
-    found, carried = _deformed(lattice, mesh.points, mesh.point_data[name] if names else None, embed)
-    copy = mesh.copy()
-    copy.points = found
+def _warn(result: Result, line: str) -> None:
+    library.LOG.warning("%s", line)
+    result.warnings.append(line)
+
+
+def _ply(points: np.ndarray, seen: Surface) -> bytes:
+    """A PLY of a mesh. Its edges are faces of two corners, along which torn edges count; what is alone has an edge, and so is in use."""
+    kind = {"float32": "float", "float64": "double"}[points.dtype.name]
+    head = "".join(f"property {kind} {axis}\n" for axis in "xyz")
+    count, parts = sum(map(len, seen.faces)) + len(seen.edges), []
+    for faces in (*seen.faces, seen.edges):
+        rows = np.empty(len(faces), [("count", "<u4"), ("points", "<i4", (faces.shape[1],))])
+        rows["count"], rows["points"] = faces.shape[1], faces
+        parts.append(rows.tobytes())
+    stream = io.BytesIO()
+    stream.write(f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\n{head}"
+                 f"element face {count}\nproperty list uint int vertex_indices\n"
+                 f"element edge {len(seen.alone)}\nproperty int vertex1\nproperty int vertex2\nend_header\n".encode())
+    for part in (points.astype(points.dtype.newbyteorder("<")).tobytes(), *parts, seen.alone.astype("<i4").repeat(2).tobytes()):
+        stream.write(part)
+    return stream.getvalue()
+
+
+def _carry(lattice: Lattice, parts: list[Part], points: list[np.ndarray], found: np.ndarray, normals: bool, result: Result,
+           embed: dict[str, Any]) -> None:
+    """Sets the points of the parts, and what they store."""
+    at, removed, stays = 0, [], []
+    for part, before in zip(parts, points):
+        after = found[at:at + len(before)].astype(before.dtype)
+        at += len(before)
+        stored = part.arrays()
+        moves = bool(result.moved) and not np.array_equal(before, after, equal_nan=True)
+        turning = triples(stored) if normals else []
+        turned = _turned(part, lattice, before, after, turning, result, embed) if moves and turning else []
+        part.move(after)
+        for group, value in turned if moves else ((group, _unchanged(group)) for group in turning):
+            _put(part, group, value)
+            removed += [array for array in group if value is None]
+        carried = {(array.where, array.name) for group in turning for array in group}
+        stays += [array for array in stored if moves and part.leaves(array) and (array.where, array.name) not in carried and (stale(array) or are_normals(array))]
+    _name(result, "removed, because they cannot turn: ", removed)
+    _name(result, "kept as they were, though the mesh has moved: ", stays)
+
+
+def _name(result: Result, what: str, several: list[Stored]) -> None:
+    """Warns of arrays."""
+    names = sorted({f"{array.name!r} of the {array.where}" for array in several})
     if names:
-        copy.point_data[name] = carried
-    return copy
+        _warn(result, what + ", ".join(names))
 
 
-def _deform_pyvista(mesh: Any, lattice: Lattice, normals: bool, embed: dict[str, Any]) -> Any:
-    name = mesh.point_data.active_normals_name if normals else None
-    found, carried = _deformed(lattice, mesh.points, np.array(mesh.point_data[name]) if name else None, embed)
-    copy = mesh.copy(deep=True)
-    copy.points = found
-    if name:
-        copy.point_data[name] = carried
-        copy.point_data.active_normals_name = name
-    return copy
+def _unchanged(group: list[Stored]) -> np.ndarray:
+    """The numbers of a group, of which nothing moves."""
+    return group[0].value if len(group) == 1 else np.stack([array.value for array in group], axis=-1)
+
+
+def _put(part: Part, group: list[Stored], value: np.ndarray | None) -> None:
+    for column, array in enumerate(group):
+        part.put(array, value if value is None or len(group) == 1 else np.ascontiguousarray(value[:, column]))
+
+
+def _turned(part: Part, lattice: Lattice, before: np.ndarray, after: np.ndarray, groups: list[list[Stored]], result: Result,
+            embed: dict[str, Any]) -> list[tuple[list[Stored], np.ndarray | None]]:
+    """Normals after the deformation; None: they cannot turn."""
+    cells, step = part.cells(), Run(embed.get("threads", 0), embed.get("isa", "auto"), None)
+    gradients = lattice.deform(lattice.embed(before, **embed), gradients=True).gradients
+    found: list[tuple[list[Stored], np.ndarray | None]] = []
+    for group in groups:
+        where = group[0].where
+        value = None if where == "mesh" else vectors_of(group, len(before) if where == "points" else len(cells.kinds))
+        if value is not None and where == "points":
+            turned, collapsed = turned_normals(step, gradients, value)
+            if collapsed:
+                result.warnings.append(f"{collapsed} normals have no direction any more, and keep theirs")
+            found.append((group, turned.astype(value.dtype)))
+        else:
+            found.append((group, None if value is None else turned_cell_normals(cells, before, after, gradients, value)))
+    return found

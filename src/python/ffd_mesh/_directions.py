@@ -1,0 +1,39 @@
+"""Normals and tangents that turn with deformed points."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+import numpy as np
+
+from . import _arrays as arrays
+from . import _library as library
+from ._library import Run, lib
+
+
+def turned_normals(run: Run, gradients: np.ndarray, normals: Any, what: str = "normals") -> tuple[np.ndarray, int]:
+    """Turns normals (N, 3) of points by the gradients of the displacement there, (N, 3, 3). Returns unit vectors of the type of normals,
+    and how many have no direction any more and keep theirs. what: how messages call them."""
+    source = arrays.readable(arrays.vectors(normals, what, len(gradients)))
+    result, collapsed = np.empty(source.shape, source.dtype), ctypes.c_size_t()
+    if len(source):
+        run(lib.ffd_normals_deform, arrays.address(gradients), arrays.span(source), arrays.span(result), ctypes.byref(collapsed))
+    _tell(collapsed.value, what)
+    return result, collapsed.value
+
+
+def turned_tangents(run: Run, gradients: np.ndarray, tangents: Any, normals: np.ndarray | None) -> tuple[np.ndarray, int]:
+    """The same of tangents, at right angles to the turned normals; None: there are none."""
+    source = arrays.readable(arrays.vectors(tangents, "tangents", len(gradients)))
+    result, collapsed = np.empty(source.shape, source.dtype), ctypes.c_size_t()
+    across = arrays.span(np.empty((0, 3)) if normals is None else normals)
+    if len(source):
+        run(lib.ffd_tangents_deform, arrays.address(gradients), across, arrays.span(source), arrays.span(result), ctypes.byref(collapsed))
+    _tell(collapsed.value, "tangents")
+    return result, collapsed.value
+
+
+def _tell(collapsed: int, what: str) -> None:
+    if collapsed:
+        library.LOG.warning("%d %s have no direction any more, and keep theirs", collapsed, what)
