@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Mapping, NamedTuple
+from typing import Any, Literal, Mapping, NamedTuple, Unpack
 
 from . import _library as library
-from ._description import INPUT_OPTIONS, AnyLattice, Files, Memory, Path, described, resolved
+from ._description import AnyLattice, Files, Memory, Path, described, resolved
 from ._errors import Error
 from ._library import Progress, call, lib
 from ._result import beside, plain
+from ._types import AnimateFileOptions, AnimateOptions, names
 
-_OPTIONS = {*(INPUT_OPTIONS - {"input_format"}), "set", "outside", "falloff", "seam", "snap", "only", "weight", "normals", "resources",
-            "threads", "isa", "timeout", "force", "if_changed", "dry_run", "make_folders"}
+_OWN = ("name", "tolerance", "targets", "fps")
 
 
 class Animation(NamedTuple):
@@ -52,13 +52,14 @@ def _set_targets(desc: Any, value: Any) -> None:
 
 
 def _figures(result: Any, warnings: list[str]) -> Animation:
-    told = plain(result)
+    told: dict[str, Any] = plain(result)
     counts = {name: told[name] for name in ("vertices", "inside", "outside", "multiple", "singular", "invalid")}
-    return Animation(*(told[name] for name in Animation._fields[:8]), counts, told["seconds"], warnings)
+    figures = {name: told[name] for name in Animation._fields[:8]}
+    return Animation(**figures, counts=counts, seconds=told["seconds"], warnings=warnings)
 
 
 def _animate(source: Any, output: Any, lattice: AnyLattice, taken: list[Any] | None, name: str | None, tolerance: Any, targets: Any,
-             fps: float, progress: Progress | None, options: Mapping[str, Any], known: set[str]) -> Animation:
+             fps: float, progress: Progress | None, options: Mapping[str, Any], known: frozenset[str], own: tuple[str, ...]) -> Animation:
     desc, result = library.filled("ffd_animate_desc"), library.empty("ffd_animate_result")
     if name is not None:
         desc.name = library.encoded(name, "name")
@@ -67,7 +68,7 @@ def _animate(source: Any, output: Any, lattice: AnyLattice, taken: list[Any] | N
     desc.frames_per_second = library.real(fps, "fps")
     warnings: list[str] = []
     try:
-        with described(source, lattice, dict(options), known) as (job, warnings), resolved(source), \
+        with described(source, lattice, options, known, own=own) as (job, warnings), resolved(source), \
                 library.progress_into(job, progress):
             job.output = library.path(output)
             if taken is not None:
@@ -81,7 +82,8 @@ def _animate(source: Any, output: Any, lattice: AnyLattice, taken: list[Any] | N
 
 
 def animate_file(source: Path, output: Path, lattice: AnyLattice, *, name: str | None = None, tolerance: float | str = "0.001r",
-                 targets: str | int = "auto", fps: float = 60, progress: Progress | None = None, **options: Any) -> Animation:
+                 targets: Literal["auto", "keys"] | int = "auto", fps: float = 60, progress: Progress | None = None,
+                 **options: Unpack[AnimateFileOptions]) -> Animation:
     """Plays a lattice with keys as an animation of morph targets, as `ffd animate` does. The output is complete or absent.
 
     output: a .glb, .gltf or .vrm
@@ -95,11 +97,13 @@ def animate_file(source: Path, output: Path, lattice: AnyLattice, *, name: str |
       if_changed=, dry_run=, make_folders=, threads=, isa=, memory=, timeout=, strict=, allow_extensions=, as of `deform_file`
     Raises `Error`. Threads may call it at the same time.
     """
-    return _animate(source, output, lattice, None, name, tolerance, targets, fps, progress, options, _OPTIONS)
+    return _animate(source, output, lattice, None, name, tolerance, targets, fps, progress, options,
+                    names(AnimateFileOptions), (*_OWN, "progress"))
 
 
 def animate_bytes(data: Any, lattice: AnyLattice, *, name: str, output: str, files: Files | None = None, animation: str | None = None,
-                  tolerance: float | str = "0.001r", targets: str | int = "auto", fps: float = 60, **options: Any) -> AnimatedBytes:
+                  tolerance: float | str = "0.001r", targets: Literal["auto", "keys"] | int = "auto", fps: float = 60,
+                  **options: Unpack[AnimateOptions]) -> AnimatedBytes:
     """Like `animate_file`, for a mesh in memory, with the same bytes as result; reads and writes no files.
 
     data, name, files: the mesh, its name and the files that it refers to, as of `deform_bytes`
@@ -108,6 +112,6 @@ def animate_bytes(data: Any, lattice: AnyLattice, *, name: str, output: str, fil
     options: those of `animate_file`, except force, if_changed, make_folders and resources
     """
     taken: list[Any] = []
-    known = _OPTIONS - {"force", "if_changed", "make_folders", "resources"}
-    made = _animate(Memory(data, name, files), output, lattice, taken, animation, tolerance, targets, fps, None, options, known)
+    made = _animate(Memory(data, name, files), output, lattice, taken, animation, tolerance, targets, fps, None, options,
+                    names(AnimateOptions), (*_OWN, "output", "files", "animation"))
     return AnimatedBytes(taken[-1][1] if taken else b"", beside(taken, output), made)

@@ -5,28 +5,32 @@ from __future__ import annotations
 import ctypes
 import json
 import os
-from typing import Any, Callable, Iterable, Mapping, Sequence, Union
+from typing import Any, Callable, Iterable, Mapping, Literal, Sequence, Union, Unpack
 
 from . import _declarations as declared
 from . import _library as library
-from ._description import OPTIONS, Path, defaults_described
+from ._description import OPTIONS, Path, defaults_described, refuse_unknown
 from ._errors import Error, failure
 from ._library import lib
 from ._result import Result
+from ._types import BatchOptions
 from ._views import LOOK, set_look
 
 Jobs = Union[Path, Iterable[Mapping[str, Any]], None]
 # Options that a batch has arguments for.
 _OPTIONS = OPTIONS - {"dry_run", "timeout"}
+_FLAGS = ("in_place", "shared_box", "csv_ignore")
+_ARGUMENTS = ("in_", "lattice", "out_dir", "workers", "shard", "resume", "journal", "positions", "dtype", "view", "pages", "timeout", "dry_run",
+              "stop", "report", "progress")
 _TABLES = (".csv", ".tsv")
 
 
 def batch(jobs: Jobs, *, in_: Path | None = None,
           lattice: Path | Sequence[Path] | Mapping[str, Path] | None = None, out_dir: Path | None = None, workers: int = 0,
           shard: tuple[int, int] | None = None, resume: bool = False, journal: Path | None = None,
-          positions: Path | None = None, dtype: str = "f4", view: Path | None = None, pages: bool = False,
+          positions: Path | None = None, dtype: Literal["f4", "f8"] = "f4", view: Path | None = None, pages: bool = False,
           timeout: float | None = None, dry_run: bool = False, stop: bool = False, report: Path | None = None,
-          progress: Callable[[float], Any] | None = None, **options: Any) -> list[Result]:
+          progress: Callable[[float], Any] | None = None, **options: Unpack[BatchOptions]) -> list[Result]:
     """Runs many jobs in several processes, as `ffd batch` does. A job that crashes, hangs or fails harms no other.
 
     jobs: the path of a manifest, or of a table (.csv, .tsv); a list of dicts, each as a line of a manifest: {"in": "a.glb",
@@ -61,8 +65,10 @@ def batch(jobs: Jobs, *, in_: Path | None = None,
     """
     desc = library.filled("ffd_batch_desc")
     source = _Source(desc, jobs)
-    own = {name: options.pop(name) for name in ("in_place", "shared_box", "csv_ignore") if name in options}
-    look = {name: options.pop(name) for name in LOOK if name in options}
+    given: dict[str, Any] = dict(options)
+    own = {name: given.pop(name) for name in _FLAGS if name in given}
+    look = {name: given.pop(name) for name in LOOK if name in given}
+    refuse_unknown(given, _OPTIONS, (*_FLAGS, *LOOK, *_ARGUMENTS))
     texts = {"in": in_, "out_dir": out_dir, "journal": journal, "positions": positions, "view": view, "report": report}
     for name, value in texts.items():
         setattr(desc, name, None if value is None else library.path(value))
@@ -85,7 +91,7 @@ def batch(jobs: Jobs, *, in_: Path | None = None,
     ended: list[Any] = []
     desc.progress, desc.progress_user = library.native("progress"), id(asked)
     desc.ended, desc.ended_user = library.native("job_ended"), id(ended)
-    with defaults_described(lattice, options, _OPTIONS) as defaults, library.logged(desc):
+    with defaults_described(lattice, given) as defaults, library.logged(desc):
         defaults.in_place = bool(own.get("in_place", False))
         desc.defaults = ctypes.pointer(defaults)
         result, error = library.empty("ffd_batch_result"), declared.ffd_error()

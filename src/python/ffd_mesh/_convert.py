@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import ctypes
-import os
 from typing import Any, Mapping
 
 from . import _library as library
 from ._library import call, lib
+from ._types import Counts, Degrees, Order, Part, Path
 from ._values import settings, three
+
 
 def is_other(path: Any) -> bool:
     """Whether a file holds a lattice in another format than JSON, by its ending."""
@@ -43,8 +44,8 @@ def convert(source: Any, output: Any, *, pointer: Any = None, values: Mapping[st
     return warnings
 
 
-def convert_lattice(source: str | os.PathLike[str], output: str | os.PathLike[str], *, values: Mapping[str, Any] | None = None,
-                    size: Any = None, degree: Any = None, part: str | None = None, order: str | None = None,
+def convert_lattice(source: Path, output: Path, *, values: Mapping[str, Any] | None = None, size: Counts | None = None,
+                    degree: Degrees = None, part: Part | None = None, order: Order | None = None,
                     block: str | int | None = None, time: float | None = None, force: bool = False) -> list[str]:
     """Writes a lattice file in another format, as `ffd lattice convert` does, by the endings (data/schema/lattice.md 12).
 

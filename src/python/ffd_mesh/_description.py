@@ -15,9 +15,9 @@ from . import _declarations as declared
 from . import _library as library
 from ._errors import Error
 from ._lattice import Lattice
+from ._types import Path, ReadOptions, names
 from ._values import faces_of, settings
 
-Path = Union[str, "os.PathLike[str]"]
 AnyLattice = Union[Lattice, Path, bytes]
 Files = Union[Mapping[str, Any], Callable[[str], Any]]
 
@@ -28,48 +28,50 @@ _MEMBERS = {"input_format" if member.name == "input.format" else member.name.rem
             for member in library.members() if member.name not in _ARGUMENTS}
 OPTIONS = set(_MEMBERS)
 # Options for reading a mesh.
-INPUT_OPTIONS = {option for option, member in _MEMBERS.items() if member.name.startswith("input.")}
+INPUT_OPTIONS = names(ReadOptions)
 
 
 @contextlib.contextmanager
-def described(source: Any, lattices: Any, options: dict[str, Any], known: Collection[str] = OPTIONS,
-              reword: Callable[[str], str] = str) -> Iterator[tuple[Any, list[str]]]:
+def described(source: Any, lattices: Any, options: Mapping[str, Any], known: Collection[str] = OPTIONS,
+              reword: Callable[[str], str] = str, own: Collection[str] = ()) -> Iterator[tuple[Any, list[str]]]:
     """Yields the description of a job, and a list that gets its warnings at the end.
 
-    source: a path or a `Memory`; lattices: None if the job needs none; known: the options that the job accepts; reword: of lines of
-      the log
+    source: a path or a `Memory`; lattices: None if the job needs none; known: the options that the job accepts, besides the arguments own, which a
+      refusal names too; reword: of lines of the log
     """
+    refuse_unknown(options, known, own)
     desc = library.filled("ffd_deform_desc")
     kept = [None if lattices is None else _set_lattices(desc, lattices)]
-    with _logged(desc, source, options, known, kept, reword) as warnings:
+    with _logged(desc, source, options, kept, reword) as warnings:
         yield desc, warnings
 
 
 @contextlib.contextmanager
-def defaults_described(lattices: Any, options: dict[str, Any], known: Collection[str]) -> Iterator[Any]:
+def defaults_described(lattices: Any, options: Mapping[str, Any]) -> Iterator[Any]:
     """Yields the description that the jobs of a batch have in common. Its lattices are files, which other processes read."""
     desc = library.filled("ffd_deform_desc")
-    kept = [None if lattices is None else _set_lattices(desc, lattices), _set_options(desc, options, known)]
+    kept = [None if lattices is None else _set_lattices(desc, lattices), _set_options(desc, options)]
     yield desc
     del kept
 
 
 @contextlib.contextmanager
-def embedding_described(source: Any, lattice: AnyLattice, options: dict[str, Any],
-                        known: Collection[str]) -> Iterator[tuple[Any, list[str]]]:
+def embedding_described(source: Any, lattice: AnyLattice, options: Mapping[str, Any],
+                        known: Collection[str], own: Collection[str]) -> Iterator[tuple[Any, list[str]]]:
     """The same of a job that embeds, in one lattice."""
+    refuse_unknown(options, known, own)
     desc = library.filled("ffd_embed_desc")
     kept = [lattice, set_lattice(desc.lattice, lattice)]
-    with _logged(desc, source, options, known, kept) as warnings:
+    with _logged(desc, source, options, kept) as warnings:
         yield desc, warnings
 
 
 @contextlib.contextmanager
-def _logged(desc: Any, source: Any, options: dict[str, Any], known: Collection[str], kept: list[Any],
+def _logged(desc: Any, source: Any, options: Mapping[str, Any], kept: list[Any],
             reword: Callable[[str], str] = str) -> Iterator[list[str]]:
     """Gives a job its mesh and its options, and keeps alive what it has been given."""
     place(source, desc.input)
-    kept += [source, *_set_options(desc, options, known)]
+    kept += [source, *_set_options(desc, options)]
     with library.logged(desc, reword) as warnings:
         yield warnings
     del kept
@@ -108,7 +110,8 @@ class Memory:
     """A mesh in memory, and the files that it refers to."""
 
     def __init__(self, data: Any, name: str, files: Files | None) -> None:
-        self.name, self.resolver = library.path(name), None
+        self.name = library.path(name)
+        self.resolver: library.Resolver | None = None
         self.address, self.size, self.kept = library.lend_bytes(_content(data), "data")
         if files is not None and not callable(files) and not isinstance(files, Mapping):
             raise TypeError(f"files must be a dict or a function, not {type(files).__name__}")
@@ -181,8 +184,8 @@ def _set_seam(desc: Any, value: Any) -> None:
 
 
 def _set_gates(desc: Any, value: Any) -> None:
-    """Sets the gates from words of --fail-on, such as ["folds", "tear=0.1"]."""
-    for gate in _listed(value, "fail_on"):
+    """Sets the gates from words of --fail-on: ["folds", "tear=0.1"], or one text with commas."""
+    for gate in value.split(",") if isinstance(value, str) else _listed(value, "fail_on"):
         word, equals, most = str(gate).partition("=")
         desc.fail_on |= library.value_of("ffd_gate", word, "fail_on")
         if equals and word not in ("tear", "flipped", "edges") or word == "edges" and not equals:
@@ -260,10 +263,14 @@ def _set_member(desc: Any, option: str, value: Any) -> Any:
     return None
 
 
-def _set_options(desc: Any, options: dict[str, Any], known: Collection[str]) -> list[Any]:
-    """Sets the options that are not None. Returns the objects that must stay alive."""
+def refuse_unknown(options: Mapping[str, Any], known: Collection[str], own: Collection[str] = ()) -> None:
+    """Raises TypeError for an option that is not known. own: other keywords that the caller's function has."""
     unknown = sorted(set(options) - set(known))
     if unknown:
-        raise TypeError(f"unknown option {unknown[0]!r} (known: {', '.join(sorted(known))})")
+        raise TypeError(f"unknown option {unknown[0]!r} (known: {', '.join(sorted({*known, *own}))})")
+
+
+def _set_options(desc: Any, options: Mapping[str, Any]) -> list[Any]:
+    """Sets the options that are not None. Returns the objects that must stay alive."""
     return [_OWN[name](desc, value) if name in _OWN else _set_member(desc, name, value)
             for name, value in options.items() if value is not None]

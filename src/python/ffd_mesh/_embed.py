@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import io
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Unpack
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _library as library
-from ._description import INPUT_OPTIONS, AnyLattice, Files, Memory, Path, embedding_described
+from ._description import AnyLattice, Files, Memory, Path, embedding_described
 from ._library import lib
 from ._result import Result, finish, run
+from ._types import Doubles, EmbedFileOptions, EmbedOptions, names
 
-_OPTIONS = {*INPUT_OPTIONS, "set", "snap", "threads"}
 
-
-def embed_file(source: Path, output: Path, lattice: AnyLattice, *, status_output: Path | None = None, **options: Any) -> Result:
+def embed_file(source: Path, output: Path, lattice: AnyLattice, *, status_output: Path | None = None,
+               **options: Unpack[EmbedFileOptions]) -> Result:
     """Finds u, v, w of all vertices of a mesh file in the lattice at rest, as `ffd embed` does, once for many jobs: they take
     output as `embedding`, and `numpy.load` reads it. Both outputs or none are written.
 
@@ -26,7 +27,7 @@ def embed_file(source: Path, output: Path, lattice: AnyLattice, *, status_output
       strict=True, allow_extensions=["NAME"], input_format="ply", force=True (replace the outputs)
     Returns a `Result` with counts and warnings. Raises `Error`. Any number of threads may call it.
     """
-    with embedding_described(source, lattice, options, _OPTIONS | {"force"}) as (desc, warnings):
+    with embedding_described(source, lattice, options, names(EmbedFileOptions), ("status_output",)) as (desc, warnings):
         desc.output = library.path(output)
         if status_output is not None:
             desc.status_output = library.path(status_output)
@@ -38,15 +39,17 @@ class EmbeddedBytes(NamedTuple):
     """What `embed_bytes` returns."""
 
     data: bytes  # what `embed_file` writes: jobs take it as `embedding`
-    uvw: np.ndarray  # (N, 3) float64, NaN where there is none
-    status: np.ndarray  # (N,) uint8, of `Status`
+    uvw: Doubles  # (N, 3), NaN where there is none
+    status: NDArray[np.uint8]  # (N,) uint8, of `Status`
     result: Result
 
 
-def embed_bytes(data: Any, lattice: AnyLattice, *, name: str, files: Files | None = None, **options: Any) -> EmbeddedBytes:
+def embed_bytes(data: Any, lattice: AnyLattice, *, name: str, files: Files | None = None,
+                **options: Unpack[EmbedOptions]) -> EmbeddedBytes:
     """`embed_file` of a mesh in memory: data, name and files as `deform_bytes` takes them; reads and writes no file."""
-    memory, taken = Memory(data, name, files), []
-    with embedding_described(memory, lattice, options, _OPTIONS) as (desc, warnings):
+    memory = Memory(data, name, files)
+    taken: list[Any] = []
+    with embedding_described(memory, lattice, options, names(EmbedOptions), ("name", "files")) as (desc, warnings):
         desc.output, desc.status_output = b"uvw.npy", b"status.npy"
         library.sink_into(desc, taken)
         found, raised = run(lib.ffd_embed_run, desc)

@@ -7,10 +7,12 @@ import enum
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _arrays as arrays
 from . import _library as library
 from ._library import Owned, call, lib
+from ._types import Doubles, Floats, Rows, Triangles
 
 if TYPE_CHECKING:
     from ._lattice import Lattice
@@ -30,7 +32,7 @@ class Embedding:
     """u, v, w and statuses of N points, made by `Lattice.embed`. Immutable, so threads may share it. Can be pickled."""
 
     lattice: Lattice
-    points: np.ndarray
+    points: Floats
     _owned: Owned
 
     def __init__(self) -> None:
@@ -46,12 +48,12 @@ class Embedding:
         return len(self.points)
 
     @property
-    def uvw(self) -> np.ndarray:
+    def uvw(self) -> Doubles:
         """u, v, w: (N, 3) float64, in the range of the knots; NaN for points without. A read-only view."""
         return arrays.lent(self._owned, lib.ffd_embedding_get_uvw(self._pointer), (len(self), 3), np.float64)
 
     @property
-    def status(self) -> np.ndarray:
+    def status(self) -> NDArray[np.uint8]:
         """(N,) uint8, values of `Status`. A read-only view."""
         return arrays.lent(self._owned, lib.ffd_embedding_get_status(self._pointer), (len(self),), np.uint8)
 
@@ -61,7 +63,7 @@ class Embedding:
         counts = np.bincount(self.status, minlength=len(Status))
         return {status: int(counts[status]) for status in Status}
 
-    def affected(self, control_points: Any) -> np.ndarray:
+    def affected(self, control_points: Triangles | NDArray[np.bool_]) -> NDArray[np.uint32]:
         """The indices of the points that these control points act on: uint32, ascending. No other point depends on them.
 
         control_points: (M, 3) integers i, j, k, or a bool mask (nu, nv, nw)
@@ -87,7 +89,7 @@ class Embedding:
         return library.take_bytes(data, size.value)
 
     @classmethod
-    def from_bytes(cls, data: bytes, lattice: Lattice, points: Any) -> Embedding:
+    def from_bytes(cls, data: bytes, lattice: Lattice, points: Rows) -> Embedding:
         """Restores an embedding from `to_bytes`. points: the embedded points (N, 3). lattice: must have the same rest volume."""
         owned = Owned(lib.ffd_embedding_destroy)
         data = bytes(data)

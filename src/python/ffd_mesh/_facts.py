@@ -10,6 +10,7 @@ from typing import Any, Iterator, Mapping
 from . import _library as library
 from ._description import Files, Memory, Path, place, resolved
 from ._library import lib
+from ._types import Format
 from ._values import settings
 
 
@@ -43,7 +44,7 @@ def _info(source: Any, parts: bool, values: Mapping[str, Any] | None, **options:
         return json.loads(ctypes.string_at(text))
 
 
-def info(path: Path, *, parts: bool = False, set: Mapping[str, Any] | None = None, input_format: str | None = None,
+def info(path: Path, *, parts: bool = False, set: Mapping[str, Any] | None = None, input_format: Format | None = None,
          memory: int | None = None, strict: bool = False) -> dict[str, Any]:
     """Describes a mesh or lattice file in a dict, as `ffd info --json` does. A lattice file's name ends in .json.
 
@@ -56,7 +57,7 @@ def info(path: Path, *, parts: bool = False, set: Mapping[str, Any] | None = Non
 
 
 def info_bytes(data: Any, *, name: str, files: Files | None = None, parts: bool = False, set: Mapping[str, Any] | None = None,
-               input_format: str | None = None, memory: int | None = None, strict: bool = False) -> dict[str, Any]:
+               input_format: Format | None = None, memory: int | None = None, strict: bool = False) -> dict[str, Any]:
     """Like `info`, for a mesh or lattice in memory. data, name, files: as in `deform_bytes`."""
     source = Memory(data, name, files)
     return _info(source, parts, set, input_format=input_format, memory=memory, strict=strict)
@@ -85,7 +86,7 @@ def _compare(a: Any, b: Any, names: tuple[bytes, bytes], tolerance: Any, normal_
 
 
 def compare_files(a: Path, b: Path, *, tolerance: float | str = 0.0, normal_tolerance: float | None = None,
-                  input_format: str | None = None, memory: int | None = None, strict: bool = False) -> dict[str, Any]:
+                  input_format: Format | None = None, memory: int | None = None, strict: bool = False) -> dict[str, Any]:
     """Compares two mesh files, as `ffd compare --json` does. Returns a dict with "equal", "differences", "first", "worst", ..
 
     tolerance: largest difference of a coordinate of positions; a text such as "1e-6r" is relative to the diagonal of a
@@ -116,7 +117,7 @@ def compare_folders(a: Path, b: Path, *, tolerance: float | str = 0.0, normal_to
 
 def compare_bytes(a: Any, b: Any, *, name: str, other_name: str | None = None, files: Files | None = None,
                   other_files: Files | None = None, tolerance: float | str = 0.0, normal_tolerance: float | None = None,
-                  input_format: str | None = None, memory: int | None = None, strict: bool = False) -> dict[str, Any]:
+                  input_format: Format | None = None, memory: int | None = None, strict: bool = False) -> dict[str, Any]:
     """Like `compare_files`, for two meshes in memory.
 
     a, b, name, files: as in `deform_bytes`

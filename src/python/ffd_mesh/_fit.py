@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import math
-from typing import Any, Mapping, NamedTuple, Sequence
+from typing import Any, Literal, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from ._description import AnyLattice, Path, set_lattice
 from ._errors import Error, GateError
 from ._lattice import Lattice
 from ._library import Progress, Run, lib
+from ._types import Counts, Degrees, Direction, Doubles, Indices, Isa, KnotWords, Numbers, Row, Rows, Space, Texts, Triangles
 from ._values import direction_of, finite, settings, shape_of, three, triangles_of
 
 
@@ -23,7 +24,7 @@ class Fit(NamedTuple):
 
     lattice: Lattice
     report: dict[str, Any]  # the member `fit` of the report (data/schema/formats.md): pairs, used, residual, smooth, folds, ..
-    residuals: np.ndarray  # (N,) how far each source ends from its target; NaN: it is not used
+    residuals: Doubles  # (N,) how far each source ends from its target; NaN: it is not used
 
 
 class FittedFile(NamedTuple):
@@ -98,10 +99,10 @@ def _weights(points: np.ndarray, weights: Any, triangles: Any) -> np.ndarray | N
     return None if triangles is None else _areas(points, triangles)
 
 
-def fit(source: Any, target: Any, base: Lattice | None = None, *, size: Any = 6, degree: Any = 3, knots: Any = "open", margin: Any = 0.05,
-        weights: Any = None, exact: Any = None, handles: bool = False, smooth: float | str = "auto", within: float | str | None = None,
-        symmetric: str | None = None, robust: bool = False, triangles: Any = None, snap: float = 0.0, progress: Progress | None = None,
-        threads: int = 0, isa: str = "auto") -> Fit:
+def fit(source: Rows, target: Rows, base: Lattice | None = None, *, size: Counts = 6, degree: Degrees = 3, knots: KnotWords = "open",
+        margin: Numbers = 0.05, weights: Row | None = None, exact: Indices | None = None, handles: bool = False,
+        smooth: float | Literal["auto"] = "auto", within: float | str | None = None, symmetric: Direction | None = None, robust: bool = False,
+        triangles: Triangles | None = None, snap: float = 0.0, progress: Progress | None = None, threads: int = 0, isa: Isa = "auto") -> Fit:
     """Finds the lattice that carries points where they are wanted, as `ffd fit` does: `fit(a, b).lattice.deform(...)`.
 
     source, target: arrays (N, 3)
@@ -202,11 +203,12 @@ def _run(job: Any, author: Any, progress: Progress | None, robust: bool) -> Fitt
 
 
 def fit_file(before: Path | None, after: Path | None, output: Path, *, pairs: Path | None = None, handles: bool = False,
-             base: AnyLattice | None = None, values: Mapping[str, Any] | None = None, time: float | None = None, size: Any = None,
-             degree: Any = None, knots: Any = None, margin: Any = None, principal: bool = False, cover: Sequence[Path] = (),
-             smooth: float | str = "auto", within: float | str | None = None, weights: Path | None = None, symmetric: str | None = None,
-             robust: bool = False, fail_on: str | None = None, only: str | Sequence[str] | None = None, space: str = "scene",
-             snap: float | str = 0.0, threads: int = 0, isa: str = "auto", memory: int = 0, timeout: float | None = None,
+             base: AnyLattice | None = None, values: Mapping[str, Any] | None = None, time: float | None = None, size: Counts | None = None,
+             degree: Degrees = None, knots: KnotWords | None = None, margin: Numbers | None = None, principal: bool = False, cover: Sequence[Path] = (),
+             smooth: float | Literal["auto"] = "auto", within: float | str | None = None,
+             weights: Path | None = None, symmetric: Direction | None = None,
+             robust: bool = False, fail_on: Literal["folds"] | None = None, only: Texts | None = None, space: Space = "scene",
+             snap: float | str = 0.0, threads: int = 0, isa: Isa = "auto", memory: int = 0, timeout: float | None = None,
              strict: bool = False, allow_extensions: Sequence[str] = (), force: bool = False, progress: Progress | None = None) -> FittedFile:
     """Writes the lattice that carries one mesh file onto another, or pairs of a table, as `ffd fit` does, with its options.
 

@@ -5,17 +5,19 @@ from __future__ import annotations
 import ctypes
 import io
 import os
-from typing import Any, Mapping, NamedTuple, Sequence
+from typing import Any, Mapping, NamedTuple, Sequence, Union, Unpack
 
 import numpy as np
 
 from . import _library as library
-from ._description import INPUT_OPTIONS, AnyLattice, Files, Memory, Path, described, resolved
+from ._description import AnyLattice, Files, Memory, Path, described, resolved
 from ._errors import Error, GateError
 from ._library import lib
 from ._result import beside, plain
+from ._types import JacobianFileOptions, JacobianOptions, Row, Rows, Wrt, names
 
-_OPTIONS = {*INPUT_OPTIONS, "set", "outside", "falloff", "seam", "snap", "only", "weight", "threads", "isa", "timeout", "time"}
+_OWN = ("wrt", "by", "components", "of", "times", "transposed", "check")
+Factor = Union[Path, bytes, Row, Rows]
 
 
 def _set_factor(desc: Any, name: str, lent: Any, value: Any) -> Any:
@@ -37,10 +39,20 @@ def _figures(result: Any, check: bool) -> dict[str, Any]:
     return {name: value for name, value in plain(result).items() if name != "struct_size" and (check or name != "worst")}
 
 
-def _jacobian(source: Any, output: Any, lattices: Any, taken: list[Any] | None, by: str, components: bool, of: int | None,
+def _columns(wrt: str | None, by: str | None) -> int:
+    """What the columns are of."""
+    if wrt is not None and by is not None:
+        raise ValueError("wrt= and by= are the same: give one of them")
+    what = "by" if by is not None else "wrt"
+    return library.value_of("ffd_jacobian_by", "points" if wrt is by is None else wrt or by, what)
+
+
+def _jacobian(source: Any, output: Any, lattices: Any, taken: list[Any] | None, wrt: str | None, by: str | None, components: bool, of: int | None,
               times: Any, transposed: Any, check: bool, options: Mapping[str, Any]) -> dict[str, Any]:
+    known = names(JacobianFileOptions if taken is None else JacobianOptions)
+    own = _OWN if taken is None else (*_OWN, "name", "output", "files")
     desc, result = library.filled("ffd_jacobian_desc"), library.empty("ffd_jacobian_result")
-    desc.output, desc.by = library.path(output), library.value_of("ffd_jacobian_by", by, "by")
+    desc.output, desc.by = library.path(output), _columns(wrt, by)
     desc.components, desc.check = bool(components), bool(check)
     if of is not None:
         desc.of = library.integer(of, "of")
@@ -49,7 +61,7 @@ def _jacobian(source: Any, output: Any, lattices: Any, taken: list[Any] | None, 
 
     warnings: list[str] = []
     try:
-        with described(source, lattices, dict(options), _OPTIONS | ({"force"} if taken is None else set())) as (job, warnings), \
+        with described(source, lattices, options, known, own=own) as (job, warnings), \
                 resolved(source):
             if taken is not None:
                 library.sink_into(job, taken)
@@ -64,14 +76,15 @@ def _jacobian(source: Any, output: Any, lattices: Any, taken: list[Any] | None, 
     return _figures(result, check)
 
 
-def jacobian_file(source: Path, output: Path, lattices: AnyLattice | Sequence[AnyLattice], *, by: str = "points",
-                  components: bool = False, of: int | None = None, times: Any = None, transposed: Any = None,
-                  check: bool = False, **options: Any) -> dict[str, Any]:
+def jacobian_file(source: Path, output: Path, lattices: AnyLattice | Sequence[AnyLattice], *, wrt: Wrt | None = None,
+                  by: Wrt | None = None, components: bool = False, of: int | None = None, times: Factor | None = None,
+                  transposed: Factor | None = None, check: bool = False, **options: Unpack[JacobianFileOptions]) -> dict[str, Any]:
     """Writes the derivative of the deformed positions of a mesh file, as `ffd jacobian` does.
 
     Returns a dict with rows, columns, entries, vertices, moving and, with check, worst.
 
-    by: "points": by the control points, u fastest; "parameters": by the numbers of the placeholders in moves
+    wrt: "points" (the default): by the control points, u fastest; "parameters": by the numbers of the placeholders in moves
+    by: the same as wrt
     output: path of an .npz (scipy.sparse.load_npz), .mtx or .npy file
     components: True: three rows for each vertex, also by points
     of: with several lattices, the number of the one whose control points count, from 0; None: the last
@@ -82,7 +95,7 @@ def jacobian_file(source: Path, output: Path, lattices: AnyLattice | Sequence[An
     options: those of `deform_file` that positions depend on (set, outside, falloff, seam, snap, only, space, ..), threads, isa, force
     Raises `Error`. Threads may call it at the same time.
     """
-    return _jacobian(source, output, lattices, None, by, components, of, times, transposed, check, options)
+    return _jacobian(source, output, lattices, None, wrt, by, components, of, times, transposed, check, options)
 
 
 class JacobianBytes(NamedTuple):
@@ -94,8 +107,9 @@ class JacobianBytes(NamedTuple):
 
 
 def jacobian_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice], *, name: str, output: str = "jacobian.npz",
-                   files: Files | None = None, by: str = "points", components: bool = False, of: int | None = None,
-                   times: Any = None, transposed: Any = None, check: bool = False, **options: Any) -> JacobianBytes:
+                   files: Files | None = None, wrt: Wrt | None = None, by: Wrt | None = None, components: bool = False,
+                   of: int | None = None, times: Factor | None = None, transposed: Factor | None = None, check: bool = False,
+                   **options: Unpack[JacobianOptions]) -> JacobianBytes:
     """Like `jacobian_file`, for a mesh in memory; reads and writes no files.
 
     data, name, files: as in `deform_bytes`
@@ -103,5 +117,5 @@ def jacobian_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice], *, na
     All other arguments are those of `jacobian_file`, except force.
     """
     taken: list[Any] = []
-    result = _jacobian(Memory(data, name, files), output, lattices, taken, by, components, of, times, transposed, check, options)
+    result = _jacobian(Memory(data, name, files), output, lattices, taken, wrt, by, components, of, times, transposed, check, options)
     return JacobianBytes(taken[-1][1], beside(taken, output), result)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping, NamedTuple, Sequence
+from typing import Any, Mapping, NamedTuple, Sequence, Unpack
 
 import numpy as np
 
@@ -10,10 +10,11 @@ from . import _library as library
 from ._description import AnyLattice, Files, Memory, Path, described
 from ._library import Progress, lib
 from ._result import Result, beside, finish, run
+from ._types import Doubles, JobOptions
 
 
 def deform_file(source: Path, output: Path | None, lattices: AnyLattice | Sequence[AnyLattice] | Mapping[str, AnyLattice],
-                *, progress: Progress | None = None, **options: Any) -> Result:
+                *, progress: Progress | None = None, **options: Unpack[JobOptions]) -> Result:
     """Deforms a mesh file, as `ffd deform` does. The output is complete or absent.
 
     source, output: paths; output None: in place
@@ -34,7 +35,7 @@ def deform_file(source: Path, output: Path | None, lattices: AnyLattice | Sequen
       raises `Cancelled`. Its exceptions do the same, and are passed on
     Raises `Error`. Threads may call it at the same time.
     """
-    with described(source, lattices, options) as (desc, warnings):
+    with described(source, lattices, options, own=("progress",)) as (desc, warnings):
         if output is None:
             desc.in_place = True
         else:
@@ -53,7 +54,7 @@ class DeformedBytes(NamedTuple):
 
 
 def deform_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | Mapping[str, AnyLattice], *, name: str,
-                 output: str | None = None, files: Files | None = None, **options: Any) -> DeformedBytes:
+                 output: str | None = None, files: Files | None = None, **options: Unpack[JobOptions]) -> DeformedBytes:
     """Like `deform_file`, for a mesh in memory, with the same bytes as result; reads and writes no files.
 
     data: bytes, or an object with a buffer (bytearray, memoryview, array)
@@ -63,8 +64,9 @@ def deform_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | Mappin
       that takes a name and returns bytes, or None if the file is missing. Its exceptions are passed on
     options: those of `deform_file`, except force and resources
     """
-    memory, taken = Memory(data, name, files), []
-    with described(memory, lattices, options) as (desc, warnings):
+    memory = Memory(data, name, files)
+    taken: list[Any] = []
+    with described(memory, lattices, options, own=("name", "output", "files")) as (desc, warnings):
         desc.output = library.path(name if output is None else output)
         library.sink_into(desc, taken)
         found, raised = run(lib.ffd_deform_run, desc)
@@ -74,16 +76,16 @@ def deform_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | Mappin
 
 
 def check_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice], *, name: str, files: Files | None = None,
-                **options: Any) -> Result:
+                **options: Unpack[JobOptions]) -> Result:
     """Like `check_file`, for a mesh in memory. data, name, files: as in `deform_bytes`."""
     memory = Memory(data, name, files)
-    with described(memory, lattices, options) as (desc, warnings):
+    with described(memory, lattices, options, own=("name", "files")) as (desc, warnings):
         found, raised = run(lib.ffd_check_run, desc)
     memory.reraise()
     return finish(found, raised, warnings)
 
 
-def check_file(source: Path, lattices: AnyLattice | Sequence[AnyLattice], **options: Any) -> Result:
+def check_file(source: Path, lattices: AnyLattice | Sequence[AnyLattice], **options: Unpack[JobOptions]) -> Result:
     """Does everything that `deform_file` does except writing, and computes all figures: folds, flipped faces, torn edges, ..
 
     lattices, options: as in `deform_file`. With fail_on it may raise `GateError`, which has the result.
@@ -96,11 +98,11 @@ def check_file(source: Path, lattices: AnyLattice | Sequence[AnyLattice], **opti
 class Positions(NamedTuple):
     """What `positions_file` and `positions_bytes` return."""
 
-    points: np.ndarray  # (N, 3) float64
+    points: Doubles  # (N, 3)
     result: Result
 
 
-def positions_file(source: Path, lattices: AnyLattice | Sequence[AnyLattice], **options: Any) -> Positions:
+def positions_file(source: Path, lattices: AnyLattice | Sequence[AnyLattice], **options: Unpack[JobOptions]) -> Positions:
     """Computes the deformed positions of a mesh file, without writing it. They are a row of `ffd batch --positions`.
 
     All vertices are returned, in the order of `ffd embed`, in the space of the scene (space="mesh": each mesh's own), not rounded
@@ -117,16 +119,17 @@ def positions_file(source: Path, lattices: AnyLattice | Sequence[AnyLattice], **
 
 
 def positions_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice], *, name: str, files: Files | None = None,
-                    **options: Any) -> Positions:
+                    **options: Unpack[JobOptions]) -> Positions:
     """Like `positions_file`, for a mesh in memory. data, name, files: as in `deform_bytes`."""
-    memory, taken = Memory(data, name, files), []
-    with described(memory, lattices, options) as (desc, warnings):
+    memory = Memory(data, name, files)
+    taken: list[Any] = []
+    with described(memory, lattices, options, own=("name", "files")) as (desc, warnings):
         library.positions_into(desc, taken)
         found, raised = run(lib.ffd_deform_run, desc)
     memory.reraise()
     return Positions(_points(taken), finish(found, raised, warnings))
 
 
-def _points(taken: list[Any]) -> np.ndarray:
+def _points(taken: list[Any]) -> Doubles:
     """The positions that the library has passed last, (N, 3); empty for a job that has failed before."""
     return np.frombuffer(taken[-1], np.float64).reshape(-1, 3) if taken and len(taken[-1]) else np.empty((0, 3))

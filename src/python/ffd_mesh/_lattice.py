@@ -6,7 +6,7 @@ import ctypes
 import json
 import os
 import re
-from typing import Any, Mapping
+from typing import Any, Literal, Mapping, Sequence, overload
 
 import numpy as np
 
@@ -18,6 +18,8 @@ from ._directions import turned_normals, turned_tangents
 from ._embedding import Embedding
 from ._errors import InvalidError
 from ._library import Owned, Progress, Run, call, lib
+from ._types import (ControlPoints, Counts, Degrees, Direction, Doubles, Floats, Grid, Half, Indices, Isa, KnotWords, Knots, Numbers, Order, Outside,
+                     Part, Path, Row, Rows, Shape, Spacing, Sparse, Triangles, Volume)
 from ._values import (Deformed, FoldBarrier, Folds, Parameter, box_content, box_desc, csr, described, direction_of, faces_of, folds_of, parameters, parameters_of, settings, three,
                       triangles_of, vertices_of, wishes_of)
 
@@ -57,8 +59,8 @@ class Lattice:
         return self
 
     @classmethod
-    def around(cls, points: Any, size: Any = 4, degree: Any = None, *, knots: Any = "default", margin: Any = 0.05,
-               shape: str = "box", spacing: str = "greville", axis: Any = (0, 0, 1), principal: bool = False) -> Lattice:
+    def around(cls, points: Rows, size: Counts = 4, degree: Degrees = None, *, knots: KnotWords = "default", margin: Numbers = 0.05,
+               shape: Shape = "box", spacing: Spacing = "greville", axis: Row = (0, 0, 1), principal: bool = False) -> Lattice:
         """Makes an undeformed lattice round points (N, 3), like `ffd lattice new`. Points that are not finite are ignored.
 
         size, degree, knots and margin: one value, or three for u, v, w
@@ -77,8 +79,8 @@ class Lattice:
         return cls._new(lib.ffd_lattice_create, ctypes.byref(desc), arrays.address(xyz), len(xyz))
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str], values: Mapping[str, Any] | None = None, *, size: Any = None,
-             degree: Any = None, order: str | None = None, block: str | int | None = None) -> Lattice:
+    def load(cls, path: Path, values: Mapping[str, Any] | None = None, *, size: Counts | None = None,
+             degree: Degrees = None, order: Order | None = None, block: str | int | None = None) -> Lattice:
         """Loads a lattice file (data/schema/lattice.md), which is read twice: not a pipe; or one of another format, by its ending.
 
         values: for the placeholders of its moves, by name
@@ -112,8 +114,8 @@ class Lattice:
         return cls._new(lib.ffd_lattice_parse, data, len(data), library.encoded(name, "name"), parameters=tuple(found.values()))
 
     @classmethod
-    def box(cls, low: Any, high: Any, size: Any = 4, degree: Any = None, *, knots: Any = "default", axes: Any = None,
-            spacing: str = "greville") -> Lattice:
+    def box(cls, low: Row, high: Row, size: Counts = 4, degree: Degrees = None, *, knots: Knots = "default", axes: Rows | None = None,
+            spacing: Spacing = "greville") -> Lattice:
         """Makes a lattice whose rest volume is the box from low (3,) to high (3,).
 
         size, degree: as in `around`; knots: as in `from_points`
@@ -129,14 +131,14 @@ class Lattice:
         return cls._new(lib.ffd_lattice_from_arrays, ctypes.byref(made))
 
     @classmethod
-    def from_points(cls, points: Any, degree: Any = None, *, knots: Any = "default", weights: Any = None) -> Lattice:
+    def from_points(cls, points: ControlPoints, degree: Degrees = None, *, knots: Knots = "default", weights: Grid | None = None) -> Lattice:
         """Makes a lattice with these control points at rest, (nu, nv, nw, 3), and positive weights (nu, nv, nw); None: all 1.
 
         degree: as in `around`
         knots: one value, or three for u, v, w: "clamped", "open", "uniform", "closed", a knot vector of size+degree+1 numbers,
                or ("closed", breakpoints) with the size+1 breakpoints of one period
         """
-        shape = np.shape(points)
+        shape: tuple[int, ...] = np.asarray(points).shape
         if len(shape) != 4 or shape[3] != 3:
             raise ValueError(f"points must have the shape (nu, nv, nw, 3), not {shape}")
         made, kept = described(shape[:3], degree, knots)
@@ -160,7 +162,7 @@ class Lattice:
         return self._degree  # type: ignore[return-value]
 
     @property
-    def knots(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def knots(self) -> tuple[Doubles, Doubles, Doubles]:
         """The knot vectors of u, v, w: read-only views, float64."""
         found = []
         for direction in range(3):
@@ -170,34 +172,34 @@ class Lattice:
         return tuple(found)  # type: ignore[return-value]
 
     @property
-    def domain(self) -> np.ndarray:
+    def domain(self) -> Doubles:
         """The domain: (2, 3), the least and the greatest u, v, w."""
         low, high = (ctypes.c_double * 3)(), (ctypes.c_double * 3)()
         lib.ffd_lattice_get_domain(self._pointer, low, high)
         return np.array([low[:], high[:]])
 
     @property
-    def rest(self) -> np.ndarray:
+    def rest(self) -> Doubles:
         """The control points at rest, (nu, nv, nw, 3) float64: a read-only view of the library's memory, which has u fastest."""
         return self._controls(lib.ffd_lattice_get_points(self._fitted, REST), 3)
 
     @property
-    def deformed(self) -> np.ndarray:
+    def deformed(self) -> Doubles:
         """The deformed control points: a view like `rest`."""
         return self._controls(lib.ffd_lattice_get_points(self._fitted, DEFORMED), 3)
 
     @property
-    def offsets(self) -> np.ndarray:
+    def offsets(self) -> Doubles:
         """The displacements of the control points from rest: a view like `rest`."""
         return self._controls(lib.ffd_lattice_get_offsets(self._fitted), 3)
 
     @property
-    def rest_weights(self) -> np.ndarray | None:
+    def rest_weights(self) -> Doubles | None:
         """The weights at rest, (nu, nv, nw) float64: a read-only view; None: all are 1."""
         return self._weights(REST)
 
     @property
-    def weights(self) -> np.ndarray | None:
+    def weights(self) -> Doubles | None:
         """The deformed weights: a view like `rest_weights`."""
         return self._weights(DEFORMED)
 
@@ -227,7 +229,7 @@ class Lattice:
         call(lib.ffd_lattice_text, self._pointer, ctypes.byref(data), ctypes.byref(size))
         return library.take_bytes(data, size.value).decode()
 
-    def save(self, path: str | os.PathLike[str], *, force: bool = False, part: str | None = None) -> None:
+    def save(self, path: Path, *, force: bool = False, part: Part | None = None) -> None:
         """Writes a lattice file, or one of another format, by its ending, completely or not at all.
 
         force: replace an existing file
@@ -241,7 +243,7 @@ class Lattice:
 
     # -- modified copies
 
-    def fit(self, points: Any) -> Lattice:
+    def fit(self, points: Rows) -> Lattice:
         """If the lattice file's box is "mesh", returns a lattice whose box goes round the finite points of (N, 3); else self.
 
         Its text and file still have the box "mesh": `deform_file` fits it to the mesh of the job.
@@ -270,7 +272,7 @@ class Lattice:
         copy._is_still = True
         return copy
 
-    def refine(self, size: Any = None, degree: Any = None, *, insert: dict[str, Any] | None = None) -> Lattice:
+    def refine(self, size: Counts | None = None, degree: Degrees = None, *, insert: Mapping[Direction, Row] | None = None) -> Lattice:
         """Returns a lattice with more control points, or of higher degree, that is the same map, at rest and deformed.
 
         degree: not less than now, at most 14; one for all directions, or three for u, v, w; None: as it is
@@ -300,27 +302,27 @@ class Lattice:
         """Returns a lattice that does what both do. Raises `InvalidError` as `blend`."""
         return self._new(lib.ffd_lattice_add, self._pointer, other._pointer)
 
-    def mirror(self, direction: str) -> Lattice:
+    def mirror(self, direction: Direction) -> Lattice:
         """Returns the mirror image across the middle of a direction, "u", "v" or "w": each control point does, reflected, what
         the one opposite did. Twice is the same, to the bit across a coordinate axis. Raises `InvalidError` if the lattice at
         rest is not symmetric, or the direction is closed."""
         return self._new(lib.ffd_lattice_mirror, self._pointer, direction_of(direction))
 
-    def symmetrize(self, half: str) -> Lattice:
+    def symmetrize(self, half: Half) -> Lattice:
         """Returns a lattice of which one half stays, "u+", "u-", "v+" .. "w-", and the other is its mirror image; in a layer
         between them nothing moves off the plane. Raises `InvalidError` as `mirror`."""
         if not isinstance(half, str) or half[1:] not in ("+", "-"):
             raise ValueError(f"the half that stays is u+, u-, v+, v-, w+ or w-, not {half!r}")
         return self._new(lib.ffd_lattice_symmetrize, self._pointer, direction_of(half[:1]), half[1] == "+")
 
-    def transform(self, matrix: Any) -> Lattice:
+    def transform(self, matrix: Rows) -> Lattice:
         """Returns the lattice placed elsewhere by an affine map M, (4, 4) with a last row 0 0 0 1: what was f is M f M^-1. A box
         stays one if its sides stay at right angles (to 1e-15), other shapes become control points. Raises `InvalidError` if
         its determinant is 0."""
         numbers = np.ascontiguousarray(arrays.doubles(matrix, "matrix", (4, 4)))
         return self._new(lib.ffd_lattice_transform, self._pointer, arrays.address(numbers))
 
-    def jitter(self, sigma: Any, seed: int) -> Lattice:
+    def jitter(self, sigma: Numbers, seed: int) -> Lattice:
         """Returns a lattice with noise added to its displacements: sigma x, with x in [-1, 1) for each axis of each control
         point, the same bits on every machine, as of the move "jitter".
 
@@ -329,7 +331,7 @@ class Lattice:
         numbers = np.array([library.real(value, "sigma") for value in three(sigma, "sigma")], np.float64)
         return self._new(lib.ffd_lattice_jitter, self._pointer, arrays.address(numbers), library.integer(seed, "seed", most=2**53))
 
-    def seal(self, continuity: str, faces: Any = "all") -> Lattice:
+    def seal(self, continuity: str, faces: str | Sequence[Half] = "all") -> Lattice:
         """Returns a lattice with faces held still, so that what is deformed joins what is not with that continuity.
 
         continuity: "C0", "C1", "C2" ..: the displacement and so many of its derivatives are 0 on the faces; less than the degree
@@ -347,7 +349,7 @@ class Lattice:
         `InvalidError` where the lattice is not proven to have no folds."""
         return self._new(lib.ffd_lattice_invert, self._pointer, library.integer(threads, "threads"))
 
-    def moved(self, Q: Any = None, *, offsets: Any = None, weights: Any = None) -> Lattice:
+    def moved(self, Q: ControlPoints | None = None, *, offsets: ControlPoints | None = None, weights: Grid | None = None) -> Lattice:
         """Returns this lattice with other deformed control points Q or offsets from rest, (nu, nv, nw, 3), and deformed weights
         (nu, nv, nw). None: unchanged. Offsets are used without rounding: a control point with offset 0 moves nothing, exactly."""
         if Q is not None and offsets is not None:
@@ -366,12 +368,13 @@ class Lattice:
 
     # -- deformation
 
-    def embed(self, points: Any, *, outside: str = "keep", falloff: float = 0.0, snap: float = 0.0, threads: int = 0,
-              isa: str = "auto", progress: Progress | None = None) -> Embedding:
-        """Finds u, v, w and the status of points (N, 3) in the rest volume, with certified results. Points are float32 or
-        float64 with any strides; one that is not finite gets the status INVALID.
+    def embed(self, points: Rows, *, outside: Outside = "keep", falloff: float = 0.0, snap: float = 0.0, threads: int = 0,
+              isa: Isa = "auto", progress: Progress | None = None) -> Embedding:
+        """Finds u, v, w and the status of points (N, 3) in the rest volume, with certified results. One that is not finite gets the
+        status INVALID.
 
-        The embedding refers to points without a copy: do not change them while it is in use, or pass points= to `deform`.
+        The embedding refers to float32 and float64 points without a copy: do not change them while it is in use, or pass points= to
+        `deform`. Points of other number types and byte orders are copied, as float32 (floats of at most 32 bits) or float64.
 
         outside: points without u, v, w: "keep" (stay), "extend" (follow the nearest point of the border), or "error"
         falloff: with "extend": distance, in units of the points, over which the displacement fades to 0; 0: no fading.
@@ -391,10 +394,34 @@ class Lattice:
         Run(threads, isa, progress)(lib.ffd_embedding_create, ctypes.byref(desc), last=(ctypes.byref(owned.pointer),))
         return Embedding._of(owned, self, points)
 
-    def deform(self, embedding: Embedding, Q: Any = None, *, offsets: Any = None, weights: Any = None, points: Any = None,
-               out: np.ndarray | None = None, vertices: Any = None, normals: Any = None, tangents: Any = None,
-               gradients: bool = False, weight: Any = None, triangles: Any = None, threads: int = 0, isa: str = "auto",
-               progress: Progress | None = None) -> Any:
+    @overload
+    def deform(self, embedding: Embedding, Q: ControlPoints | None = None, *, offsets: ControlPoints | None = None, weights: Grid | None = None,
+               points: Rows | None = None, out: Floats | None = None, vertices: Indices | None = None, normals: None = None, tangents: None = None,
+               gradients: Literal[False] = False, weight: Row | None = None, triangles: Triangles | None = None, threads: int = 0,
+               isa: Isa = "auto", progress: Progress | None = None) -> Floats: ...
+
+    @overload
+    def deform(self, embedding: Embedding, Q: ControlPoints | None = None, *, offsets: ControlPoints | None = None, weights: Grid | None = None,
+               points: Rows | None = None, out: Floats | None = None, vertices: Indices | None = None, normals: Rows, tangents: Rows | None = None,
+               gradients: bool = False, weight: Row | None = None, triangles: Triangles | None = None, threads: int = 0,
+               isa: Isa = "auto", progress: Progress | None = None) -> Deformed: ...
+
+    @overload
+    def deform(self, embedding: Embedding, Q: ControlPoints | None = None, *, offsets: ControlPoints | None = None, weights: Grid | None = None,
+               points: Rows | None = None, out: Floats | None = None, vertices: Indices | None = None, normals: Rows | None = None, tangents: Rows,
+               gradients: bool = False, weight: Row | None = None, triangles: Triangles | None = None, threads: int = 0,
+               isa: Isa = "auto", progress: Progress | None = None) -> Deformed: ...
+
+    @overload
+    def deform(self, embedding: Embedding, Q: ControlPoints | None = None, *, offsets: ControlPoints | None = None, weights: Grid | None = None,
+               points: Rows | None = None, out: Floats | None = None, vertices: Indices | None = None, normals: Rows | None = None, tangents: Rows | None = None,
+               gradients: Literal[True], weight: Row | None = None, triangles: Triangles | None = None, threads: int = 0,
+               isa: Isa = "auto", progress: Progress | None = None) -> Deformed: ...
+
+    def deform(self, embedding: Embedding, Q: ControlPoints | None = None, *, offsets: ControlPoints | None = None, weights: Grid | None = None,
+               points: Rows | None = None, out: Floats | None = None, vertices: Indices | None = None, normals: Rows | None = None, tangents: Rows | None = None,
+               gradients: bool = False, weight: Row | None = None, triangles: Triangles | None = None, threads: int = 0,
+               isa: Isa = "auto", progress: Progress | None = None) -> Floats | Deformed:
         """Deforms the embedded points. Returns an array (N, 3) of the points' type, computed in double and rounded once; or a
         `Deformed`, if normals, tangents or gradients are given.
 
@@ -436,8 +463,8 @@ class Lattice:
             return out
         return _directions(run, out, found, normals, tangents, gradients)
 
-    def basis(self, embedding: Embedding, *, weights: Any = None, threads: int = 0, isa: str = "auto",
-              progress: Progress | None = None) -> Any:
+    def basis(self, embedding: Embedding, *, weights: Grid | None = None, threads: int = 0, isa: Isa = "auto",
+              progress: Progress | None = None) -> Sparse:
         """The derivative B = dX/dQ, (N, nu*nv*nw): a scipy.sparse.csr_array, or a `Csr` without scipy.
 
         Row i has, for each control point, the derivative of a coordinate of point i by the same coordinate of the control
@@ -461,8 +488,8 @@ class Lattice:
             lib.ffd_csr_free(ctypes.byref(matrix))
         return csr(values, self._columns()[indices], starts, (rows, columns))
 
-    def basis_times(self, embedding: Embedding, D: Any, *, weights: Any = None, threads: int = 0, isa: str = "auto",
-                    progress: Progress | None = None) -> np.ndarray:
+    def basis_times(self, embedding: Embedding, D: ControlPoints, *, weights: Grid | None = None, threads: int = 0,
+                    isa: Isa = "auto", progress: Progress | None = None) -> Doubles:
         """Computes `basis` @ D.reshape(-1, 3) for offsets D (nu, nv, nw, 3) without storing the matrix: (N, 3) float64."""
         self._check_same(embedding)
         numbers = arrays.to_library(arrays.doubles(D, "D", self.size + (3,)))
@@ -472,8 +499,8 @@ class Lattice:
                                     None if kept is None else arrays.address(kept), arrays.address(numbers), arrays.address(out))
         return out
 
-    def basis_transposed(self, embedding: Embedding, dfdx: Any, *, weights: Any = None, threads: int = 0, isa: str = "auto",
-                         progress: Progress | None = None) -> np.ndarray:
+    def basis_transposed(self, embedding: Embedding, dfdx: Rows, *, weights: Grid | None = None, threads: int = 0,
+                         isa: Isa = "auto", progress: Progress | None = None) -> Doubles:
         """Computes `basis`.T @ dfdx without storing the matrix. dfdx: derivative of a scalar f by the points, (N, 3). Returns
         the derivative of f by the control points, (nu, nv, nw, 3) float64."""
         self._check_same(embedding)
@@ -484,8 +511,16 @@ class Lattice:
                                     None if kept is None else arrays.address(kept), arrays.address(numbers), arrays.address(out))
         return np.ascontiguousarray(out.transpose(2, 1, 0, 3))
 
-    def evaluate(self, uvw: Any, *, volume: str = "deformed", jacobians: bool = False, threads: int = 0, isa: str = "auto",
-                 progress: Progress | None = None) -> Any:
+    @overload
+    def evaluate(self, uvw: Rows, *, volume: Volume = "deformed", jacobians: Literal[False] = False, threads: int = 0, isa: Isa = "auto",
+                 progress: Progress | None = None) -> Doubles: ...
+
+    @overload
+    def evaluate(self, uvw: Rows, *, volume: Volume = "deformed", jacobians: Literal[True], threads: int = 0, isa: Isa = "auto",
+                 progress: Progress | None = None) -> tuple[Doubles, Doubles]: ...
+
+    def evaluate(self, uvw: Rows, *, volume: Volume = "deformed", jacobians: bool = False, threads: int = 0, isa: Isa = "auto",
+                 progress: Progress | None = None) -> Doubles | tuple[Doubles, Doubles]:
         """Evaluates the volume ("rest" or "deformed") at uvw (N, 3). Returns points (N, 3) float64; with jacobians=True also
         (N, 3, 3), whose columns are C_u, C_v, C_w."""
         self._fitted
@@ -497,7 +532,7 @@ class Lattice:
                                     arrays.address(out), None if found is None else arrays.address(found))
         return out if found is None else (out, found)
 
-    def folds(self, Q: Any = None, *, offsets: Any = None, weights: Any = None, threads: int = 0) -> Folds:
+    def folds(self, Q: ControlPoints | None = None, *, offsets: ControlPoints | None = None, weights: Grid | None = None, threads: int = 0) -> Folds:
         """Proves whether the deformed volume folds anywhere. Q, offsets, weights: as in `moved`. threads: 0: all cores."""
         lattice = self.moved(Q, offsets=offsets, weights=weights)
         found = library.empty("ffd_folds")

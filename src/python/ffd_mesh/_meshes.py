@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from typing import Any
+from typing import Any, Literal, Unpack, overload
 
 import numpy as np
 
@@ -17,12 +17,26 @@ from ._library import Progress, Run, lib
 from ._mesh_parts import Part, copied
 from ._result import Result, finish, run
 from ._stored import Stored, are_normals, stale, triples, turned_cell_normals, vectors_of
+from ._types import ControlPoints, Grid, PointOptions, names
 
-_OPTIONS = {"outside", "falloff", "snap", "threads", "isa"}
+_OWN = ("offsets", "weights", "normals", "with_result", "progress")
 
 
-def deform_mesh(mesh: Any, lattice: Lattice, Q: Any = None, *, offsets: Any = None, weights: Any = None, normals: bool = True,
-                with_result: bool = False, progress: Progress | None = None, **embed: Any) -> Any:
+@overload
+def deform_mesh(mesh: Any, lattice: Lattice, Q: ControlPoints | None = None, *, offsets: ControlPoints | None = None,
+                weights: Grid | None = None, normals: bool = True, with_result: Literal[False] = False, progress: Progress | None = None,
+                **embed: Unpack[PointOptions]) -> Any: ...
+
+
+@overload
+def deform_mesh(mesh: Any, lattice: Lattice, Q: ControlPoints | None = None, *, offsets: ControlPoints | None = None,
+                weights: Grid | None = None, normals: bool = True, with_result: Literal[True], progress: Progress | None = None,
+                **embed: Unpack[PointOptions]) -> tuple[Any, Result]: ...
+
+
+def deform_mesh(mesh: Any, lattice: Lattice, Q: ControlPoints | None = None, *, offsets: ControlPoints | None = None,
+                weights: Grid | None = None, normals: bool = True, with_result: bool = False, progress: Progress | None = None,
+                **embed: Unpack[PointOptions]) -> Any:
     """Returns a copy of a mesh with deformed points. Stored normals turn with it. The mesh is not changed.
 
     mesh: trimesh.Trimesh or PointCloud, meshio.Mesh with points (N, 3), a data set of pyvista. An ImageData or RectilinearGrid comes
@@ -41,6 +55,8 @@ def deform_mesh(mesh: Any, lattice: Lattice, Q: Any = None, *, offsets: Any = No
     Warnings are in the log "ffd_mesh" and in result.warnings: what the program would warn of, and that nothing moved.
     Raises TypeError for other kinds of meshes, ValueError for points of another shape, and `Error`. Threads may call it at the same time.
     """
+    if "snap" in embed:
+        embed["snap"] = library.real(embed["snap"], "snap")
     copy, parts = copied(mesh)
     points = [arrays.vectors(part.points, "points") for part in parts]
     whole = np.concatenate(points) if len(points) > 1 else points[0] if points else np.empty((0, 3))
@@ -53,17 +69,18 @@ def deform_mesh(mesh: Any, lattice: Lattice, Q: Any = None, *, offsets: Any = No
 
 
 def _deformed(lattice: Lattice, points: np.ndarray, parts: list[Part], quality: bool, progress: Progress | None,
-              embed: dict[str, Any]) -> tuple[np.ndarray, Result]:
+              embed: PointOptions) -> tuple[np.ndarray, Result]:
     """The deformed points, (N, 3) float64, and the result of the program's job on this mesh."""
     starts = np.cumsum([0] + [len(part.points) for part in parts])
     seen = surface(joined([part.cells() for part in parts], list(starts)))
-    memory, taken = Memory(_ply(points, seen), "the mesh", None), []
+    memory = Memory(_ply(points, seen), "the mesh", None)
+    taken: list[Any] = []
     count = sum(map(len, seen.faces))
 
     def reword(line: str) -> str:
         """Counts no edge as a face."""
         return line.replace(f" of {count + len(seen.edges)} face", f" of {count} face") if line.endswith("turned over") else line
-    with described(memory, lattice, embed, _OPTIONS, reword) as (desc, warnings), library.progress_into(desc, progress):
+    with described(memory, lattice, embed, names(PointOptions), reword, _OWN) as (desc, warnings), library.progress_into(desc, progress):
         desc.quality, desc.input.format = quality, library.value_of("ffd_format", "ply", "format")
         library.positions_into(desc, taken)
         raw, raised = run(lib.ffd_deform_run, desc)
@@ -101,7 +118,7 @@ def _ply(points: np.ndarray, seen: Surface) -> bytes:
 
 
 def _carry(lattice: Lattice, parts: list[Part], points: list[np.ndarray], found: np.ndarray, normals: bool, result: Result,
-           embed: dict[str, Any]) -> None:
+           embed: PointOptions) -> None:
     """Sets the points of the parts, and what they store."""
     at, removed, stays = 0, [], []
     for part, before in zip(parts, points):
@@ -139,10 +156,10 @@ def _put(part: Part, group: list[Stored], value: np.ndarray | None) -> None:
 
 
 def _turned(part: Part, lattice: Lattice, before: np.ndarray, after: np.ndarray, groups: list[list[Stored]], result: Result,
-            embed: dict[str, Any]) -> list[tuple[list[Stored], np.ndarray | None]]:
+            embed: PointOptions) -> list[tuple[list[Stored], np.ndarray | None]]:
     """Normals after the deformation; None: they cannot turn."""
     cells, step = part.cells(), Run(embed.get("threads", 0), embed.get("isa", "auto"), None)
-    gradients = lattice.deform(lattice.embed(before, **embed), gradients=True).gradients
+    gradients: Any = lattice.deform(lattice.embed(before, **embed), gradients=True).gradients
     found: list[tuple[list[Stored], np.ndarray | None]] = []
     for group in groups:
         where = group[0].where

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 import os
-from typing import Any
+from typing import Any, Literal
 
 _NAMES = ("lattice", "report")
 
 
-def schema(name: str) -> dict[str, Any]:
+def schema(name: Literal["lattice", "report"]) -> dict[str, Any]:
     """Returns a JSON Schema as a dict. name: "lattice" (lattice files) or "report" (files of the program's --report).
 
     The file in the package is schema/ffd-NAME.schema.json.

@@ -7,13 +7,15 @@ import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _arrays as arrays
 from . import _declarations as declared
 from . import _library as library
+from ._types import Doubles, Floats, Path, Verdict
 
 
 class Parameter(NamedTuple):
@@ -34,19 +36,19 @@ class Deformed(NamedTuple):
     collapsed: the number of normals and tangents that the deformation collapses; they keep their direction
     """
 
-    points: np.ndarray
-    normals: np.ndarray | None = None
-    tangents: np.ndarray | None = None
-    gradients: np.ndarray | None = None
+    points: Floats
+    normals: Floats | None = None
+    tangents: Floats | None = None
+    gradients: Doubles | None = None
     collapsed: int = 0
 
 
 class Csr(NamedTuple):
     """A sparse matrix in CSR format, if scipy is not installed. The entries of row i are indptr[i] to indptr[i+1]-1."""
 
-    data: np.ndarray
-    indices: np.ndarray
-    indptr: np.ndarray
+    data: Doubles
+    indices: NDArray[np.integer[Any]]
+    indptr: NDArray[np.integer[Any]]
     shape: tuple[int, int]
 
 
@@ -62,16 +64,16 @@ class Folds:
       determinant there, relative as min_det is. None without such a point
     """
 
-    verdict: str
+    verdict: Verdict
     cells: int
     folded_cells: int
     unknown_cells: int
     min_det: float | None
-    witness_uvw: np.ndarray | None
-    witness_xyz: np.ndarray | None
-    witness_rest: np.ndarray | None
+    witness_uvw: Doubles | None
+    witness_xyz: Doubles | None
+    witness_rest: Doubles | None
     witness_det: float | None
-    relative_to: str
+    relative_to: Literal["mean", "bounds", "place"]
 
 
 class FoldBarrier(NamedTuple):
@@ -91,9 +93,10 @@ def folds_of(found: Any) -> Folds:
     """Folds of the library's ffd_folds."""
     witness, has = found.witness, found.witness.is_there
     uvw, xyz, rest = (np.array(v) if has else None for v in (witness.uvw, witness.xyz, witness.rest))
-    return Folds(library.NAMES["ffd_fold_verdict"][found.verdict], found.cells, found.folded_cells, found.unknown_cells,
-                 finite(found.min_det), uvw, xyz, rest, witness.det if has else None,
-                 library.NAMES["ffd_fold_reference"][found.relative_to])
+    verdict: Any = library.NAMES["ffd_fold_verdict"][found.verdict]
+    relative_to: Any = library.NAMES["ffd_fold_reference"][found.relative_to]
+    return Folds(verdict, found.cells, found.folded_cells, found.unknown_cells,
+                 finite(found.min_det), uvw, xyz, rest, witness.det if has else None, relative_to)
 
 
 def settings(values: Mapping[str, Any] | None) -> tuple[Any, int]:
@@ -242,13 +245,13 @@ def csr(values: np.ndarray, columns: np.ndarray, starts: np.ndarray, shape: tupl
     """Makes a scipy csr_array, or a `Csr`, with the columns of each row sorted."""
     rows = np.repeat(np.arange(shape[0]), np.diff(starts).astype(np.intp))
     order = np.lexsort((columns, rows))
-    kind = np.int32 if max(len(values), *shape) < 2**31 else np.int64
-    parts = (values[order], columns[order].astype(kind), starts.astype(kind))
+    kind: type[np.signedinteger[Any]] = np.int32 if max(len(values), *shape) < 2**31 else np.int64
+    data, indices, indptr = values[order], columns[order].astype(kind), starts.astype(kind)
     try:
         from scipy.sparse import csr_array  # type: ignore[import-untyped]
     except ImportError:
-        return Csr(*parts, shape)
-    return csr_array(parts, shape=shape)
+        return Csr(data, indices, indptr, shape)
+    return csr_array((data, indices, indptr), shape=shape)
 
 
 def parameters_of(data: bytes, name: str) -> dict[str, Parameter]:
@@ -257,7 +260,7 @@ def parameters_of(data: bytes, name: str) -> dict[str, Parameter]:
             for name, default, unit, comment, least, most in library.list_parameters(data, name)}
 
 
-def parameters(path: str | os.PathLike[str]) -> dict[str, Parameter]:
+def parameters(path: Path) -> dict[str, Parameter]:
     """The placeholders that a lattice file declares, by name. They need no values for this."""
     with open(path, "rb") as file:
         return parameters_of(file.read(), os.fspath(path))

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import ctypes
 import os
-from typing import Any, Mapping, NamedTuple, Sequence
+from typing import Any, Mapping, NamedTuple, Sequence, Unpack
 
 from . import _declarations as declared
 from . import _library as library
-from ._description import OPTIONS, AnyLattice, Files, Memory, Path, described, place
+from ._description import AnyLattice, Files, Memory, Path, described, place
 from ._errors import Error, GateError
 from ._library import lib
 from ._result import Result, finish, run
+from ._types import Axis, Color, Counts, Degrees, EditOptions, KnotWords, Side, ViewOptions, names
 from ._values import box_desc
 
-# Without the options for outputs of other jobs.
-_OPTIONS = OPTIONS - {"output_format", "resources", "force", "if_changed", "dry_run", "as_morph", "clips"}
+_OPTIONS = names(ViewOptions)
 _SIDES = ("front", "back", "left", "right", "top", "bottom", "iso")
 
 
@@ -37,7 +37,7 @@ LOOK = ("color", "camera", "size", "frames", "animation", "up", "no_cage")
 
 
 def set_look(desc: Any, color: str = "auto", camera: Any = "iso", size: tuple[int, int] | None = None, frames: int | None = None,
-             animation: str | None = None, up: str = "y", no_cage: bool = False) -> None:
+             animation: str | None = None, up: Axis = "y", no_cage: bool = False) -> None:
     """Sets how a mesh is drawn."""
     desc.color = library.value_of("ffd_view_color", color, "color")
     desc.up, desc.no_cage = library.value_of("ffd_up", up, "up"), bool(no_cage)
@@ -62,10 +62,10 @@ def _set_output(desc: Any, output: Any, full: bool, **look: Any) -> None:
 
 
 def _view(desc: Any, source: Any, output: Any, lattices: Any, deformed: Any, look: Mapping[str, Any],
-          options: dict[str, Any]) -> tuple[Any, Error | None, list[str]]:
+          options: Mapping[str, Any], own: tuple[str, ...]) -> tuple[Any, Error | None, list[str]]:
     desc.output = library.path(output)
     _set_output(desc, output, **look)
-    with described(source, lattices, options, _OPTIONS) as (job, warnings):
+    with described(source, lattices, options, _OPTIONS, own=own) as (job, warnings):
         desc.job = ctypes.pointer(job)
         if deformed is not None:
             other = declared.ffd_source.from_buffer_copy(job.input)  # same options for reading
@@ -76,9 +76,10 @@ def _view(desc: Any, source: Any, output: Any, lattices: Any, deformed: Any, loo
 
 
 def view_file(source: Path, output: Path, lattices: AnyLattice | Sequence[AnyLattice] | Mapping[str, AnyLattice] | None = None, *,
-              deformed: Path | None = None, color: str = "auto", camera: str | Sequence[float] = "iso",
+              deformed: Path | None = None, color: Color = "auto", camera: Side | Sequence[float] = "iso",
               size: tuple[int, int] | None = None, frames: int | None = None, full: bool = False, animation: str | None = None,
-              up: str = "y", no_cage: bool = False, force: bool = False, **options: Any) -> Result:
+              up: Axis = "y", no_cage: bool = False, force: bool = False,
+              **options: Unpack[ViewOptions]) -> Result:
     """Draws a mesh before and after its deformation, as `ffd view` does. The output is complete or absent.
 
     output: path of a page (.html, needs no network) or a picture (.png)
@@ -102,7 +103,10 @@ def view_file(source: Path, output: Path, lattices: AnyLattice | Sequence[AnyLat
     desc.force = bool(force)
     look = {"color": color, "camera": camera, "size": size, "frames": frames, "full": full, "animation": animation,
             "up": up, "no_cage": no_cage}
-    return finish(*_view(desc, source, output, lattices, deformed, look, options))
+    return finish(*_view(desc, source, output, lattices, deformed, look, options, (*look, "deformed", "force")))
+
+
+_OTHER = ("deformed", "deformed_name", "deformed_files")
 
 
 class ViewBytes(NamedTuple):
@@ -114,9 +118,9 @@ class ViewBytes(NamedTuple):
 
 def view_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | Mapping[str, AnyLattice] | None = None, *,
                name: str, output: str = "view.html", files: Files | None = None, deformed: Any = None,
-               deformed_name: str | None = None, deformed_files: Files | None = None, color: str = "auto", camera: str | Sequence[float] = "iso",
+               deformed_name: str | None = None, deformed_files: Files | None = None, color: Color = "auto", camera: Side | Sequence[float] = "iso",
                size: tuple[int, int] | None = None, frames: int | None = None, full: bool = False, animation: str | None = None,
-               up: str = "y", no_cage: bool = False, **options: Any) -> ViewBytes:
+               up: Axis = "y", no_cage: bool = False, **options: Unpack[ViewOptions]) -> ViewBytes:
     """Like `view_file`, for a mesh in memory; reads and writes no files.
 
     data, name, files: as in `deform_bytes`
@@ -124,14 +128,15 @@ def view_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | Mapping[
     deformed, deformed_name, deformed_files: the deformed mesh, likewise; name and files None: the same as for data
     All other arguments are those of `view_file`, except force. A `GateError` has the output in its member data.
     """
-    desc, taken = library.filled("ffd_view_desc"), []
+    desc = library.filled("ffd_view_desc")
+    taken: list[Any] = []
     library.sink_into(desc, taken)
     memory = Memory(data, name, files)
     other = None if deformed is None else Memory(deformed, name if deformed_name is None else deformed_name,
                                                  files if deformed_files is None else deformed_files)
     look = {"color": color, "camera": camera, "size": size, "frames": frames, "full": full, "animation": animation,
             "up": up, "no_cage": no_cage}
-    found, raised, warnings = _view(desc, memory, output, lattices, other, look, options)
+    found, raised, warnings = _view(desc, memory, output, lattices, other, look, options, (*look, "name", "output", "files", *_OTHER))
     memory.reraise()
     if other is not None:
         other.reraise()
@@ -140,13 +145,8 @@ def view_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | Mapping[
     return ViewBytes(taken[-1][1] if taken else b"", finish(found, raised, warnings))
 
 
-# What of a job an edit takes.
-_EDIT_OPTIONS = {"only", "outside", "falloff", "snap", "space", "set", "time", "threads", "isa", "memory", "timeout", "allow_extensions", "strict",
-                 "input_format", "progress"}
-
-
 def _edit(desc: Any, source: Any, output: Any, lattices: Any, full: bool, up: str, new: Mapping[str, Any],
-          options: dict[str, Any]) -> tuple[Any, Error | None, list[str]]:
+          options: Mapping[str, Any], own: tuple[str, ...]) -> tuple[Any, Error | None, list[str]]:
     given = {name: value for name, value in new.items() if value is not None}
     if lattices is not None and given:
         raise ValueError(f"{', '.join(given)}: of a new lattice, not with lattices")
@@ -154,15 +154,16 @@ def _edit(desc: Any, source: Any, output: Any, lattices: Any, full: bool, up: st
     desc.output, desc.full, desc.up = library.path(output), bool(full), library.value_of("ffd_up", up, "up")
     if lattices is None:
         desc.lattice = ctypes.pointer(box)
-    with described(source, lattices, options, OPTIONS & _EDIT_OPTIONS) as (job, warnings):
+    with described(source, lattices, options, names(EditOptions), own=(*new, "full", "up", *own)) as (job, warnings):
         desc.job = ctypes.pointer(job)
         found, raised = run(lib.ffd_edit_run, desc)
     return found, raised, warnings
 
 
 def edit_file(source: Path, output: Path, lattices: AnyLattice | Sequence[AnyLattice] | None = None, *,
-              size: Sequence[int] | int | None = None, degree: Sequence[int] | int | None = None, knots: Sequence[str] | str | None = None,
-              margin: Sequence[float] | float | None = None, full: bool = False, up: str = "y", force: bool = False, **options: Any) -> Result:
+              size: Counts | None = None, degree: Degrees = None, knots: KnotWords | None = None,
+              margin: Sequence[float] | float | None = None, full: bool = False, up: Axis = "y", force: bool = False,
+              **options: Unpack[EditOptions]) -> Result:
     """Makes a page in which a lattice is shaped by hand, as `ffd edit` does. The output is complete or absent.
 
     output: path of the page (.html), which a browser opens without a network; its Save writes a lattice file
@@ -177,23 +178,24 @@ def edit_file(source: Path, output: Path, lattices: AnyLattice | Sequence[AnyLat
     desc = library.filled("ffd_edit_desc")
     desc.force = bool(force)
     new = {"size": size, "degree": degree, "knots": knots, "margin": margin}
-    return finish(*_edit(desc, source, output, lattices, full, up, new, options))
+    return finish(*_edit(desc, source, output, lattices, full, up, new, options, ("force",)))
 
 
 def edit_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | None = None, *, name: str, output: str = "edit.html",
-               files: Files | None = None, size: Sequence[int] | int | None = None, degree: Sequence[int] | int | None = None,
-               knots: Sequence[str] | str | None = None, margin: Sequence[float] | float | None = None, full: bool = False, up: str = "y",
-               **options: Any) -> ViewBytes:
+               files: Files | None = None, size: Counts | None = None, degree: Degrees = None,
+               knots: KnotWords | None = None, margin: Sequence[float] | float | None = None, full: bool = False, up: Axis = "y",
+               **options: Unpack[EditOptions]) -> ViewBytes:
     """Like `edit_file`, for a mesh in memory; reads and writes no files.
 
     data, name, files: as in `deform_bytes`
     output: name of the page
     All other arguments are those of `edit_file`, except force.
     """
-    desc, taken = library.filled("ffd_edit_desc"), []
+    desc = library.filled("ffd_edit_desc")
+    taken: list[Any] = []
     library.sink_into(desc, taken)
     memory = Memory(data, name, files)
     new = {"size": size, "degree": degree, "knots": knots, "margin": margin}
-    found, raised, warnings = _edit(desc, memory, output, lattices, full, up, new, options)
+    found, raised, warnings = _edit(desc, memory, output, lattices, full, up, new, options, ("name", "output", "files"))
     memory.reraise()
     return ViewBytes(taken[-1][1] if taken else b"", finish(found, raised, warnings))
