@@ -79,6 +79,28 @@ class Scripts(unittest.TestCase):
         self.assertEqual([line for line in done.stdout.splitlines() if ": error: " in line and "[import-untyped]" not in line], [])
 
 
+class Words(unittest.TestCase):
+    def test_messages_name_functions_and_keywords(self):
+        with tempfile.TemporaryDirectory() as folder:
+            mesh, lattice = os.path.join(folder, "a.obj"), ffd.Lattice.box((-1, -1, -1), (2, 2, 2))
+            with open(mesh, "w", encoding="ascii") as file:
+                file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+            self.assertEqual(ffd.jacobian_file(mesh, mesh + ".npz", lattice, wrt="points")["rows"], 3)
+            for run, words in ((lambda: ffd.deform_file(mesh, mesh, lattice), "output=None"),
+                               (lambda: ffd.deform_file(mesh, mesh + ".obj", lattice, falloff=1), "falloff= needs outside='extend'"),
+                               (lambda: ffd.deform_file(mesh, mesh + ".obj", lattice, embedding=b"x" * 200), "embed_file"),
+                               (lambda: ffd.jacobian_file(mesh, mesh + ".npz", lattice), "force="),
+                               (lambda: ffd.jacobian_file(mesh, mesh + ".npy", lattice, wrt="points", by="points"), "give one"),
+                               (lambda: ffd.jacobian_file(mesh, mesh + ".npy", lattice, wrt="pts"), "wrt must be one of 'points', 'parameters'"),
+                               (lambda: ffd.deform_file(mesh, mesh + ".obj", lattice, fail_on="folds,holes"), "fail_on must be one of"),
+                               (lambda: ffd.deform_file(mesh, mesh + ".obj", mesh), "convert_lattice")):
+                with self.assertRaisesRegex((ffd.Error, ValueError), words) as caught:
+                    run()
+                self.assertIsNone(re.search(r"--|\bffd [a-z]", str(caught.exception)))
+            for gates in ("folds,tear", "folds,tear=0.1,flipped=3", ["folds"]):
+                self.assertEqual(ffd.check_file(mesh, lattice, fail_on=gates).moved, 0)
+
+
 class Lists(unittest.TestCase):
     def test_words_are_those_of_the_library(self):
         for words, enumeration in ((_types.Isa, "ffd_isa"), (_types.KnotWord, "ffd_knots"), (_types.Spacing, "ffd_spacing"), (_types.Shape, "ffd_lattice_shape"),

@@ -15,6 +15,7 @@ from ._library import lib
 from ._result import Result
 from ._types import BatchOptions
 from ._views import LOOK, set_look
+from ._wording import worded
 
 Jobs = Union[Path, Iterable[Mapping[str, Any]], None]
 # Options that a batch has arguments for.
@@ -150,7 +151,7 @@ def _result(row: int, line: int, source: str | None, output: str | None, skipped
             own_frame: str | None, data: bytes) -> Result:
     found = declared.ffd_job_result.from_buffer_copy(data)
     error: Error | None = failure(found.status, found.error) if found.status else None
-    lines = log.splitlines()
+    lines = worded(log).splitlines()
     result = Result(found, lines[:-1] if error else lines, outputs)
     result.error, result.input, result.output = error, source, output
     result.skipped, result.line, result.row, result.own_frame = bool(skipped), line, row, own_frame

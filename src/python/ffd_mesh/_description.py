@@ -17,6 +17,7 @@ from ._errors import Error
 from ._lattice import Lattice
 from ._types import Path, ReadOptions, names
 from ._values import faces_of, settings
+from ._wording import worded
 
 AnyLattice = Union[Lattice, Path, bytes]
 Files = Union[Mapping[str, Any], Callable[[str], Any]]
@@ -33,7 +34,7 @@ INPUT_OPTIONS = names(ReadOptions)
 
 @contextlib.contextmanager
 def described(source: Any, lattices: Any, options: Mapping[str, Any], known: Collection[str] = OPTIONS,
-              reword: Callable[[str], str] = str, own: Collection[str] = ()) -> Iterator[tuple[Any, list[str]]]:
+              reword: Callable[[str], str] = worded, own: Collection[str] = ()) -> Iterator[tuple[Any, list[str]]]:
     """Yields the description of a job, and a list that gets its warnings at the end.
 
     source: a path or a `Memory`; lattices: None if the job needs none; known: the options that the job accepts, besides the arguments own, which a
@@ -68,7 +69,7 @@ def embedding_described(source: Any, lattice: AnyLattice, options: Mapping[str, 
 
 @contextlib.contextmanager
 def _logged(desc: Any, source: Any, options: Mapping[str, Any], kept: list[Any],
-            reword: Callable[[str], str] = str) -> Iterator[list[str]]:
+            reword: Callable[[str], str] = worded) -> Iterator[list[str]]:
     """Gives a job its mesh and its options, and keeps alive what it has been given."""
     place(source, desc.input)
     kept += [source, *_set_options(desc, options)]

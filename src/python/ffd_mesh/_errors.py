@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, Sequence
 
 from ._declarations import ENUMERATIONS
+from ._wording import worded
 
 _STATUS: dict[str, int] = ENUMERATIONS["ffd_status"]
 
@@ -108,5 +109,5 @@ def failure(status: int, error: Any) -> Error:
     def text(data: bytes) -> str:
         """Decodes a text of ffd_error."""
         return data.decode("utf-8", "backslashreplace")
-    return _KINDS.get(status, Error)(text(error.message), status=status, file=text(error.file) or None,
+    return _KINDS.get(status, Error)(worded(text(error.message)), status=status, file=text(error.file) or None,
                                      line=error.line or None, pointer=text(error.pointer) or None)

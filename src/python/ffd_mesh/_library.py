@@ -16,6 +16,7 @@ import numpy as np
 from . import _declarations as declared
 from . import _native  # type: ignore[attr-defined]
 from ._errors import Cancelled, failure
+from ._wording import worded
 
 Progress = Callable[[float], "bool | None"]
 
@@ -204,7 +205,7 @@ _LEVELS = {0: logging.WARNING, 1: logging.INFO, 2: logging.DEBUG}
 
 
 @contextlib.contextmanager
-def logged(structure: Any, reword: Callable[[str], str] = str) -> Iterator[list[str]]:
+def logged(structure: Any, reword: Callable[[str], str] = worded) -> Iterator[list[str]]:
     """Passes the log of a job's structure to logging, as "ffd_mesh". Yields a list that gets the warnings at the end.
 
     reword: of each line what is logged
