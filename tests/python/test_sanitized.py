@@ -19,7 +19,7 @@ import test_package
 FLAGS = ["-fsanitize=address,undefined", "-fno-omit-frame-pointer", "-g1", "-O1", "-fPIC"]
 LIBRARIES = ["libffd_core.a", "libffd_loading.a"]
 # Those that count calls, look at memory or time, or run for long.
-CASES = ["case_arrays", "case_results", "case_files", "case_running.Running.test_threads_share_an_embedding",
+CASES = ["case_arrays", "case_results", "case_files", "case_meshes", "case_running.Running.test_threads_share_an_embedding",
          "case_running.Running.test_progress_rises_and_cancels", "case_running.Running.test_an_interrupt_ends_a_call"]
 
 

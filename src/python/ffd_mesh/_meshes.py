@@ -16,7 +16,7 @@ from ._lattice import Lattice
 from ._library import Progress, Run, lib
 from ._mesh_parts import Part, copied
 from ._result import Result, finish, run
-from ._stored import Stored, are_normals, stale, triples, turned_cell_normals, vectors_of
+from ._stored import Stored, are_normals, lengths_of, stale, triples, turned_cell_normals, vectors_of
 from ._types import ControlPoints, Grid, PointOptions, names
 
 _OWN = ("offsets", "weights", "normals", "with_result", "progress")
@@ -50,8 +50,9 @@ def deform_mesh(mesh: Any, lattice: Lattice, Q: ControlPoints | None = None, *, 
     embed: options of `Lattice.embed`: outside, falloff, snap, threads, isa
 
     All arrays of normals turn, of points and of cells: what the mesh says are normals, what "normals" is in the name of, and nx, ny, nz.
-    One that is not of unit vectors, or belongs to neither points nor cells, is removed with a warning. A warning names other arrays
-    that depend on the shape, and stay: of three components, and with names as "tangents", "Area" or "curvature".
+    Those that are no unit vectors keep their lengths, with a warning. An array that does not have three floats for each point or cell is
+    removed with a warning. A warning names other arrays that depend on the shape, and stay: of three components, and with names as
+    "tangents", "Area" or "curvature".
     Warnings are in the log "ffd_mesh" and in result.warnings: what the program would warn of, and that nothing moved.
     Raises TypeError for other kinds of meshes, ValueError for points of another shape, and `Error`. Threads may call it at the same time.
     """
@@ -133,16 +134,17 @@ def _carry(lattice: Lattice, parts: list[Part], points: list[np.ndarray], found:
             _put(part, group, value)
             removed += [array for array in group if value is None]
         carried = {(array.where, array.name) for group in turning for array in group}
-        stays += [array for array in stored if moves and part.leaves(array) and (array.where, array.name) not in carried and (stale(array) or are_normals(array))]
+        left = [array for array in stored if moves and part.leaves(array) and (array.where, array.name) not in carried]
+        stays += [array for array in left if stale(array) or are_normals(array)]
     _name(result, "removed, because they cannot turn: ", removed)
     _name(result, "kept as they were, though the mesh has moved: ", stays)
 
 
 def _name(result: Result, what: str, several: list[Stored]) -> None:
     """Warns of arrays."""
-    names = sorted({f"{array.name!r} of the {array.where}" for array in several})
-    if names:
-        _warn(result, what + ", ".join(names))
+    listed = sorted({f"{array.name!r} of the {array.where}" for array in several})
+    if listed:
+        _warn(result, what + ", ".join(listed))
 
 
 def _unchanged(group: list[Stored]) -> np.ndarray:
@@ -164,11 +166,16 @@ def _turned(part: Part, lattice: Lattice, before: np.ndarray, after: np.ndarray,
     for group in groups:
         where = group[0].where
         value = None if where == "mesh" else vectors_of(group, len(before) if where == "points" else len(cells.kinds))
-        if value is not None and where == "points":
-            turned, collapsed = turned_normals(step, gradients, value)
+        lengths = None if value is None else lengths_of(value)
+        turned = value if value is None or lengths is None else value / lengths[:, None]
+        if turned is not None and where == "points":
+            turned, collapsed = turned_normals(step, gradients, turned)
             if collapsed:
                 result.warnings.append(f"{collapsed} normals have no direction any more, and keep theirs")
-            found.append((group, turned.astype(value.dtype)))
-        else:
-            found.append((group, None if value is None else turned_cell_normals(cells, before, after, gradients, value)))
+        elif turned is not None:
+            turned = turned_cell_normals(cells, before, after, gradients, turned)
+        if turned is not None and lengths is not None:
+            turned *= lengths[:, None]
+            _name(result, "turned, though they are no unit vectors, with their lengths: ", group)
+        found.append((group, None if turned is None or value is None else turned.astype(value.dtype)))
     return found

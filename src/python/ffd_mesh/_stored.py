@@ -47,13 +47,16 @@ def triples(arrays: list[Stored]) -> list[list[Stored]]:
 
 
 def vectors_of(group: list[Stored], count: int) -> np.ndarray | None:
-    """Normals as (count, 3); None: they are no unit vectors of floats, one for each point or cell, or zero."""
+    """Normals as (count, 3); None: they are no vectors of floats, one for each point or cell."""
     value = np.asarray(group[0].value) if len(group) == 1 else np.stack([np.asarray(array.value) for array in group], axis=-1)
-    if value.dtype.kind != "f" or value.shape != (count, 3):
-        return None
-    lengths = np.sqrt((value.astype(np.float64) ** 2).sum(axis=1))
-    lengths = lengths[np.isfinite(lengths) & (lengths > 0)]
-    return value if (np.abs(lengths - 1) < 0.01).all() else None
+    return value if value.dtype.kind == "f" and value.shape == (count, 3) else None
+
+
+def lengths_of(vectors: np.ndarray) -> np.ndarray | None:
+    """The lengths of vectors (N, 3), which are 1 for those without a direction; None: all are 1 within a hundredth."""
+    lengths = np.sqrt((vectors.astype(np.float64) ** 2).sum(axis=1))
+    lengths[~np.isfinite(lengths) | (lengths == 0)] = 1
+    return lengths if (np.abs(lengths - 1) >= 0.01).any() else None
 
 
 def stale(array: Stored) -> bool:
@@ -64,7 +67,7 @@ def stale(array: Stored) -> bool:
 
 
 def turned_cell_normals(cells: Cells, before: np.ndarray, after: np.ndarray, gradients: np.ndarray, normals: np.ndarray) -> np.ndarray:
-    """Turns unit normals (C, 3) of cells with the mesh.
+    """Turns unit normals (C, 3) of cells with the mesh. Threads may call it at the same time.
 
     before, after: its points (N, 3); gradients: of the displacement, (N, 3, 3)
     The part of a normal along that of its face goes to the deformed face's own, in the ratio of their areas; the rest, as all of a
