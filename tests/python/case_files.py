@@ -295,6 +295,7 @@ class Figures(unittest.TestCase):
         result = ffd.positions_bytes(support.ply(points), lattice, name="a.ply").result
         self.assertEqual((result.volume.before, result.faces, result.flipped_faces, result.tear.vertex), (None,) * 4)
         self.assertEqual(result.behind["camera"].names, [])
+        self.assertEqual([name for name in vars(result) if name not in ffd.Result.__annotations__], [])
         checked = ffd.check_bytes(support.ply(points), lattice, name="a.ply")
         self.assertEqual((checked.det.outside, checked.det.outside_vertex), (None, None))
         nothing = ffd.check_bytes(support.ply(np.full((1, 3), np.nan)), lattice, name="a.ply")

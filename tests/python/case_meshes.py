@@ -119,19 +119,21 @@ class Arrays(unittest.TestCase):
     def test_what_cannot_turn_goes_and_what_stays_is_named(self):
         mesh, faces, normals = ball()
         mesh.point_data = {"normals": faces[:162], "long_normals": 2 * normals, "vertex_normals": normals[:, :2], "tangents": np.zeros((162, 4)), "speed": normals,
-                           "heat": normals[:, 0], "color": normals}
+                           "heat": normals[:, 0], "color": normals,
+                           "normal_stress": normals[:, 0]}
         mesh.cell_data = {"CellNormals": [faces[:100], faces[100:]], "Area": [np.ones(100), np.ones(220)]}
         mesh.field_data = {"Normals": normals}
         with self.assertLogs("ffd_mesh", "WARNING") as logged:
             found, result = ffd.deform_mesh(mesh, LATTICE, Q, with_result=True)
-        self.assertEqual(sorted(found.point_data), ["color", "heat", "long_normals", "speed", "tangents"])
+        self.assertEqual(sorted(found.point_data), ["color", "heat", "long_normals", "normal_stress", "speed", "tangents"])
         wanted = LATTICE.deform(LATTICE.embed(mesh.points), Q, normals=normals).normals
         self.assertLess(np.abs(found.point_data["long_normals"] - 2 * wanted).max(), 1e-12)
         self.assertEqual((sorted(found.cell_data), found.field_data), (["Area"], {}))
         self.assertEqual(result.warnings, [
             "turned, though they are no unit vectors, with their lengths: 'long_normals' of the points",
             "removed, because they cannot turn: 'CellNormals' of the cells, 'Normals' of the mesh, 'normals' of the points, 'vertex_normals' of the points",
-            "kept as they were, though the mesh has moved: 'Area' of the cells, 'speed' of the points, 'tangents' of the points"])
+            "kept as they were, though the mesh has moved: 'Area' of the cells, 'normal_stress' of the points, 'speed' of the points, "
+            "'tangents' of the points"])
         self.assertEqual([record.getMessage() for record in logged.records], result.warnings)
         mesh, _, normals = ball()
         mesh.point_data["Normals"] = normals

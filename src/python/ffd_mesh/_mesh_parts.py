@@ -155,7 +155,7 @@ class PyvistaPart(Part):
 
     def arrays(self) -> list[Stored]:
         """What it stores for points, for cells, and for itself."""
-        return [Stored(where, name, np.array(mapping[name]), where != "mesh" and name == mapping.active_normals_name)
+        return [Stored(where, name, np.asarray(mapping[name]), where != "mesh" and name == mapping.active_normals_name)
                 for where, mapping in self._mappings().items() for name in mapping.keys()]
 
     def put(self, array: Stored, value: np.ndarray | None) -> None:

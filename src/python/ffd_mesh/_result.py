@@ -47,11 +47,37 @@ class Result:
     has_flipped: bool
     faces: int | None
     flipped_faces: int | None
+    unused: int
+    hidden: int
+    indices_left: int
+    bytes_left: int
+    bounds_left: int
+    flaw_count: int
+    own_box: bool
+    normals_collapsed: int
+    normals_carried: int
+    transforms_singular: int
     tear: Any
     displacement: Any
+    morph_targets: Any
+    shared_faces: Any
+    residual: Any
+    iterations: Any
+    volume: Any
+    area: Any
+    det: Any
+    edges: Any
+    skin_weights: Any
+    precision: Any
+    splats: Any
+    bounds: Any
+    rig: Any
+    seam: Any
+    weight: Any
     rigid: Any
     behind: Any
     flaws: Any
+    seconds: Any
     # Of a job of a batch:
     error: Error | None
     input: str | None
@@ -103,7 +129,7 @@ def figures(value: Any) -> Any:
     if isinstance(value, declared.ffd_bounds):
         return Group(min=list(value.min), max=list(value.max)) if value.min[0] <= value.max[0] else None
     if not isinstance(value, ctypes.Structure):
-        return _known(plain(value))
+        return plain(value)
     if isinstance(value, declared.ffd_rigid_figures):
         return [figures(part) for part in value.parts[:value.count]]
     known = getattr(value, "is_known", getattr(value, "is_there", True))
@@ -120,14 +146,14 @@ def figures(value: Any) -> Any:
 
 
 def plain(value: Any) -> Any:
-    """Converts ctypes values to Python values, recursively. Structures become dicts."""
+    """Converts ctypes values to Python values, recursively. Structures become dicts; what is not known is None."""
     if isinstance(value, bytes):
         return library.text(value)
     if isinstance(value, ctypes.Array):
         return [plain(entry) for entry in value]
     if isinstance(value, ctypes.Structure):
         return {name: plain(getattr(value, name)) for name, *_ in value._fields_}
-    return value
+    return _known(value)
 
 
 def beside(taken: list[Any], output: str) -> dict[str, bytes]:

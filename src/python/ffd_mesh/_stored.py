@@ -9,6 +9,7 @@ import numpy as np
 
 from ._cells import Cells, areas, means
 
+_NORMALS = {"normal", "normals"}
 _PARTS = ("nx", "ny", "nz")
 # Words in names of arrays that depend on where the points are.
 _MEASURES = {"area", "areas", "volume", "volumes", "length", "lengths", "curvature", "curvatures", "quality", "tangent", "tangents",
@@ -32,8 +33,8 @@ def _words(name: str) -> set[str]:
 
 
 def are_normals(array: Stored) -> bool:
-    """Whether these are normals, by what the mesh or their name says."""
-    return array.is_normals or bool(_words(array.name) & {"normal", "normals"})
+    """Whether these are normals, by what the mesh or their name says. Single numbers of points and cells are none."""
+    return array.is_normals or bool(_words(array.name) & _NORMALS) and (array.where == "mesh" or np.ndim(array.value) == 2)
 
 
 def triples(arrays: list[Stored]) -> list[list[Stored]]:
@@ -63,7 +64,7 @@ def stale(array: Stored) -> bool:
     """Whether an array that is no normals may depend on the shape of the mesh."""
     words, value = _words(array.name), np.asarray(array.value)
     directed = value.ndim == 2 and value.shape[1] == 3 and value.dtype.kind == "f" and not words & _FREE
-    return array.where != "mesh" and (directed or bool(words & _MEASURES))
+    return array.where != "mesh" and (directed or bool(words & (_MEASURES | _NORMALS)))
 
 
 def turned_cell_normals(cells: Cells, before: np.ndarray, after: np.ndarray, gradients: np.ndarray, normals: np.ndarray) -> np.ndarray:
