@@ -238,7 +238,7 @@ static int add_address(PyObject *module, const char *name, uintptr_t address)
     return failed;
 }
 
-/* Arguments of Python that are not called as the members are, or take no keyword. */
+/* Arguments of Python that are not called as the members are, or take no keyword; and flags. */
 static const char *const others[][2] = {
     {"input.format", "input_format="},
     {"in_place", "output=None"},
@@ -251,6 +251,18 @@ static const char *const others[][2] = {
     {"csv", "a table"},
     {"in", "in_="},
     {"look", "how pictures are drawn"},
+    {"blocks", "blocks=True"},
+    {"dry_run", "dry_run=True"},
+    {"force", "force=True"},
+    {"full", "full=True"},
+    {"handles", "handles=True"},
+    {"pages", "pages=True"},
+    {"principal", "principal=True"},
+    {"quality", "quality=True"},
+    {"resume", "resume=True"},
+    {"robust", "robust=True"},
+    {"shared_box", "shared_box=True"},
+    {"stop", "stop=True"},
 };
 
 /* An ffd_spell_function: "falloff=", "outside='extend'". */

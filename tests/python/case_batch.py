@@ -77,7 +77,7 @@ class Batches(unittest.TestCase):
         self.assertTrue(filecmp.cmp("p.png", "v/b.obj.png", shallow=False))
         ffd.view_file(SPOT, "a.png", TWIST, **small)
         self.assertTrue(filecmp.cmp("a.png", "v/a.obj.png", shallow=False))
-        with self.assertRaisesRegex(ffd.ArgumentError, "pages= needs view="):
+        with self.assertRaisesRegex(ffd.ArgumentError, "pages=True needs view="):
             ffd.batch(listed, pages=True)
         with self.assertRaisesRegex(ffd.ArgumentError, "how pictures are drawn needs view="):
             ffd.batch(listed, camera="front")
@@ -124,7 +124,7 @@ class Batches(unittest.TestCase):
         for says, jobs, arguments in (("shard= is not one of", jobs_of("a.obj"), {"shard": (2, 2)}),
                                       ("a list of jobs cannot be used with", jobs_of("a.obj"), {"lattice": TWIST}),
                                       ("of a batch are files", None, {"in_": SPOT, "lattice": lattice, "out_dir": "."}),
-                                      ("shared_box= reads the jobs twice, but its caller gives them only once", iter(jobs_of("a.obj")),
+                                      ("shared_box=True reads the jobs twice, but its caller gives them only once", iter(jobs_of("a.obj")),
                                        {"shared_box": True}),
                                       ("a manifest, or in_=, or a table", None, {})):
             with self.assertRaisesRegex(ffd.ArgumentError, says):

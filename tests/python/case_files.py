@@ -164,7 +164,7 @@ class Files(unittest.TestCase):
                 ({"falloff": 1}, "falloff= needs outside='extend'"),
                 ({"rig": "follow", "as_morph": "a"}, "rig='follow' moves the shape itself, which as_morph= leaves"),
                 ({"rig": "follow", "space": "mesh"}, "rig='follow' moves nodes, which have no place with space='mesh'"),
-                ({"embedding": b"u", "blocks": True}, "embedding= works with one lattice, and not with blocks="),
+                ({"embedding": b"u", "blocks": True}, "embedding= works with one lattice, and not with blocks=True"),
                 ({"clips": "a: 0"}, "clips= needs named lattices"),
                 ({"falloff": -1}, "the falloff -1 is not a length"),
                 ({"only": "node"}, "only=: \"node\" is not KIND:NAME (node, mesh, material, group or object)"),
@@ -174,7 +174,7 @@ class Files(unittest.TestCase):
             self.assertEqual(refused.exception.message, message)
         for lattices, options, message in (
                 ({"a": lattice}, {"as_morph": "b"}, "as_morph= cannot be used with named lattices"),
-                ({"a": lattice}, {"blocks": True}, "blocks= cannot be used with named lattices"),
+                ({"a": lattice}, {"blocks": True}, "blocks=True cannot be used with named lattices"),
                 (lattice, {"output_format": "ply"}, "output=None keeps the format: output_format= cannot be used with it")):
             with self.assertRaises(ffd.ArgumentError) as refused:
                 ffd.deform_file(SPOT, None, lattices, **options)

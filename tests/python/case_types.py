@@ -89,7 +89,7 @@ class Words(unittest.TestCase):
             for run, words in ((lambda: ffd.deform_file(mesh, mesh, lattice), "output=None"),
                                (lambda: ffd.deform_file(mesh, mesh + ".obj", lattice, falloff=1), "falloff= needs outside='extend'"),
                                (lambda: ffd.deform_file(mesh, mesh + ".obj", lattice, embedding=b"x" * 200), "embed_file"),
-                               (lambda: ffd.jacobian_file(mesh, mesh + ".npz", lattice), "force="),
+                               (lambda: ffd.jacobian_file(mesh, mesh + ".npz", lattice), "force=True overwrites it"),
                                (lambda: ffd.jacobian_file(mesh, mesh + ".npy", lattice, wrt="points", by="points"), "give one"),
                                (lambda: ffd.jacobian_file(mesh, mesh + ".npy", lattice, wrt="pts"), "wrt must be one of 'points', 'parameters'"),
                                (lambda: ffd.deform_file(mesh, mesh + ".obj", lattice, fail_on="folds,holes"), "fail_on must be one of"),
