@@ -192,6 +192,9 @@ class Results(unittest.TestCase):
             found = ffd.deform_mesh(meshio.Mesh(mesh.points.astype(kind), mesh.cells, point_data={"normals": normals.astype(kind)}), LATTICE, Q)
             self.assertLess(np.abs(found.points - wanted).max(), 1e-6)
             self.assertTrue(found.point_data["normals"].dtype == np.dtype(kind) and found.points.dtype == np.dtype(kind).newbyteorder("="))
+        for kind in ("u8", "i4", "u1", ">i8"):
+            several = meshio.Mesh(mesh.points, [("triangle", faces.astype(kind)), ("line", np.array([[0, 161]], "i8"))])
+            self.assertEqual(ffd.deform_mesh(several, LATTICE, Q, with_result=True)[1].faces, 320)
         whole = ffd.deform_mesh(meshio.Mesh(np.array([[0, 0, 0], [1, 0, 1]]), [("line", [[0, 1]])]), LATTICE, Q)
         self.assertTrue(np.array_equal(whole.points, LATTICE.deform(LATTICE.embed(np.array([[0., 0, 0], [1, 0, 1]])), Q)))
         none, result = ffd.deform_mesh(meshio.Mesh(np.empty((0, 3)), []), LATTICE, Q, with_result=True)

@@ -63,7 +63,7 @@ class Surface(NamedTuple):
 def rows(points: np.ndarray, kind: int) -> Cells:
     """Cells of one kind, (C, k)."""
     count, corners = points.shape
-    return Cells(points.reshape(-1), np.arange(count + 1) * corners, np.full(count, kind, np.uint8))
+    return Cells(points.reshape(-1).astype(np.int64), np.arange(count + 1) * corners, np.full(count, kind, np.uint8))
 
 
 def joined(several: list[Cells], first: list[int]) -> Cells:
@@ -79,6 +79,8 @@ def joined(several: list[Cells], first: list[int]) -> Cells:
 def _groups(cells: Cells) -> list[tuple[int, np.ndarray, np.ndarray]]:
     """The cells by kind and number of points: the kind, which cells, and their points (C, k)."""
     sizes = np.diff(cells.offsets)
+    if len(sizes) and (sizes == sizes[0]).all() and (cells.kinds == cells.kinds[0]).all():
+        return [(int(cells.kinds[0]), np.arange(len(sizes)), cells.connectivity.reshape(len(sizes), -1))]
     found = []
     for kind in np.unique(cells.kinds):
         of_kind = np.flatnonzero(cells.kinds == kind)
@@ -112,13 +114,21 @@ def _edges_of(faces: np.ndarray) -> np.ndarray:
     return np.stack([faces, np.roll(faces, -1, axis=1)], axis=-1).reshape(-1, 2)
 
 
+def _each_once(edges: np.ndarray) -> np.ndarray:
+    """Edges (E, 2), each once, in whatever direction it is there."""
+    width = int(edges.max(initial=0)) + 1  # far below 2**31: a PLY has no more points
+    a, b = edges[:, 0], edges[:, 1]
+    keys = np.sort(np.minimum(a, b) * width + np.maximum(a, b))  # faster than numpy.unique, which hashes them
+    keys = keys[np.diff(keys, prepend=-1) != 0]
+    return np.stack([keys // width, keys % width], axis=-1)
+
+
 def _runs(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """An order of rows in which equal ones follow each other, and which of them, in that order, are the first of their kind."""
     width = int(rows.max(initial=0)) + 1
-    # Pairs of columns as one number, as far as they fit: fewer keys to sort by.
-    keys = [rows[:, c] if c + 1 == rows.shape[1] else rows[:, c] * width + rows[:, c + 1] for c in range(0, rows.shape[1], 2)] \
-        if width < 2**31 else list(rows.T)
-    order = np.lexsort(keys) if len(keys) > 1 else np.argsort(keys[0], kind="stable")
+    # Pairs of columns as one number: fewer keys to sort by.
+    keys = [rows[:, c] if c + 1 == rows.shape[1] else rows[:, c] * width + rows[:, c + 1] for c in range(0, rows.shape[1], 2)]
+    order = np.lexsort(keys)
     first = np.ones(len(rows), bool)
     first[1:] = np.logical_or.reduce([key[order[1:]] != key[order[:-1]] for key in keys])
     return order, first
@@ -152,9 +162,7 @@ def surface(cells: Cells) -> Surface:
         elif kind not in _POINTS:
             unknown.append(kind)
     outer, inside = _outer(inner)
-    joint = np.sort(np.concatenate(edges + inside), axis=1)
-    order, first = _runs(joint)
-    joint, faces = joint[order[first]], [face for face in faces + outer if len(face)]
+    joint, faces = _each_once(np.concatenate(edges + inside)), [face for face in faces + outer if len(face)]
     alone = np.zeros(int(cells.connectivity.max(initial=-1)) + 1, bool)
     alone[cells.connectivity] = True
     for seen in (joint, *faces):
