@@ -30,7 +30,8 @@ class Lattice:
     """A control lattice: a B-spline volume with nu x nv x nw control points, each with a rest and a deformed position.
 
     Immutable, so threads may share it. Can be pickled. Arrays of control points have the shape (nu, nv, nw, 3), in Python's
-    order: P[i, j, k], w fastest. (Lattice files and the C library have u fastest.) Lengths are in the units of the points.
+    order: P[i, j, k], w fastest. (Lattice files and the C library have u fastest.) Lengths are in the units of the points. Arrays are taken
+    with any real number type and byte order; they are copied as float64, except points (see `embed`).
     """
 
     _owned: Owned
