@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import json
 import os
-from typing import Any, Callable, Iterable, Mapping, Literal, Sequence, Union, Unpack
+from typing import Any, Callable, Iterable, Literal, Mapping, Sequence, Union, Unpack
 
 from . import _declarations as declared
 from . import _library as library

@@ -43,8 +43,8 @@ def _columns(wrt: str | None, by: str | None) -> int:
     """What the columns are of."""
     if wrt is not None and by is not None:
         raise ValueError("wrt= and by= are the same: give one of them")
-    what = "by" if by is not None else "wrt"
-    return library.value_of("ffd_jacobian_by", "points" if wrt is by is None else wrt or by, what)
+    word, what = (wrt, "wrt") if by is None else (by, "by")
+    return library.value_of("ffd_jacobian_by", "points" if word is None else word, what)
 
 
 def _jacobian(source: Any, output: Any, lattices: Any, taken: list[Any] | None, wrt: str | None, by: str | None, components: bool, of: int | None,
