@@ -83,6 +83,7 @@ def _deformed(lattice: Lattice, points: np.ndarray, parts: list[Part], quality: 
         return line.replace(f" of {count + len(seen.edges)} face", f" of {count} face") if line.endswith("turned over") else line
     with described(memory, lattice, embed, names(PointOptions), reword, _OWN) as (desc, warnings), library.progress_into(desc, progress):
         desc.quality, desc.input.format = quality, library.value_of("ffd_format", "ply", "format")
+        desc.input.memory = 2**62  # the mesh is in memory already, and no file that may lie about its size
         library.positions_into(desc, taken)
         raw, raised = run(lib.ffd_deform_run, desc)
     result = finish(raw, raised, warnings)
