@@ -20,7 +20,7 @@ from ._errors import InvalidError
 from ._library import Owned, Progress, Run, call, lib
 from ._types import (ControlPoints, Counts, Degrees, Direction, Doubles, Floats, Grid, Half, Indices, Isa, KnotWords, Knots, Numbers, Order, Outside,
                      Part, Path, Row, Rows, Shape, Spacing, Sparse, Triangles, Volume)
-from ._values import (Deformed, FoldBarrier, Folds, Parameter, box_content, box_desc, csr, described, direction_of, faces_of, folds_of, parameters, parameters_of, settings, three,
+from ._values import (Deformed, FoldBarrier, Folds, Parameter, box_content, box_desc, csr, described, direction_of, faces_of, finite, folds_of, parameters, parameters_of, settings, three,
                       triangles_of, vertices_of, wishes_of)
 
 REST, DEFORMED = declared.ENUMERATIONS["ffd_volume"].values()
@@ -252,10 +252,10 @@ class Lattice:
         points = arrays.vectors(points, "points")
         if not lib.ffd_lattice_needs_bounds(self._pointer):
             return self
-        finite = points[np.isfinite(points).all(axis=1)]
-        if not len(finite):
+        known = points[np.isfinite(points).all(axis=1)]
+        if not len(known):
             raise ValueError("points has no finite point")
-        return self._fit(np.array([finite.min(axis=0), finite.max(axis=0)], np.float64))
+        return self._fit(np.array([known.min(axis=0), known.max(axis=0)], np.float64))
 
     def _fit(self, bounds: np.ndarray) -> Lattice:
         copy = self._copy()
@@ -544,7 +544,7 @@ class Lattice:
         call(lib.ffd_folds_find, lattice._pointer, library.integer(threads, "threads"), ctypes.byref(found))
         return folds_of(found)
 
-    def fold_barrier(self, Q: Any = None, *, floor: float = 0.1, embedding: Embedding | None = None, threads: int = 0) -> FoldBarrier:
+    def fold_barrier(self, Q: ControlPoints | None = None, *, floor: float = 0.1, embedding: Embedding | None = None, threads: int = 0) -> FoldBarrier:
         """A smooth measure of folding with its gradient, for optimizers: sum max(0, floor - c)^2 over the Bernstein coefficients c of det J of
         the deformed volume, 3 degree a direction in each span cell, relative to the mean of det J at rest (src/maths.md 10.7). Where
         the value is 0 and floor > 0 the volume does not fold in these cells; it may be above 0 where nothing folds.
@@ -560,7 +560,7 @@ class Lattice:
         call(lib.ffd_folds_barrier, self._pointer, None if points is None else arrays.address(points), library.real(floor, "floor"),
              None if uvw is None else arrays.address(uvw), 0 if uvw is None else len(uvw), library.integer(threads, "threads"),
              ctypes.byref(found), arrays.address(gradient))
-        return FoldBarrier(found.least, found.value, np.ascontiguousarray(gradient.transpose(2, 1, 0, 3)))
+        return FoldBarrier(finite(found.least), found.value, np.ascontiguousarray(gradient.transpose(2, 1, 0, 3)))
 
     def __repr__(self) -> str:
         return f"<Lattice {'x'.join(map(str, self.size))}, degree {', '.join(map(str, self.degree))}>"
