@@ -138,6 +138,47 @@ FFD_API ffd_status ffd_embedding_deform_some_weighted(const ffd_embedding *embed
                                                       double *gradients, const ffd_run_options *options,
                                                       ffd_error *error);
 
+/* Deforms the points of an embedding by many variants of the control points, with the bits of a call of
+   ffd_embedding_deform for each.
+   - rows: the number of variants, K.
+   - offsets: K x n x 3 doubles, u fastest: for each variant the displacements of all n control points from
+     rest, as ffd_lattice_set_offsets takes them.
+   - in: the N points that were embedded.
+   - out: K N points, those of variant k from k N on. It must not overlap in or offsets; with K = 1 it may be
+     the same array as in.
+   - options: may be NULL. Threads share the variants and the points; progress is told once in a while.
+
+   A failure that concerns a variant names it, if there are several. Memory: 60 bytes a point, kept by the
+   embedding from the first such call on, and for each thread 24 n bytes for each of up to eight variants, or
+   less. Thread-safe. Errors: as of ffd_lattice_set_offsets and ffd_embedding_deform. */
+FFD_API ffd_status ffd_embedding_deform_many(const ffd_embedding *embedding, size_t rows,
+                                             const double *offsets, ffd_span in, ffd_span out,
+                                             const ffd_run_options *options, ffd_error *error);
+
+/* Many variants of the control points, in other forms. Fill with ffd_variants_init, then set count and
+   values. All arrays are used during the call only. */
+typedef struct ffd_variants {
+    size_t struct_size;   /* sizeof(ffd_variants) in the caller's header */
+    size_t count;         /* K */
+    const double *values; /* K x n x 3: displacements from rest, or deformed control points */
+    bool are_points;      /* deformed control points; default: displacements from rest */
+    bool w_fastest;       /* w is the fastest index of the control points, then v; default: u, as elsewhere */
+    const double *control_weights; /* n weights of the deformed volume, for all variants, in that order; NULL
+                                      (default): those at rest */
+    const double *weights; /* N weights of the points, for all variants, as ffd_embedding_deform_weighted
+                              takes them; NULL (default): all are 1 */
+} ffd_variants;
+
+/* Sets variants to defaults. size: sizeof(ffd_variants) in the caller's header. */
+FFD_API void ffd_variants_init(ffd_variants *variants, size_t size);
+
+/* As ffd_embedding_deform_many, for variants in other forms. With weights of control points each variant
+   costs what a call of its own does. Errors also: as of ffd_lattice_set_weights and
+   ffd_embedding_deform_weighted. */
+FFD_API ffd_status ffd_embedding_deform_variants(const ffd_embedding *embedding, const ffd_variants *variants,
+                                                 ffd_span in, ffd_span out, const ffd_run_options *options,
+                                                 ffd_error *error);
+
 /* Finds the slope g of weights on a surface: on a triangle it is the vector in its plane with g . e = the
    difference of the weights along each edge e; at a point it is the mean over the triangles round its
    position, weighted by their areas (src/maths.md 9.7). Points at equal positions have one slope; 0 at points

@@ -117,6 +117,9 @@ static inline const double *ffd_batch_uvw(const displacement_batch *batch, size_
    batch of a new lattice, which could have the address of a destroyed one. */
 void ffd_displacement_scratch_clear(displacement_scratch *scratch);
 
+/* Returns the kernels of an instruction set; FFD_ISA_AUTO: of the best available one. */
+const cell_kernels *ffd_cell_kernels(ffd_isa isa);
+
 /* Computes ffd_displacement for every point of the batch, with the same bits, independently of the
    instruction set and of the other points. scratch: NULL for a few points, which groups would slow down. */
 void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displacement_batch *batch,

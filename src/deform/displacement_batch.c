@@ -10,6 +10,11 @@ static const cell_kernels kernels[] = {
     [FFD_ISA_SCALAR] = {ffd_extraction_kernel_scalar, ffd_kernel_scalar, ffd_slope_kernel_scalar},
     FOR_EACH_SIMD(ROW)};
 
+const cell_kernels *ffd_cell_kernels(ffd_isa isa)
+{
+    return &kernels[ffd_isa_resolve(isa)];
+}
+
 /* Returns the cell of the batch with these spans, and adds it if it is new. */
 static size_t take_cell(const size_t span[3], size_t key, displacement_scratch *scratch)
 {
@@ -422,7 +427,7 @@ void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displaceme
         displace_singly(lattice, batch);
         return;
     }
-    const cell_kernels *const kernel = &kernels[ffd_isa_resolve(isa)];
+    const cell_kernels *const kernel = ffd_cell_kernels(isa);
     const bool gradients = batch->gradient && !batch->only_turns;
     begin_cells(lattice, gradients ? CELL_GRADIENTS : CELL_VALUES, &scratch->kept);
     if (batch->turns)

@@ -25,11 +25,6 @@ bool ffd_displacement_reaches(const ffd_lattice *lattice, const int span[3])
    then the end of the domain. */
 typedef enum span_place { ON_FIRST_KNOT, BETWEEN_KNOTS, ON_LAST_KNOT, SPAN_PLACES } span_place;
 
-/* A range of the degree + 1 functions of a span: first to first + count - 1. */
-typedef struct function_range {
-    int first, count;
-} function_range;
-
 /* Returns the functions that are not 0 at a place. At a knot of multiplicity m there are m fewer than between
    knots; at the end of a clamped direction there is one. */
 static function_range acting_at(const knot_vector *knots, int span, span_place place)
@@ -50,6 +45,11 @@ static span_place place_of(const knot_vector *knots, int span, double u)
 {
     const double *const t = knots->t + span;
     return u <= t[0] ? ON_FIRST_KNOT : u < t[1] ? BETWEEN_KNOTS : ON_LAST_KNOT;
+}
+
+function_range ffd_displacement_acting(const knot_vector *knots, int span, double u)
+{
+    return acting_at(knots, span, place_of(knots, span, u));
 }
 
 /* Returns the index of the control point of function i of a span. */

@@ -51,6 +51,14 @@ void ffd_displacement_spans(const ffd_lattice *lattice, const size_t index[3], i
 void ffd_displacement_cell_begin(const ffd_lattice *lattice, const size_t index[3], cell_use use,
                                  const double *numbers, kernel_cell *cell);
 
+/* A range of the degree + 1 functions of a span: first to first + count - 1. */
+typedef struct function_range {
+    int first, count;
+} function_range;
+
+/* Returns the functions of a span that are not 0 at u. */
+function_range ffd_displacement_acting(const knot_vector *knots, int span, double u);
+
 /* Wraps u,v,w into the domain: closed directions modulo their period. */
 void ffd_displacement_wrap(const ffd_lattice *lattice, const double uvw[3], double inside[3]);
 

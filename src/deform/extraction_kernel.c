@@ -1,8 +1,9 @@
 /* extraction_kernel.c - compiled once for each instruction set; FFD_EXTRACTION_KERNEL is the name of the
    function. It converts the control points of a cell to weighted Bezier points (NURBS Book 5.3): N_j = sum_r
-   E_rj B_r, so Bezier point r in a direction is sum_j E_rj P_j, in ascending j. The rows of E are weighted
-   (bezier.h). */
+   E_rj B_r, so Bezier point r in a direction is sum_j E_rj P_j, in ascending j, over the j for which E_rj can
+   be other than 0 (extraction_band.h). The rows of E are weighted (bezier.h). */
 #include "base/vector/quad.h"
+#include "deform/extraction_band.h"
 #include "deform/kernel.h"
 #include <stdbool.h>
 #include <string.h>
@@ -11,13 +12,15 @@
 static ALWAYS_INLINE void combine_rows(const double *extraction, size_t order, size_t inner,
                                        const double *restrict from, double *restrict to)
 {
-    for (size_t r = 0; r < order; r++, extraction += order, to += inner)
+    for (size_t r = 0; r < order; r++, extraction += order, to += inner) {
+        const size_t first = band_first(r), last = band_last(r, order);
         for (size_t x = 0; x < inner; x++) {
-            double sum = extraction[0] * from[x];
-            for (size_t j = 1; j < order; j++)
+            double sum = extraction[first] * from[first * inner + x];
+            for (size_t j = first + 1; j <= last; j++)
                 sum += extraction[j] * from[j * inner + x];
             to[x] = sum;
         }
+    }
 }
 
 /* The same for single points, as quads: a point and one number after it, which the next point overwrites. */
@@ -26,9 +29,11 @@ static ALWAYS_INLINE void combine_points(const double *extraction, const double 
     quad point[4];
     for (int j = 0; j < 4; j++)
         point[j] = quad_load(from + 3 * j);
-    for (int r = 0; r < 4; r++, extraction += 4) {
-        quad sum = quad_times(extraction[0], &point[0]);
-        for (int j = 1; j < 4; j++)
+#pragma GCC unroll 4
+    for (size_t r = 0; r < 4; r++, extraction += 4) {
+        const size_t first = band_first(r);
+        quad sum = quad_times(extraction[first], &point[first]);
+        for (size_t j = first + 1; j <= band_last(r, 4); j++)
             quad_add(&sum, extraction[j], &point[j]);
         quad_store(&sum, to + 3 * r);
     }

@@ -6,13 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The points of cell c are points[starts[c]] .. points[starts[c+1] - 1]. */
-typedef struct cell_lists {
-    size_t cells;
-    size_t *starts; /* cells + 1 */
-    uint32_t *points;
-} cell_lists;
-
 struct cell_index {
     _Atomic(cell_lists *) made;
 };
@@ -98,8 +91,7 @@ static cell_lists *make_lists(const ffd_embedding *embedding)
     return lists;
 }
 
-/* Returns the lists, and makes them on first use. NULL if memory runs out. */
-static const cell_lists *lists_of(const ffd_embedding *embedding)
+const cell_lists *ffd_cell_lists(const ffd_embedding *embedding)
 {
     cell_lists *there = atomic_load_explicit(&embedding->index->made, memory_order_acquire);
     if (there)
@@ -180,7 +172,7 @@ ffd_status ffd_embedding_affected(const ffd_embedding *embedding, const size_t *
         if (control_points[i] >= lattice->count)
             return ffd_fail(error, FFD_E_ARGUMENT, "there is no control point %zu: the lattice has %zu",
                             control_points[i], lattice->count);
-    const cell_lists *const lists = lists_of(embedding);
+    const cell_lists *const lists = ffd_cell_lists(embedding);
     uint8_t *const spans = ffd_alloc(knots[0].span_count + knots[1].span_count + knots[2].span_count, 1);
     uint8_t *const cells = lists ? ffd_alloc_zero(lists->cells, 1) : NULL;
     ffd_status status;

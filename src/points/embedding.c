@@ -8,6 +8,7 @@
 #include "embed/near_border.h"
 #include "lattice/rest_hash.h"
 #include "mesh/rounding.h"
+#include "points/point_cells.h"
 #include "points/point_run.h"
 #include "points/span.h"
 #include <math.h>
@@ -189,6 +190,7 @@ ffd_status ffd_embedding_make(const ffd_lattice *lattice, size_t count, ffd_embe
     made->uvw = ffd_alloc_whole(count, 3 * sizeof *made->uvw);
     made->status = ffd_alloc(count, sizeof *made->status);
     made->index = ffd_cell_index_create();
+    atomic_init(&made->sorted, NULL);
     if (made->uvw && made->status && made->index && ffd_lattice_copy(lattice, &made->rest, NULL) == FFD_OK) {
         made->rest_hash = ffd_rest_hash(made->rest);
         return FFD_OK;
@@ -227,6 +229,7 @@ void ffd_embedding_destroy(ffd_embedding **embedding)
     ffd_free((*embedding)->status);
     ffd_free((*embedding)->extended);
     ffd_cell_index_destroy((*embedding)->index);
+    ffd_point_cells_destroy(atomic_load(&(*embedding)->sorted));
     ffd_free(*embedding);
     *embedding = NULL;
 }

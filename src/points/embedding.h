@@ -7,6 +7,7 @@
 #include "embed/boundary/boundary.h"
 #include "lattice/lattice.h"
 #include <ffd/points.h>
+#include <stdatomic.h>
 
 /* A point without u,v,w that gets the displacement of its nearest border point. */
 typedef struct extended_point {
@@ -23,7 +24,8 @@ struct ffd_embedding {
     double falloff;
     extended_point *extended; /* extended_count entries, sorted by point */
     size_t extended_count;
-    struct cell_index *index; /* the points of each span cell, made on first use (affected.c) */
+    struct cell_index *index;             /* the points of each span cell, made on first use (affected.c) */
+    _Atomic(struct point_cells *) sorted; /* the points cell by cell, likewise (point_cells.h) */
 };
 
 /* Makes an embedding with a copy of the lattice and with uninitialised arrays for count points. Errors:
@@ -45,6 +47,18 @@ size_t ffd_embedding_first_extended(const ffd_embedding *embedding, size_t point
 struct cell_index *ffd_cell_index_create(void);
 /* Destroys the index; NULL is allowed. */
 void ffd_cell_index_destroy(struct cell_index *index);
+
+/* The points of cell c are points[starts[c]] .. points[starts[c+1] - 1]: those with u,v,w and then the
+   extended ones, each in ascending order. Cells are numbered by their spans that are not empty, u fastest. */
+typedef struct cell_lists {
+    size_t cells;
+    size_t *starts; /* cells + 1 */
+    uint32_t *points;
+} cell_lists;
+
+/* Returns the lists of an embedding, which has them from the first call on. NULL if memory runs out.
+   Thread-safe. */
+const cell_lists *ffd_cell_lists(const ffd_embedding *embedding);
 
 /* Checks that a lattice has the rest volume of the embedding. Errors: FFD_E_INVALID, FFD_E_ARGUMENT (no
    control points). */

@@ -9,11 +9,12 @@ void ffd_run_options_init(ffd_run_options *options, size_t size)
     ffd_struct_give(&defaults, sizeof defaults, options, size);
 }
 
-ffd_status ffd_point_run_begin(const ffd_run_options *options, size_t total, point_run *run, ffd_error *error)
+static ffd_status begin(const ffd_run_options *options, size_t total, size_t tile, point_run *run,
+                        ffd_error *error)
 {
-    *run = (point_run){.total = total, .passes = 1};
+    *run = (point_run){.total = total, .tile = tile, .passes = 1};
     ffd_run_options_init(&run->options, sizeof run->options);
-    const size_t tiles = total / POINT_TILE + 1;
+    const size_t tiles = tile == 1 ? total : total / tile + 1;
     TRY(options ? ffd_struct_take(&run->options, sizeof run->options, options, "ffd_run_options", error)
                 : FFD_OK);
     TRY(ffd_threads_check(run->options.threads, error));
@@ -28,6 +29,17 @@ ffd_status ffd_point_run_begin(const ffd_run_options *options, size_t total, poi
     run->errors = ffd_alloc_zero(threads, sizeof *run->errors);
     run->tiles = ffd_alloc_zero(threads, sizeof *run->tiles);
     return run->statuses && run->errors && run->tiles ? FFD_OK : ffd_fail_memory(error);
+}
+
+ffd_status ffd_point_run_begin(const ffd_run_options *options, size_t total, point_run *run, ffd_error *error)
+{
+    return begin(options, total, POINT_TILE, run, error);
+}
+
+ffd_status ffd_point_run_begin_pieces(const ffd_run_options *options, size_t total, point_run *run,
+                                      ffd_error *error)
+{
+    return begin(options, total, 1, run, error);
 }
 
 void ffd_point_run_end(point_run *run)
@@ -77,7 +89,7 @@ ffd_status ffd_point_run_tiles(point_run *run, point_function function, void *co
 {
     tile_context work = {run, function, context};
     int first = -1;
-    ffd_parallel_tiles(run->total, POINT_TILE, run->options.threads, run_tile, &work);
+    ffd_parallel_tiles(run->total, run->tile, run->options.threads, run_tile, &work);
     /* Other threads may have done all tiles; the caller gets a chance to cancel all the same. */
     if (run->total > 0 && !run->reported && !atomic_load(&run->stopped))
         report_progress(run, run->total, 0);

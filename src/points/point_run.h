@@ -13,6 +13,7 @@
 typedef struct point_run {
     ffd_run_options options; /* threads is at least 1 */
     size_t total;
+    size_t tile;   /* of so many points; default POINT_TILE */
     size_t passes; /* over all points; default 1 */
     atomic_size_t done;
     atomic_bool stopped;  /* a failure, or the caller cancelled: skip the remaining tiles */
@@ -29,6 +30,9 @@ typedef ffd_status (*point_function)(void *context, size_t first, size_t count, 
    FFD_E_ARGUMENT, FFD_E_MEMORY. */
 ffd_status ffd_point_run_begin(const ffd_run_options *options, size_t total, point_run *run,
                                ffd_error *error);
+/* The same for `total` pieces of work, each of which is a tile. */
+ffd_status ffd_point_run_begin_pieces(const ffd_run_options *options, size_t total, point_run *run,
+                                      ffd_error *error);
 /* Calls function for all tiles. Returns the failure of the lowest tile that failed, or FFD_E_CANCELLED. */
 ffd_status ffd_point_run_tiles(point_run *run, point_function function, void *context, ffd_error *error);
 /* Frees the memory of a run. */

@@ -50,8 +50,36 @@ def output(value: Any, what: str, count: int) -> np.ndarray:
     return array
 
 
+def outputs(value: Any, what: str, shape: tuple[int, int, int]) -> np.ndarray:
+    """Checks that value is an array of this shape, (K, N, 3), that results can be written to."""
+    if not isinstance(value, np.ndarray):
+        raise TypeError(f"{what} must be an array of numpy, not {type(value).__name__}")
+    if isinstance(value, np.ma.MaskedArray):
+        raise TypeError(f"{what} must not be a masked array: its mask would be ignored")
+    if value.dtype not in _NUMBERS:
+        raise TypeError(f"{what} must be float32 or float64 in the machine's byte order, not {value.dtype}")
+    if value.shape != shape:
+        raise ValueError(f"{what} must have the shape {shape}, not {value.shape}")
+    if not value.flags.writeable:
+        raise ValueError(f"{what} is read-only")
+    if _repeats(value):
+        raise ValueError(f"{what} has elements that share their memory")
+    return value
+
+
+def rows_span(array: np.ndarray) -> ffd_span | None:
+    """An ffd_span of all rows of a (K, N, 3) array, which must outlive it; None: they are not evenly spaced."""
+    variants, count, _ = array.shape
+    if array.size == 0:
+        return ffd_span(None, variants * count, _NUMBERS[array.dtype], 0, 0)
+    if count > 1 and variants > 1 and array.strides[0] != count * array.strides[1]:
+        return None
+    stride = array.strides[1] if count > 1 else array.strides[0]
+    return ffd_span(address(array), variants * count, _NUMBERS[array.dtype], stride, array.strides[2])
+
+
 def _repeats(array: np.ndarray) -> bool:
-    """Whether elements of an (N, 3) array share memory because of its strides, so that they must not be written in parallel.
+    """Whether elements of an array share memory because of its strides, so that they must not be written in parallel.
     Strides that merely interleave elements count too; slices do not have such strides."""
     reach = array.itemsize
     for stride, count in sorted((abs(stride), count) for stride, count in zip(array.strides, array.shape) if count > 1):

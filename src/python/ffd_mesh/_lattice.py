@@ -13,6 +13,7 @@ import numpy as np
 from . import _arrays as arrays
 from . import _declarations as declared
 from . import _library as library
+from . import _variants as variants
 from ._convert import convert, is_other
 from ._directions import turned_normals, turned_tangents
 from ._embedding import Embedding
@@ -426,9 +427,11 @@ class Lattice:
         """Deforms the embedded points. Returns an array (N, 3) of the points' type, computed in double and rounded once; or a
         `Deformed`, if normals, tangents or gradients are given.
 
-        Q, offsets, weights: as in `moved`; without them this lattice's own deformed control points are used
+        Q, offsets, weights: as in `moved`; without them this lattice's own deformed control points are used. K variants of Q or
+                             of offsets, (K, nu, nv, nw, 3), give (K, N, 3), each with the bits of a call of its own; weights= and
+                             weight= are one set for all. With variants there are no normals, tangents, gradients and vertices
         points: the points at rest, if the array given to `embed` has changed since
-        out: (N, 3), float32 or float64 with any strides, for the result; may be the array points=
+        out: (N, 3), or (K, N, 3), float32 or float64 with any strides, for the result; may be the array points= of one variant
         vertices: indices, ascending: deform only these. Other rows of out are unchanged or, without out, at rest
         normals, tangents: (N, 3), transformed to the deformed surface; the results are unit vectors of the same type
         gradients: True: also return the gradients of the displacement
@@ -438,10 +441,16 @@ class Lattice:
 
         Points that do not move keep their bits. After an exception the content of out is undefined.
         """
+        wanted = gradients or normals is not None or tangents is not None
+        run = Run(threads, isa, progress)
+        if variants.are_many(self, Q, offsets):
+            if wanted or vertices is not None:
+                raise ValueError("normals, tangents, gradients and vertices are for one Q, not for (K, nu, nv, nw, 3)")
+            return variants.deform(self, run, embedding, Q, offsets, weights, points, out, weight, triangles)
+        if (Q is not None or offsets is not None) and not wanted and vertices is None and triangles is None:
+            return variants.deform_one(self, run, embedding, Q, offsets, weights, points, out, weight)
         lattice = self.moved(Q, offsets=offsets, weights=weights)
         source, out = self._source_and_out(embedding, points, out, vertices)
-        run = Run(threads, isa, progress)
-        wanted = gradients or normals is not None or tangents is not None
         if vertices is not None and wanted:
             raise ValueError("normals, tangents and gradients need all vertices")
         count = len(source)

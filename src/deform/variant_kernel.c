@@ -1,0 +1,246 @@
+/* variant_kernel.c - compiled once for each instruction set; FFD_VARIANT_KERNEL is the name of its table,
+   FFD_LANES the number of SIMD lanes, each with one variant.
+
+   Each lane has the operations of extraction_kernel.c and kernel.c, in the same order, so that it has their
+   bits. What depends on a point and not on the variant is computed once for all lanes. */
+#include "deform/variant_kernel.h"
+#include "deform/extraction_band.h"
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+#if FFD_LANES == 1
+typedef double lanes;
+typedef int64_t mask;
+#else
+#include "base/vector/lanes.h"
+#endif
+
+static ALWAYS_INLINE lanes take(const variant_numbers *from)
+{
+    lanes taken;
+    memcpy(&taken, from, sizeof taken);
+    return taken;
+}
+
+static ALWAYS_INLINE void put(lanes values, variant_numbers *to)
+{
+    memcpy(to, &values, sizeof values);
+}
+
+/* Whether all lanes of a mask are true. */
+static ALWAYS_INLINE bool all_true(mask which)
+{
+#if FFD_LANES == 1
+    return which != 0;
+#else
+    return !lanes_any(~which);
+#endif
+}
+
+/* Bezier point r along a direction, of control points that are `step` registers apart. */
+static ALWAYS_INLINE lanes combine(const double *extraction, size_t order, size_t r, const lanes *from,
+                                   size_t step)
+{
+    const double *const row = extraction + r * order;
+    const size_t first = band_first(r), last = band_last(r, order);
+    lanes sum = row[first] * from[first * step];
+    for (size_t j = first + 1; j <= last; j++)
+        sum += row[j] * from[j * step];
+    return sum;
+}
+
+/* Converts a row of control points to Bezier form along u. */
+static ALWAYS_INLINE void extract_row(const variant_cell *cell, const int degree[3], size_t start, lanes *to)
+{
+    const size_t order = (size_t)degree[0] + 1;
+    lanes from[3 * MAX_ORDER];
+#pragma GCC unroll 4
+    for (size_t i = 0; i < order; i++)
+        for (size_t c = 0; c < 3; c++)
+            from[3 * i + c] = take(cell->field + FFD_LANES * (3 * (start + cell->at[0][i]) + c));
+#pragma GCC unroll 4
+    for (size_t r = 0; r < order; r++)
+        for (size_t c = 0; c < 3; c++)
+            to[3 * r + c] = combine(cell->extraction[0], order, r, from + c, 3);
+}
+
+/* Converts plane k of a cell to Bezier form along u and v. */
+static ALWAYS_INLINE void extract_plane(const variant_cell *cell, const int degree[3], int k,
+                                        variant_numbers *to)
+{
+    const size_t order = (size_t)degree[1] + 1, inner = 3 * ((size_t)degree[0] + 1);
+    lanes rows[3 * MAX_ORDER * MAX_ORDER];
+    for (size_t j = 0; j < order; j++)
+        extract_row(cell, degree, cell->at[1][j] + cell->at[2][k], rows + inner * j);
+    for (size_t x = 0; x < inner; x++)
+#pragma GCC unroll 4
+        for (size_t r = 0; r < order; r++)
+            put(combine(cell->extraction[1], order, r, rows + x, inner), to + FFD_LANES * (inner * r + x));
+}
+
+/* Converts planes to Bezier form along w. from: the planes, in their order. */
+static ALWAYS_INLINE void extract_depth(const variant_cell *cell, const int degree[3],
+                                        const variant_numbers *const *from, variant_numbers *to)
+{
+    const size_t order = (size_t)degree[2] + 1, inner = 3 * ((size_t)degree[0] + 1) * ((size_t)degree[1] + 1);
+    for (size_t x = 0; x < inner; x++) {
+        lanes column[MAX_ORDER];
+#pragma GCC unroll 4
+        for (size_t k = 0; k < order; k++)
+            column[k] = take(from[k] + FFD_LANES * x);
+#pragma GCC unroll 4
+        for (size_t r = 0; r < order; r++)
+            put(combine(cell->extraction[2], order, r, column, 1), to + FFD_LANES * (inner * r + x));
+    }
+}
+
+static ALWAYS_INLINE void extract_all(const variant_cell *cell, const int degree[3], variant_planes *planes)
+{
+    const size_t order = (size_t)degree[2] + 1;
+    const size_t size = FFD_LANES * 3 * ((size_t)degree[0] + 1) * ((size_t)degree[1] + 1);
+    const variant_numbers *from[MAX_ORDER];
+    if (planes->column != cell->column)
+        memset(planes->number, 0, sizeof planes->number);
+    planes->column = cell->column;
+    for (size_t k = 0; k < order; k++) {
+        const size_t number = cell->first_plane + k, place = number % order;
+        variant_numbers *const plane = planes->vectors + size * place;
+        if (planes->number[place] != number + 1)
+            extract_plane(cell, degree, (int)k, plane);
+        planes->number[place] = number + 1;
+        from[k] = plane;
+    }
+    extract_depth(cell, degree, from, planes->bezier);
+}
+
+/* The functions t^i (1-t)^(d-i) of a span (kernel.c). */
+static ALWAYS_INLINE void find_basis(const variant_cell *cell, int a, int degree, double u, double *power)
+{
+    const double t = (u - cell->first[a]) / cell->width[a], rest = 1.0 - t;
+    power[0] = rest;
+    power[1] = t;
+#pragma GCC unroll 4
+    for (int d = 2; d <= degree; d++) {
+        power[d] = power[d - 1] * t;
+#pragma GCC unroll 4
+        for (int i = 0; i < d; i++)
+            power[i] = power[i] * rest;
+    }
+}
+
+/* sum += factor * term; the first term initialises the sum. */
+static ALWAYS_INLINE void add_term(lanes sum[3], bool is_first, double factor, const lanes term[3])
+{
+    for (int c = 0; c < 3; c++)
+        sum[c] = is_first ? factor * term[c] : sum[c] + factor * term[c];
+}
+
+static ALWAYS_INLINE void displace_point(const variant_cell *cell, const int degree[3],
+                                         const variant_numbers *bezier, const double uvw[3],
+                                         variant_numbers *to)
+{
+    double basis[3][MAX_ORDER];
+    lanes sum[3] = {0};
+#pragma GCC unroll 3
+    for (int a = 0; a < 3; a++)
+        find_basis(cell, a, degree[a], uvw[a], basis[a]);
+    for (int k = 0; k <= degree[2]; k++) {
+        lanes plane[3] = {0};
+#pragma GCC unroll 4
+        for (int j = 0; j <= degree[1]; j++) {
+            lanes row[3] = {0};
+#pragma GCC unroll 4
+            for (int i = 0; i <= degree[0]; i++, bezier += 3 * FFD_LANES) {
+                const lanes point[3] = {take(bezier), take(bezier + FFD_LANES), take(bezier + 2 * FFD_LANES)};
+                add_term(row, i == 0, basis[0][i], point);
+            }
+            add_term(plane, j == 0, basis[1][j], row);
+        }
+        add_term(sum, k == 0, basis[2][k], plane);
+    }
+    for (int c = 0; c < 3; c++)
+        put(sum[c], to + c * FFD_LANES);
+}
+
+static ALWAYS_INLINE void displace_points(const variant_cell *cell, const int degree[3],
+                                          const variant_numbers *bezier, const double *uvw, size_t count,
+                                          variant_numbers *vectors)
+{
+    for (size_t i = 0; i < count; i++)
+        displace_point(cell, degree, bezier, uvw + 3 * i, vectors + 3 * FFD_LANES * i);
+}
+
+static bool is_cubic(const variant_cell *cell)
+{
+    return cell->degree[0] == 3 && cell->degree[1] == 3 && cell->degree[2] == 3;
+}
+
+/* Constant degrees let the compiler unroll the loops. */
+static const int cubic[3] = {3, 3, 3};
+
+static void extract(const variant_cell *cell, variant_planes *planes)
+{
+    if (is_cubic(cell))
+        extract_all(cell, cubic, planes);
+    else
+        extract_all(cell, cell->degree, planes);
+}
+
+static void displace(const variant_cell *cell, const variant_numbers *bezier, const double *uvw, size_t count,
+                     variant_numbers *vectors)
+{
+    if (is_cubic(cell))
+        displace_points(cell, cubic, bezier, uvw, count, vectors);
+    else
+        displace_points(cell, cell->degree, bezier, uvw, count, vectors);
+}
+
+static bool pack(const double *const *from, const double *minus, size_t count, double most, double *to)
+{
+    bool fits = true;
+    for (size_t l = 0; l < FFD_LANES; l++) { /* a loop of its own, which compilers vectorise */
+        int64_t all = -1;
+        for (size_t i = 0; i < count; i++)
+            all &= fabs(from[l][i]) <= most ? -1 : 0;
+        fits = fits && all;
+    }
+    for (size_t i = 0; i < count; i++, to += FFD_LANES) {
+        const double origin = minus ? minus[i] : 0;
+        for (size_t l = 0; l < FFD_LANES; l++)
+            to[l] = minus ? from[l][i] - origin : from[l][i];
+    }
+    return fits;
+}
+
+/* Returns the mask of the lanes in which a coordinate may not be moved there. */
+static ALWAYS_INLINE mask move_number(variant_numbers *number, double x, const double *fade,
+                                      const double *weight, double largest)
+{
+    lanes vector = take(number);
+    if (fade)
+        vector = *fade * vector;
+    if (weight)
+        vector = *weight * vector;
+#if FFD_LANES == 1
+    const lanes moved = vector != 0 ? x + vector : x;
+    const mask unfit = moved != x && !(fabs(moved) <= largest) ? -1 : 0;
+#else
+    const lanes moved = lanes_choose(vector != 0.0, x + vector, lanes_all(x));
+    const mask unfit = (moved != x) & ~(lanes_magnitude(moved) <= largest);
+#endif
+    put(moved, number);
+    return unfit;
+}
+
+static bool move(const variant_moves *moves)
+{
+    mask unfit = (mask){0};
+    for (size_t i = 0; i < moves->count; i++)
+        for (size_t c = 0; c < 3; c++)
+            unfit |= move_number(moves->vectors + FFD_LANES * (3 * i + c), moves->x[3 * i + c],
+                                 moves->fade ? moves->fade + i : NULL,
+                                 moves->weight ? moves->weight + i : NULL, moves->largest);
+    return all_true(~unfit);
+}
+
+const variant_kernel FFD_VARIANT_KERNEL = {FFD_LANES, pack, extract, displace, move};

@@ -1,0 +1,286 @@
+#include "points/variant_block.h"
+#include "base/memory/memory.h"
+#include "deform/common_shift.h"
+#include "points/span.h"
+#include <stdint.h>
+#include <string.h>
+
+/* Returns the number of control points of a cell. */
+static size_t cell_size(const ffd_lattice *lattice)
+{
+    size_t size = 1;
+    for (int a = 0; a < 3; a++)
+        size *= (size_t)lattice->knots[a].degree + 1;
+    return size;
+}
+
+double ffd_block_scratch_size(const block_work *work)
+{
+    return 3.0 * (double)work->variants->rest->count * (double)work->kernel->lanes * sizeof(double);
+}
+
+bool ffd_block_scratch_make(const block_work *work, bool lanes, block_scratch *scratch)
+{
+    const size_t width = lanes ? work->kernel->lanes : 1, cell = 3 * cell_size(work->variants->rest);
+    const size_t field = lanes ? 3 * work->variants->rest->count * width : 0,
+                 planes = lanes ? cell * width : 0;
+    const size_t points = VARIANT_POINTS;
+    const size_t numbers = field + 2 * planes + 3 * points * width + 4 * points + 2 * (cell + 1);
+    *scratch = (block_scratch){.planes = {.column = SIZE_MAX}};
+    double *next = ffd_alloc(numbers * sizeof(double) + points * (sizeof(uint32_t) + 1), 1);
+    scratch->room = next;
+    if (!next)
+        return false;
+    scratch->field = next;
+    scratch->planes.vectors = scratch->field + field;
+    scratch->planes.bezier = scratch->planes.vectors + planes;
+    scratch->vectors = scratch->planes.bezier + planes;
+    scratch->x = scratch->vectors + 3 * points * width;
+    scratch->weight = scratch->x + 3 * points;
+    scratch->numbers = scratch->weight + points;
+    scratch->bezier = scratch->numbers + cell + 1;
+    scratch->order = (uint32_t *)(void *)(scratch->bezier + cell + 1);
+    scratch->changed = (uint8_t *)(scratch->order + points);
+    for (size_t i = 0; i < points; i++)
+        scratch->order[i] = (uint32_t)i;
+    return true;
+}
+
+void ffd_block_scratch_free(block_scratch *scratch)
+{
+    ffd_free(scratch->room);
+}
+
+bool ffd_block_take(const block_work *work, const block_part *part, block_scratch *scratch)
+{
+    const variant_set *const all = work->variants;
+    const double *from[16];
+    if (scratch->packed == part->variant + 1)
+        return scratch->fits;
+    scratch->packed = part->variant + 1;
+    scratch->planes.column = SIZE_MAX;
+    if (all->is_large)
+        scratch->fits = false;
+    else if (part->is_single)
+        scratch->fits = ffd_variant_fits(all, part->variant);
+    else {
+        for (size_t l = 0; l < work->kernel->lanes; l++) /* lanes to spare have the first variant */
+            from[l] = ffd_variant_values(all, part->variant + (l < part->count ? l : 0));
+        scratch->fits =
+            work->kernel->pack(from, work->origin, 3 * all->rest->count, VARIANT_MOST, scratch->field);
+    }
+    return scratch->fits;
+}
+
+/* Some of the points of a cell. */
+typedef struct cell_points {
+    const point_cell *cell;
+    int span[3];
+    size_t first, count; /* among the sorted points */
+} cell_points;
+
+/* Reads the points, and their weights. */
+static void read_points(const block_work *work, const cell_points *points, block_scratch *s)
+{
+    const uint32_t *const which = work->cells->which + points->first;
+    const double *const weights = work->variants->of.weights;
+    for (size_t i = 0; i < points->count; i++)
+        ffd_span_read(&work->in, which[i], 1, s->x + 3 * i);
+    for (size_t i = 0; i < points->count && weights; i++)
+        s->weight[i] = weights[which[i]];
+}
+
+static shift_points shift_of(const block_work *work, const cell_points *points, double *delta, size_t step)
+{
+    return (shift_points){.lattice = work->variants->rest,
+                          .span = {points->span[0], points->span[1], points->span[2]},
+                          .uvw = work->cells->uvw + 3 * points->first,
+                          .count = points->count,
+                          .has_knots = points->cell->has_knots,
+                          .delta = delta,
+                          .step = step};
+}
+
+/* -- a block of variants */
+
+static variant_cell begin_cell(const block_work *work, const point_cell *cell, const int span[3],
+                               const block_scratch *s)
+{
+    const ffd_lattice *const rest = work->variants->rest;
+    variant_cell made = {.field = s->field,
+                         .column = cell->index[0] * rest->knots[1].span_count + cell->index[1],
+                         .first_plane = (size_t)(span[2] - rest->knots[2].degree)};
+    for (int a = 0; a < 3; a++) {
+        const knot_vector *const knots = &rest->knots[a];
+        const size_t order = (size_t)knots->degree + 1, first = (size_t)(span[a] - knots->degree);
+        made.degree[a] = knots->degree;
+        made.extraction[a] = knots->extractions + cell->index[a] * order * order;
+        made.first[a] = knots->t[span[a]];
+        made.width[a] = knots->t[span[a] + 1] - knots->t[span[a]];
+        for (size_t i = 0; i < order; i++)
+            made.at[a][i] = work->variants->step[a] * ffd_knots_point(knots, first + i);
+    }
+    return made;
+}
+
+/* Whether the control points of a cell may have one displacement in a lane. */
+static bool may_shift(const block_work *work, const variant_cell *cell, size_t lane)
+{
+    const size_t lanes = work->kernel->lanes, first = cell->at[0][0] + cell->at[1][0] + cell->at[2][0];
+    const size_t next = first - cell->at[0][0] + cell->at[0][1];
+    const double *const a = cell->field + 3 * lanes * first + lane, *const b =
+                                                                        cell->field + 3 * lanes * next + lane;
+    return a[0] == b[0] && a[lanes] == b[lanes] && a[2 * lanes] == b[2 * lanes];
+}
+
+/* Shifts the points in the lanes in which they may have a common displacement. */
+static void shift_lanes(const block_work *work, const variant_cell *cell, const cell_points *points,
+                        const block_part *part, block_scratch *s)
+{
+    for (size_t l = 0; l < part->count; l++) {
+        if (!points->cell->has_knots && !may_shift(work, cell, l))
+            continue;
+        const shift_points shifts = shift_of(work, points, s->vectors + l, work->kernel->lanes);
+        ffd_variant_cell(work->variants, part->variant + l, points->span, s->numbers);
+        ffd_shift_points(&shifts, s->numbers);
+    }
+}
+
+/* Writes the moved points of all lanes. */
+static void write_lanes(const block_work *work, const cell_points *points, const block_part *part,
+                        const block_scratch *s)
+{
+    const size_t lanes = work->kernel->lanes, all = work->in.count;
+    const uint32_t *const which = work->cells->which + points->first;
+    for (size_t i = 0; i < points->count; i++)
+        for (size_t l = 0; l < part->count; l++) {
+            const double *const v = s->vectors + 3 * lanes * i + l;
+            const double x[3] = {v[0], v[lanes], v[2 * lanes]};
+            ffd_span_write(&work->out, all * (part->variant + l) + which[i], 1, x);
+        }
+}
+
+static bool deform_lanes(const block_work *work, const variant_cell *cell, const cell_points *points,
+                         const block_part *part, block_scratch *s)
+{
+    const double *const fade = work->cells->fade;
+    const variant_moves moves = {.x = s->x,
+                                 .fade = fade ? fade + points->first : NULL,
+                                 .weight = work->variants->of.weights ? s->weight : NULL,
+                                 .count = points->count,
+                                 .largest = work->largest,
+                                 .vectors = s->vectors};
+    work->kernel->displace(cell, s->planes.bezier, work->cells->uvw + 3 * points->first, points->count,
+                           s->vectors);
+    shift_lanes(work, cell, points, part, s);
+    read_points(work, points, s);
+    if (!work->kernel->move(&moves))
+        return false;
+    write_lanes(work, points, part, s);
+    return true;
+}
+
+/* -- a single variant */
+
+static void extract_single(const block_work *work, const point_cell *of, const int span[3], size_t variant,
+                           block_scratch *s, kernel_cell *cell)
+{
+    const ffd_lattice *const rest = work->variants->rest;
+    const double *extraction[3];
+    int degree[3];
+    for (int a = 0; a < 3; a++) {
+        const knot_vector *const knots = &rest->knots[a];
+        const size_t order = (size_t)knots->degree + 1;
+        degree[a] = knots->degree;
+        extraction[a] = knots->extractions + of->index[a] * order * order;
+    }
+    ffd_variant_cell(work->variants, variant, span, s->numbers);
+    s->numbers[3 * cell_size(rest)] = 0;
+    memcpy(s->bezier, s->numbers, (3 * cell_size(rest) + 1) * sizeof *s->bezier);
+    work->single->extract(degree, extraction, s->bezier, NULL);
+    ffd_displacement_cell_begin(rest, of->index, CELL_VALUES, s->bezier, cell);
+}
+
+/* Multiplies the displacements with their factors. */
+static void apply_factors(const block_work *work, const cell_points *points, block_scratch *s)
+{
+    const double *const fade = work->cells->fade ? work->cells->fade + points->first : NULL;
+    for (size_t i = 0; i < 3 * points->count && fade; i++)
+        s->vectors[i] = fade[i / 3] * s->vectors[i];
+    for (size_t i = 0; i < 3 * points->count && work->variants->of.weights; i++)
+        s->vectors[i] = s->weight[i / 3] * s->vectors[i];
+}
+
+static bool deform_single(const block_work *work, const kernel_cell *cell, const cell_points *points,
+                          size_t variant, block_scratch *s)
+{
+    const kernel_points displaced = {.uvw = work->cells->uvw + 3 * points->first,
+                                     .which = s->order,
+                                     .count = points->count,
+                                     .delta = s->vectors};
+    const shift_points shifts = shift_of(work, points, s->vectors, 1);
+    work->single->displace(cell, &displaced);
+    ffd_shift_points(&shifts, s->numbers);
+    read_points(work, points, s);
+    apply_factors(work, points, s);
+    if (work->arrays->displace(s->vectors, points->count, work->largest, s->x, s->changed) < points->count)
+        return false;
+    for (size_t i = 0; i < points->count; i++)
+        ffd_span_write(&work->out, work->in.count * variant + work->cells->which[points->first + i], 1,
+                       s->x + 3 * i);
+    return true;
+}
+
+/* -- parts */
+
+/* Displaces the points of a cell from first to end. */
+static bool deform_cell(const block_work *work, const point_cell *of, size_t first, size_t end,
+                        const block_part *part, block_scratch *s)
+{
+    cell_points points = {.cell = of};
+    variant_cell cell;
+    kernel_cell single;
+    ffd_displacement_spans(work->variants->rest, of->index, points.span);
+    if (part->is_single)
+        extract_single(work, of, points.span, part->variant, s, &single);
+    else {
+        cell = begin_cell(work, of, points.span, s);
+        work->kernel->extract(&cell, &s->planes);
+    }
+    for (; first < end; first += points.count) {
+        points.first = first;
+        points.count = end - first < VARIANT_POINTS ? end - first : VARIANT_POINTS;
+        if (!(part->is_single ? deform_single(work, &single, &points, part->variant, s)
+                              : deform_lanes(work, &cell, &points, part, s)))
+            return false;
+    }
+    return true;
+}
+
+/* Returns the index of the cell that holds a sorted point. */
+static size_t cell_of(const point_cells *cells, size_t point)
+{
+    size_t first = 0, end = cells->cell_count;
+    while (end - first > 1) {
+        const size_t middle = first + (end - first) / 2;
+        if (cells->cells[middle].first <= point)
+            first = middle;
+        else
+            end = middle;
+    }
+    return first;
+}
+
+bool ffd_block_deform(const block_work *work, const block_part *part, block_scratch *scratch)
+{
+    const point_cells *const cells = work->cells;
+    size_t first = part->first;
+    for (size_t c = first < part->end ? cell_of(cells, first) : 0; first < part->end; c++) {
+        const point_cell *const cell = &cells->cells[c];
+        const size_t last = cell->first + cell->count, end = last < part->end ? last : part->end;
+        if (!deform_cell(work, cell, first, end, part, scratch))
+            return false;
+        first = end;
+    }
+    return true;
+}

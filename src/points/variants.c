@@ -1,0 +1,149 @@
+#include "points/variants.h"
+#include "base/memory/memory.h"
+#include "base/struct_size.h"
+#include "points/weights.h"
+#include <math.h>
+#include <string.h>
+
+void ffd_variants_init(ffd_variants *variants, size_t size)
+{
+    const ffd_variants defaults = {.struct_size = sizeof defaults};
+    ffd_struct_give(&defaults, sizeof defaults, variants, size);
+}
+
+/* Copies numbers of control points between the library's order, u fastest, and one with these steps. */
+static void reorder(const ffd_lattice *lattice, size_t components, const double *from,
+                    const size_t from_step[3], double *to, const size_t to_step[3])
+{
+    for (size_t i = 0; i < lattice->size[0]; i++)
+        for (size_t j = 0; j < lattice->size[1]; j++)
+            for (size_t k = 0; k < lattice->size[2]; k++) {
+                const size_t at = i * from_step[0] + j * from_step[1] + k * from_step[2];
+                const size_t place = i * to_step[0] + j * to_step[1] + k * to_step[2];
+                memcpy(to + components * place, from + components * at, components * sizeof *to);
+            }
+}
+
+static void find_steps(const ffd_lattice *lattice, bool w_fastest, size_t step[3])
+{
+    const size_t *const size = lattice->size;
+    step[0] = w_fastest ? size[1] * size[2] : 1;
+    step[1] = w_fastest ? size[2] : size[0];
+    step[2] = w_fastest ? 1 : size[0] * size[1];
+}
+
+ffd_status ffd_variants_origin(const variant_set *all, const double **origin, double **room, ffd_error *error)
+{
+    size_t step[3];
+    *room = NULL;
+    *origin = all->of.are_points ? all->rest->rest : NULL;
+    if (!all->of.are_points || !all->of.w_fastest)
+        return FFD_OK;
+    *room = ffd_alloc(all->rest->count, 3 * sizeof **room);
+    if (!*room)
+        return ffd_fail_memory(error);
+    find_steps(all->rest, false, step);
+    reorder(all->rest, 3, all->rest->rest, step, *room, all->step);
+    *origin = *room;
+    return FFD_OK;
+}
+
+ffd_status ffd_variants_begin(const ffd_embedding *embedding, const ffd_variants *wanted, variant_set *made,
+                              ffd_error *error)
+{
+    *made = (variant_set){.embedding = embedding, .rest = embedding->rest};
+    ffd_variants_init(&made->of, sizeof made->of);
+    TRY(ffd_struct_take(&made->of, sizeof made->of, wanted, "ffd_variants", error));
+    const ffd_lattice *const rest = made->rest;
+    if (!made->of.values && made->of.count > 0)
+        return ffd_fail(error, FFD_E_ARGUMENT, "the variants have no values");
+    if (made->of.count > SIZE_MAX / sizeof(double) / 3 / rest->count)
+        return ffd_fail(error, FFD_E_ARGUMENT,
+                        "%zu variants of %zu control points are more than memory can hold", made->of.count,
+                        rest->count);
+    TRY(made->of.weights ? ffd_weights_check(made->of.weights, NULL, embedding->count, error) : FFD_OK);
+    find_steps(rest, made->of.w_fastest, made->step);
+    made->is_rational = rest->rest_weights || made->of.control_weights;
+    for (int c = 0; c < 3; c++)
+        made->is_large = made->is_large || !(rest->greatest[c] <= VARIANT_MOST);
+    return FFD_OK;
+}
+
+bool ffd_variant_fits(const variant_set *all, size_t variant)
+{
+    const double *const values = ffd_variant_values(all, variant);
+    int64_t fits = -1; /* a mask, so that compilers vectorise */
+    for (size_t i = 0; i < 3 * all->rest->count; i++)
+        fits &= fabs(values[i]) <= VARIANT_MOST ? -1 : 0;
+    return fits;
+}
+
+/* The control points of a row of a cell: where their values are, and where they are at rest. */
+typedef struct row_places {
+    size_t count, at[MAX_ORDER], rest[MAX_ORDER];
+} row_places;
+
+static row_places find_places(const variant_set *all, const int span[3], int a, const size_t rest_step[3])
+{
+    const knot_vector *const knots = &all->rest->knots[a];
+    row_places places = {.count = (size_t)knots->degree + 1};
+    for (size_t i = 0; i < places.count; i++) {
+        const size_t index = ffd_knots_point(knots, (size_t)(span[a] - knots->degree) + i);
+        places.at[i] = 3 * index * all->step[a];
+        places.rest[i] = 3 * index * rest_step[a];
+    }
+    return places;
+}
+
+void ffd_variant_cell(const variant_set *all, size_t variant, const int span[3], double *numbers)
+{
+    const double *const values = ffd_variant_values(all, variant), *const rest = all->rest->rest;
+    row_places of[3];
+    size_t step[3];
+    find_steps(all->rest, false, step);
+    for (int a = 0; a < 3; a++)
+        of[a] = find_places(all, span, a, step);
+    for (size_t k = 0; k < of[2].count; k++)
+        for (size_t j = 0; j < of[1].count; j++)
+            for (size_t i = 0; i < of[0].count; i++, numbers += 3) {
+                const double *const value = values + of[0].at[i] + of[1].at[j] + of[2].at[k];
+                const double *const origin = rest + of[0].rest[i] + of[1].rest[j] + of[2].rest[k];
+                for (size_t c = 0; c < 3; c++)
+                    numbers[c] = all->of.are_points ? value[c] - origin[c] : value[c];
+            }
+}
+
+static ffd_status set_values(const variant_set *all, ffd_lattice *lattice, const double *values,
+                             ffd_error *error)
+{
+    return all->of.are_points ? ffd_lattice_set_points(lattice, NULL, lattice->count, values, error)
+                              : ffd_lattice_set_offsets(lattice, NULL, lattice->count, values, error);
+}
+
+static ffd_status set_weights(const variant_set *all, ffd_lattice *lattice, double *room, ffd_error *error)
+{
+    size_t step[3];
+    find_steps(lattice, false, step);
+    if (all->of.control_weights)
+        reorder(lattice, 1, all->of.control_weights, all->step, room, step);
+    const double *const weights = all->of.control_weights ? room : lattice->rest_weights;
+    return weights ? ffd_lattice_set_weights(lattice, NULL, lattice->count, weights, error) : FFD_OK;
+}
+
+ffd_status ffd_variant_lattice(const variant_set *all, size_t variant, ffd_lattice **made, ffd_error *error)
+{
+    size_t step[3];
+    ffd_status status;
+    double *const room = ffd_alloc(all->rest->count, 3 * sizeof *room);
+    *made = NULL;
+    TRY_END(room ? ffd_lattice_copy(all->rest, made, error) : ffd_fail_memory(error));
+    find_steps(all->rest, false, step);
+    reorder(all->rest, 3, ffd_variant_values(all, variant), all->step, room, step);
+    TRY_END(set_values(all, *made, room, error));
+    TRY_END(set_weights(all, *made, room, error));
+end:
+    ffd_free(room);
+    if (status)
+        ffd_lattice_destroy(made);
+    return status;
+}
