@@ -195,21 +195,48 @@ static void displace(const variant_cell *cell, const variant_numbers *bezier, co
         displace_points(cell, cell->degree, bezier, uvw, count, vectors);
 }
 
+/* Whether a number is NaN or too large. */
+static ALWAYS_INLINE mask is_beyond(lanes number, double most)
+{
+#if FFD_LANES == 1
+    return fabs(number) <= most ? 0 : -1;
+#else
+    return ~(lanes_magnitude(number) <= most);
+#endif
+}
+
+/* The numbers from i on of all lanes, as many as there are lanes. */
+static ALWAYS_INLINE mask pack_square(const double *const *from, const double *minus, size_t i, double most,
+                                      double *to)
+{
+    lanes row[FFD_LANES];
+    mask beyond = (mask){0};
+    for (size_t l = 0; l < FFD_LANES; l++) {
+        row[l] = take(from[l] + i);
+        beyond |= is_beyond(row[l], most);
+        row[l] = minus ? row[l] - take(minus + i) : row[l];
+    }
+#if FFD_LANES > 1
+    lanes_transpose(row);
+#endif
+    for (size_t l = 0; l < FFD_LANES; l++)
+        put(row[l], to + FFD_LANES * (i + l));
+    return beyond;
+}
+
 static bool pack(const double *const *from, const double *minus, size_t count, double most, double *to)
 {
+    mask beyond = (mask){0};
     bool fits = true;
-    for (size_t l = 0; l < FFD_LANES; l++) { /* a loop of its own, which compilers vectorise */
-        int64_t all = -1;
-        for (size_t i = 0; i < count; i++)
-            all &= fabs(from[l][i]) <= most ? -1 : 0;
-        fits = fits && all;
-    }
-    for (size_t i = 0; i < count; i++, to += FFD_LANES) {
-        const double origin = minus ? minus[i] : 0;
-        for (size_t l = 0; l < FFD_LANES; l++)
-            to[l] = minus ? from[l][i] - origin : from[l][i];
-    }
-    return fits;
+    size_t i = 0;
+    for (; i + FFD_LANES <= count; i += FFD_LANES)
+        beyond |= pack_square(from, minus, i, most, to);
+    for (; i < count; i++)
+        for (size_t l = 0; l < FFD_LANES; l++) {
+            fits = fits && fabs(from[l][i]) <= most;
+            to[FFD_LANES * i + l] = minus ? from[l][i] - minus[i] : from[l][i];
+        }
+    return fits && all_true(~beyond);
 }
 
 /* Returns the mask of the lanes in which a coordinate may not be moved there. */

@@ -26,8 +26,8 @@ typedef struct many_work {
 } many_work;
 
 /* Says which variant has failed, if there are several. */
-static ffd_status fail_variant(const variant_set *all, size_t variant, ffd_status status, const ffd_error *own,
-                               ffd_error *error)
+static ffd_status fail_variant(const variant_set *all, size_t variant, ffd_status status,
+                               const ffd_error *own, ffd_error *error)
 {
     if (status == FFD_E_MEMORY || status == FFD_E_CANCELLED || all->of.count == 1)
         return ffd_fail_as(status, own, error);
@@ -203,6 +203,17 @@ static void free_scratch(const point_run *run, block_scratch *scratch)
     ffd_free(scratch);
 }
 
+/* Returns the instruction set for a few points. */
+static ffd_isa narrow_of(ffd_isa isa)
+{
+    const ffd_isa wide = ffd_isa_resolve(isa);
+#ifdef FFD_X86
+    return wide == FFD_ISA_AVX512 ? FFD_ISA_AVX2 : wide;
+#else
+    return wide;
+#endif
+}
+
 static ffd_status deform_blocks(const variant_set *all, ffd_span in, ffd_span out,
                                 const ffd_run_options *options, ffd_error *error)
 {
@@ -219,7 +230,11 @@ static ffd_status deform_blocks(const variant_set *all, ffd_span in, ffd_span ou
                               .out = out,
                               .largest = out.type == FFD_FLOAT32 ? FLT_MAX : DBL_MAX,
                               .kernel = ffd_variant_kernel(options->isa),
+                              .in_doubles = ffd_span_doubles(&in, 0),
+                              .out_doubles = ffd_span_doubles(&out, 0),
+                              .out_floats = ffd_span_floats(&out, 0),
                               .single = ffd_cell_kernels(options->isa),
+                              .few = ffd_cell_kernels(narrow_of(options->isa)),
                               .arrays = ffd_array_kernel(options->isa)};
     divide(&work, ffd_threads_for(options->threads, all->of.count * (cells->count / 256 + 1)));
     const size_t blocks =

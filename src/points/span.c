@@ -100,6 +100,13 @@ double *ffd_span_doubles(const ffd_span *span, size_t first)
     return are_doubles && (uintptr_t)from % _Alignof(double) == 0 ? from : NULL;
 }
 
+float *ffd_span_floats(const ffd_span *span, size_t first)
+{
+    void *const from = address(span, first);
+    const bool are_floats = is_packed(span) && span->type == FFD_FLOAT32;
+    return are_floats && (uintptr_t)from % _Alignof(float) == 0 ? from : NULL;
+}
+
 void ffd_span_copy(const ffd_span *from, const ffd_span *to, size_t point)
 {
     const char *const source = address(from, point);

@@ -15,6 +15,8 @@ void ffd_span_write(const ffd_span *span, size_t first, size_t count, const doub
 /* Returns where the numbers of the points from `first` on are, if they are doubles without gaps; else NULL.
  */
 double *ffd_span_doubles(const ffd_span *span, size_t first);
+/* The same for floats. */
+float *ffd_span_floats(const ffd_span *span, size_t first);
 /* Copies the bytes of a point between spans of the same type. */
 void ffd_span_copy(const ffd_span *from, const ffd_span *to, size_t point);
 

@@ -2,8 +2,12 @@
 #include "base/memory/memory.h"
 #include "deform/common_shift.h"
 #include "points/span.h"
+#include <math.h>
 #include <stdint.h>
 #include <string.h>
+
+/* At most this many points of a cell take a narrower kernel, whose registers they fill. */
+#define FEW_IN_CELL 4
 
 /* Returns the number of control points of a cell. */
 static size_t cell_size(const ffd_lattice *lattice)
@@ -79,13 +83,29 @@ typedef struct cell_points {
     size_t first, count; /* among the sorted points */
 } cell_points;
 
+/* Writes a point of a variant. */
+static inline void write_point(const block_work *work, size_t variant, size_t point, const double x[3])
+{
+    const size_t at = work->in.count * variant + point;
+    if (work->out_doubles)
+        memcpy(work->out_doubles + 3 * at, x, 3 * sizeof *x);
+    else if (work->out_floats)
+        for (size_t c = 0; c < 3; c++)
+            work->out_floats[3 * at + c] = (float)x[c];
+    else
+        ffd_span_write(&work->out, at, 1, x);
+}
+
 /* Reads the points, and their weights. */
 static void read_points(const block_work *work, const cell_points *points, block_scratch *s)
 {
     const uint32_t *const which = work->cells->which + points->first;
     const double *const weights = work->variants->of.weights;
     for (size_t i = 0; i < points->count; i++)
-        ffd_span_read(&work->in, which[i], 1, s->x + 3 * i);
+        if (work->in_doubles)
+            memcpy(s->x + 3 * i, work->in_doubles + 3 * (size_t)which[i], 3 * sizeof *s->x);
+        else
+            ffd_span_read(&work->in, which[i], 1, s->x + 3 * i);
     for (size_t i = 0; i < points->count && weights; i++)
         s->weight[i] = weights[which[i]];
 }
@@ -150,13 +170,13 @@ static void shift_lanes(const block_work *work, const variant_cell *cell, const 
 static void write_lanes(const block_work *work, const cell_points *points, const block_part *part,
                         const block_scratch *s)
 {
-    const size_t lanes = work->kernel->lanes, all = work->in.count;
+    const size_t lanes = work->kernel->lanes;
     const uint32_t *const which = work->cells->which + points->first;
     for (size_t i = 0; i < points->count; i++)
         for (size_t l = 0; l < part->count; l++) {
             const double *const v = s->vectors + 3 * lanes * i + l;
             const double x[3] = {v[0], v[lanes], v[2 * lanes]};
-            ffd_span_write(&work->out, all * (part->variant + l) + which[i], 1, x);
+            write_point(work, part->variant + l, which[i], x);
         }
 }
 
@@ -211,6 +231,18 @@ static void apply_factors(const block_work *work, const cell_points *points, blo
         s->vectors[i] = s->weight[i / 3] * s->vectors[i];
 }
 
+/* As array_kernel's displace, without its loops for many. Returns false if a point is too large. */
+static bool move_few(const block_work *work, size_t count, block_scratch *s)
+{
+    bool fits = true;
+    for (size_t i = 0; i < 3 * count; i++) {
+        const double x = s->x[i], moved = s->vectors[i] != 0 ? x + s->vectors[i] : x;
+        fits = fits && (moved == x || fabs(moved) <= work->largest);
+        s->x[i] = moved;
+    }
+    return fits;
+}
+
 static bool deform_single(const block_work *work, const kernel_cell *cell, const cell_points *points,
                           size_t variant, block_scratch *s)
 {
@@ -219,15 +251,16 @@ static bool deform_single(const block_work *work, const kernel_cell *cell, const
                                      .count = points->count,
                                      .delta = s->vectors};
     const shift_points shifts = shift_of(work, points, s->vectors, 1);
-    work->single->displace(cell, &displaced);
+    (points->count <= FEW_IN_CELL ? work->few : work->single)->displace(cell, &displaced);
     ffd_shift_points(&shifts, s->numbers);
     read_points(work, points, s);
     apply_factors(work, points, s);
-    if (work->arrays->displace(s->vectors, points->count, work->largest, s->x, s->changed) < points->count)
+    if (points->count <= FEW_IN_CELL ? !move_few(work, points->count, s)
+                                     : work->arrays->displace(s->vectors, points->count, work->largest, s->x,
+                                                              s->changed) < points->count)
         return false;
     for (size_t i = 0; i < points->count; i++)
-        ffd_span_write(&work->out, work->in.count * variant + work->cells->which[points->first + i], 1,
-                       s->x + 3 * i);
+        write_point(work, variant, work->cells->which[points->first + i], s->x + 3 * i);
     return true;
 }
 

@@ -17,9 +17,12 @@ typedef struct block_work {
     const point_cells *cells;
     const double *origin; /* as of ffd_variants_origin */
     ffd_span in, out;
-    double largest; /* that the type of out holds */
+    const double *in_doubles; /* in, if it is doubles without gaps */
+    double *out_doubles;      /* out, likewise */
+    float *out_floats;        /* out, if it is floats without gaps */
+    double largest;           /* that the type of out holds */
     const variant_kernel *kernel;
-    const cell_kernels *single;
+    const cell_kernels *single, *few; /* of a single variant: many points of a cell, or few */
     const array_kernel *arrays;
 } block_work;
 

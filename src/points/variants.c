@@ -95,22 +95,47 @@ static row_places find_places(const variant_set *all, const int span[3], int a, 
     return places;
 }
 
+/* Copies displacements, which are the values. */
+static void copy_offsets(const row_places of[3], const double *values, size_t last, double *numbers)
+{
+    for (size_t k = 0; k < of[2].count; k++)
+        for (size_t j = 0; j < of[1].count; j++) {
+            const size_t row = of[1].at[j] + of[2].at[k];
+            for (size_t i = 0; i < of[0].count; i++, numbers += 3) {
+                const size_t place = row + of[0].at[i];
+                if (place == last)
+                    memcpy(numbers, values + place, 3 * sizeof *numbers);
+                else /* a vector and one number after it, in one move */
+                    memcpy(numbers, values + place, 4 * sizeof *numbers);
+            }
+        }
+}
+
+/* Computes displacements of deformed control points. */
+static void subtract_rest(const row_places of[3], const double *values, const double *rest, double *numbers)
+{
+    for (size_t k = 0; k < of[2].count; k++)
+        for (size_t j = 0; j < of[1].count; j++) {
+            const double *const row = values + of[1].at[j] + of[2].at[k];
+            const double *const row_rest = rest + of[1].rest[j] + of[2].rest[k];
+            for (size_t i = 0; i < of[0].count; i++, numbers += 3)
+                for (size_t c = 0; c < 3; c++)
+                    numbers[c] = row[of[0].at[i] + c] - row_rest[of[0].rest[i] + c];
+        }
+}
+
 void ffd_variant_cell(const variant_set *all, size_t variant, const int span[3], double *numbers)
 {
-    const double *const values = ffd_variant_values(all, variant), *const rest = all->rest->rest;
+    const double *const values = ffd_variant_values(all, variant);
     row_places of[3];
     size_t step[3];
     find_steps(all->rest, false, step);
     for (int a = 0; a < 3; a++)
         of[a] = find_places(all, span, a, step);
-    for (size_t k = 0; k < of[2].count; k++)
-        for (size_t j = 0; j < of[1].count; j++)
-            for (size_t i = 0; i < of[0].count; i++, numbers += 3) {
-                const double *const value = values + of[0].at[i] + of[1].at[j] + of[2].at[k];
-                const double *const origin = rest + of[0].rest[i] + of[1].rest[j] + of[2].rest[k];
-                for (size_t c = 0; c < 3; c++)
-                    numbers[c] = all->of.are_points ? value[c] - origin[c] : value[c];
-            }
+    if (all->of.are_points)
+        subtract_rest(of, values, all->rest->rest, numbers);
+    else
+        copy_offsets(of, values, 3 * (all->rest->count - 1), numbers);
 }
 
 static ffd_status set_values(const variant_set *all, ffd_lattice *lattice, const double *values,

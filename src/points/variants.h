@@ -29,10 +29,12 @@ static inline const double *ffd_variant_values(const variant_set *all, size_t va
 
 /* Returns what is to be subtracted from the values of each variant, in their order; NULL: nothing. *room is
    to be freed in every case. Errors: FFD_E_MEMORY. */
-ffd_status ffd_variants_origin(const variant_set *all, const double **origin, double **room, ffd_error *error);
+ffd_status ffd_variants_origin(const variant_set *all, const double **origin, double **room,
+                               ffd_error *error);
 /* Returns whether no value of a variant is NaN or beyond VARIANT_MOST. */
 bool ffd_variant_fits(const variant_set *all, size_t variant);
-/* Copies the displacements of the control points of a cell, u fastest, as ffd_lattice_cell_points. */
+/* Copies the displacements of the control points of a cell, u fastest, as ffd_lattice_cell_points, and may
+   write one number more. */
 void ffd_variant_cell(const variant_set *all, size_t variant, const int span[3], double *numbers);
 /* Makes the lattice that a variant is, with all checks of its control points. The caller destroys *made.
    Errors: those of setting them; FFD_E_MEMORY. */
