@@ -49,19 +49,27 @@ static ALWAYS_INLINE lanes combine(const double *extraction, size_t order, size_
     return sum;
 }
 
+/* Copies an extraction matrix to where no result is stored, so that it can stay in registers. */
+static ALWAYS_INLINE void copy_matrix(const variant_cell *cell, const int degree[3], int a, double *to)
+{
+    const size_t order = (size_t)degree[a] + 1;
+    memcpy(to, cell->extraction[a], order * order * sizeof *to);
+}
+
 /* Converts a row of control points to Bezier form along u. */
-static ALWAYS_INLINE void extract_row(const variant_cell *cell, const int degree[3], size_t start, lanes *to)
+static ALWAYS_INLINE void extract_row(const variant_cell *cell, const int degree[3], const double *extraction,
+                                      size_t start, lanes *to)
 {
     const size_t order = (size_t)degree[0] + 1;
     lanes from[3 * MAX_ORDER];
 #pragma GCC unroll 4
     for (size_t i = 0; i < order; i++)
         for (size_t c = 0; c < 3; c++)
-            from[3 * i + c] = take(cell->field + FFD_LANES * (3 * (start + cell->at[0][i]) + c));
+            from[3 * i + c] = take(cell->field + FFD_LANES * (start + cell->at[0][i] + c));
 #pragma GCC unroll 4
     for (size_t r = 0; r < order; r++)
         for (size_t c = 0; c < 3; c++)
-            to[3 * r + c] = combine(cell->extraction[0], order, r, from + c, 3);
+            to[3 * r + c] = combine(extraction, order, r, from + c, 3);
 }
 
 /* Converts plane k of a cell to Bezier form along u and v. */
@@ -70,12 +78,15 @@ static ALWAYS_INLINE void extract_plane(const variant_cell *cell, const int degr
 {
     const size_t order = (size_t)degree[1] + 1, inner = 3 * ((size_t)degree[0] + 1);
     lanes rows[3 * MAX_ORDER * MAX_ORDER];
+    double by_u[MAX_ORDER * MAX_ORDER], by_v[MAX_ORDER * MAX_ORDER];
+    copy_matrix(cell, degree, 0, by_u);
+    copy_matrix(cell, degree, 1, by_v);
     for (size_t j = 0; j < order; j++)
-        extract_row(cell, degree, cell->at[1][j] + cell->at[2][k], rows + inner * j);
+        extract_row(cell, degree, by_u, cell->at[1][j] + cell->at[2][k], rows + inner * j);
     for (size_t x = 0; x < inner; x++)
 #pragma GCC unroll 4
         for (size_t r = 0; r < order; r++)
-            put(combine(cell->extraction[1], order, r, rows + x, inner), to + FFD_LANES * (inner * r + x));
+            put(combine(by_v, order, r, rows + x, inner), to + FFD_LANES * (inner * r + x));
 }
 
 /* Converts planes to Bezier form along w. from: the planes, in their order. */
@@ -83,6 +94,8 @@ static ALWAYS_INLINE void extract_depth(const variant_cell *cell, const int degr
                                         const variant_numbers *const *from, variant_numbers *to)
 {
     const size_t order = (size_t)degree[2] + 1, inner = 3 * ((size_t)degree[0] + 1) * ((size_t)degree[1] + 1);
+    double by_w[MAX_ORDER * MAX_ORDER];
+    copy_matrix(cell, degree, 2, by_w);
     for (size_t x = 0; x < inner; x++) {
         lanes column[MAX_ORDER];
 #pragma GCC unroll 4
@@ -90,7 +103,7 @@ static ALWAYS_INLINE void extract_depth(const variant_cell *cell, const int degr
             column[k] = take(from[k] + FFD_LANES * x);
 #pragma GCC unroll 4
         for (size_t r = 0; r < order; r++)
-            put(combine(cell->extraction[2], order, r, column, 1), to + FFD_LANES * (inner * r + x));
+            put(combine(by_w, order, r, column, 1), to + FFD_LANES * (inner * r + x));
     }
 }
 

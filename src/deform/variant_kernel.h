@@ -16,7 +16,7 @@ typedef struct variant_cell {
     int degree[3];
     const double *extraction[3]; /* weighted (spline/bezier.h) */
     double first[3], width[3];   /* first knot and length of the span */
-    size_t at[3][MAX_ORDER]; /* control point i,j,k is number at[0][i] + at[1][j] + at[2][k] of the field */
+    const size_t *at[3]; /* control point i,j,k has number at[0][i] + at[1][j] + at[2][k] and the next two */
     const variant_numbers *field; /* displacements: a vector for each control point */
     size_t column;                /* cells of one column, which differ along w only, have one number */
     size_t first_plane;           /* number of the first function along w */

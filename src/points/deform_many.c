@@ -260,28 +260,40 @@ static bool is_one_call(const variant_set *all, const ffd_span *in, const ffd_sp
            (in->data == out->data || (cells <= FEW_CELLS && all->embedding->count / 8 >= all->rest->count));
 }
 
-ffd_status ffd_embedding_deform_variants(const ffd_embedding *embedding, const ffd_variants *wanted,
+/* Checks a call, and fills in the strides of its arrays. */
+static ffd_status check(const variant_set *all, ffd_span *in, ffd_span *out, const ffd_run_options *run,
+                        ffd_error *error)
+{
+    const size_t points = all->embedding->count;
+    if (points > 0 && all->of.count > SIZE_MAX / points)
+        return ffd_fail(error, FFD_E_ARGUMENT, "%zu variants of %zu points are more than memory can hold",
+                        all->of.count, points);
+    TRY(ffd_span_check(in, points, "the array of points", error));
+    TRY(ffd_span_check(out, all->of.count * points, "the array of results", error));
+    TRY(ffd_threads_check(run->threads, error));
+    if (run->isa != FFD_ISA_AUTO && !ffd_isa_available(run->isa))
+        return ffd_fail(error, FFD_E_ARGUMENT, "instruction set %d is not available here", (int)run->isa);
+    return FFD_OK;
+}
+
+ffd_status ffd_embedding_deform_variants(const ffd_embedding *embedding, const ffd_variants *variants,
                                          ffd_span in, ffd_span out, const ffd_run_options *options,
                                          ffd_error *error)
 {
-    variant_set all;
+    variant_set all = {.places = NULL};
     ffd_run_options run;
-    const size_t points = embedding->count;
+    ffd_status status;
     ffd_run_options_init(&run, sizeof run);
-    TRY(options ? ffd_struct_take(&run, sizeof run, options, "ffd_run_options", error) : FFD_OK);
-    TRY(ffd_variants_begin(embedding, wanted, &all, error));
-    if (points > 0 && all.of.count > SIZE_MAX / points)
-        return ffd_fail(error, FFD_E_ARGUMENT, "%zu variants of %zu points are more than memory can hold",
-                        all.of.count, points);
-    TRY(ffd_span_check(&in, points, "the array of points", error));
-    TRY(ffd_span_check(&out, all.of.count * points, "the array of results", error));
-    TRY(ffd_threads_check(run.threads, error));
-    if (run.isa != FFD_ISA_AUTO && !ffd_isa_available(run.isa))
-        return ffd_fail(error, FFD_E_ARGUMENT, "instruction set %d is not available here", (int)run.isa);
+    TRY_END(options ? ffd_struct_take(&run, sizeof run, options, "ffd_run_options", error) : FFD_OK);
+    TRY_END(ffd_variants_begin(embedding, variants, &all, error));
+    TRY_END(check(&all, &in, &out, &run, error));
     if (all.of.count == 0)
-        return FFD_OK;
-    return all.is_rational || is_one_call(&all, &in, &out) ? deform_one_by_one(&all, in, out, &run, error)
-                                                           : deform_blocks(&all, in, out, &run, error);
+        goto end;
+    TRY_END(all.is_rational || is_one_call(&all, &in, &out) ? deform_one_by_one(&all, in, out, &run, error)
+                                                            : deform_blocks(&all, in, out, &run, error));
+end:
+    ffd_variants_end(&all);
+    return status;
 }
 
 ffd_status ffd_embedding_deform_many(const ffd_embedding *embedding, size_t rows, const double *offsets,

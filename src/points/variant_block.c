@@ -132,13 +132,12 @@ static variant_cell begin_cell(const block_work *work, const point_cell *cell, c
                          .first_plane = (size_t)(span[2] - rest->knots[2].degree)};
     for (int a = 0; a < 3; a++) {
         const knot_vector *const knots = &rest->knots[a];
-        const size_t order = (size_t)knots->degree + 1, first = (size_t)(span[a] - knots->degree);
+        const size_t order = (size_t)knots->degree + 1;
         made.degree[a] = knots->degree;
         made.extraction[a] = knots->extractions + cell->index[a] * order * order;
         made.first[a] = knots->t[span[a]];
         made.width[a] = knots->t[span[a] + 1] - knots->t[span[a]];
-        for (size_t i = 0; i < order; i++)
-            made.at[a][i] = work->variants->step[a] * ffd_knots_point(knots, first + i);
+        made.at[a] = work->variants->at[a] + cell->index[a] * order;
     }
     return made;
 }
@@ -148,8 +147,7 @@ static bool may_shift(const block_work *work, const variant_cell *cell, size_t l
 {
     const size_t lanes = work->kernel->lanes, first = cell->at[0][0] + cell->at[1][0] + cell->at[2][0];
     const size_t next = first - cell->at[0][0] + cell->at[0][1];
-    const double *const a = cell->field + 3 * lanes * first + lane, *const b =
-                                                                        cell->field + 3 * lanes * next + lane;
+    const double *const a = cell->field + lanes * first + lane, *const b = cell->field + lanes * next + lane;
     return a[0] == b[0] && a[lanes] == b[lanes] && a[2 * lanes] == b[2 * lanes];
 }
 
@@ -161,7 +159,7 @@ static void shift_lanes(const block_work *work, const variant_cell *cell, const 
         if (!points->cell->has_knots && !may_shift(work, cell, l))
             continue;
         const shift_points shifts = shift_of(work, points, s->vectors + l, work->kernel->lanes);
-        ffd_variant_cell(work->variants, part->variant + l, points->span, s->numbers);
+        ffd_variant_cell(work->variants, part->variant + l, points->cell->index, s->numbers);
         ffd_shift_points(&shifts, s->numbers);
     }
 }
@@ -202,8 +200,8 @@ static bool deform_lanes(const block_work *work, const variant_cell *cell, const
 
 /* -- a single variant */
 
-static void extract_single(const block_work *work, const point_cell *of, const int span[3], size_t variant,
-                           block_scratch *s, kernel_cell *cell)
+static void extract_single(const block_work *work, const point_cell *of, size_t variant, block_scratch *s,
+                           kernel_cell *cell)
 {
     const ffd_lattice *const rest = work->variants->rest;
     const double *extraction[3];
@@ -214,7 +212,7 @@ static void extract_single(const block_work *work, const point_cell *of, const i
         degree[a] = knots->degree;
         extraction[a] = knots->extractions + of->index[a] * order * order;
     }
-    ffd_variant_cell(work->variants, variant, span, s->numbers);
+    ffd_variant_cell(work->variants, variant, of->index, s->numbers);
     s->numbers[3 * cell_size(rest)] = 0;
     memcpy(s->bezier, s->numbers, (3 * cell_size(rest) + 1) * sizeof *s->bezier);
     work->single->extract(degree, extraction, s->bezier, NULL);
@@ -275,7 +273,7 @@ static bool deform_cell(const block_work *work, const point_cell *of, size_t fir
     kernel_cell single;
     ffd_displacement_spans(work->variants->rest, of->index, points.span);
     if (part->is_single)
-        extract_single(work, of, points.span, part->variant, s, &single);
+        extract_single(work, of, part->variant, s, &single);
     else {
         cell = begin_cell(work, of, points.span, s);
         work->kernel->extract(&cell, &s->planes);

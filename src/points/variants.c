@@ -48,6 +48,37 @@ ffd_status ffd_variants_origin(const variant_set *all, const double **origin, do
     return FFD_OK;
 }
 
+/* Makes the tables of where control points are. */
+static ffd_status find_places(variant_set *made, ffd_error *error)
+{
+    const knot_vector *const knots = made->rest->knots;
+    size_t total = 0, step[3];
+    for (int a = 0; a < 3; a++)
+        total += 2 * knots[a].span_count * ((size_t)knots[a].degree + 1);
+    size_t *next = made->places = ffd_alloc(total, sizeof *next);
+    if (!next)
+        return ffd_fail_memory(error);
+    find_steps(made->rest, false, step);
+    for (int a = 0; a < 3; a++) {
+        const size_t order = (size_t)knots[a].degree + 1, count = knots[a].span_count * order;
+        made->at[a] = next;
+        made->rest_at[a] = next + count;
+        next += 2 * count;
+        for (size_t s = 0; s < count; s++) {
+            const size_t first = (size_t)knots[a].spans[s / order] - (order - 1);
+            const size_t point = ffd_knots_point(&knots[a], first + s % order);
+            made->at[a][s] = 3 * made->step[a] * point;
+            made->rest_at[a][s] = 3 * step[a] * point;
+        }
+    }
+    return FFD_OK;
+}
+
+void ffd_variants_end(variant_set *made)
+{
+    ffd_free(made->places);
+}
+
 ffd_status ffd_variants_begin(const ffd_embedding *embedding, const ffd_variants *wanted, variant_set *made,
                               ffd_error *error)
 {
@@ -66,7 +97,7 @@ ffd_status ffd_variants_begin(const ffd_embedding *embedding, const ffd_variants
     made->is_rational = rest->rest_weights || made->of.control_weights;
     for (int c = 0; c < 3; c++)
         made->is_large = made->is_large || !(rest->greatest[c] <= VARIANT_MOST);
-    return FFD_OK;
+    return find_places(made, error);
 }
 
 bool ffd_variant_fits(const variant_set *all, size_t variant)
@@ -78,31 +109,20 @@ bool ffd_variant_fits(const variant_set *all, size_t variant)
     return fits;
 }
 
-/* The control points of a row of a cell: where their values are, and where they are at rest. */
-typedef struct row_places {
-    size_t count, at[MAX_ORDER], rest[MAX_ORDER];
-} row_places;
+/* The control points of a cell: where their values are along each direction, and where they are at rest. */
+typedef struct cell_places {
+    size_t count[3];
+    const size_t *at[3], *rest[3];
+} cell_places;
 
-static row_places find_places(const variant_set *all, const int span[3], int a, const size_t rest_step[3])
+/* Copies displacements, which are the values. last: the place of the last vector. */
+static void copy_offsets(const cell_places *of, const double *values, size_t last, double *numbers)
 {
-    const knot_vector *const knots = &all->rest->knots[a];
-    row_places places = {.count = (size_t)knots->degree + 1};
-    for (size_t i = 0; i < places.count; i++) {
-        const size_t index = ffd_knots_point(knots, (size_t)(span[a] - knots->degree) + i);
-        places.at[i] = 3 * index * all->step[a];
-        places.rest[i] = 3 * index * rest_step[a];
-    }
-    return places;
-}
-
-/* Copies displacements, which are the values. */
-static void copy_offsets(const row_places of[3], const double *values, size_t last, double *numbers)
-{
-    for (size_t k = 0; k < of[2].count; k++)
-        for (size_t j = 0; j < of[1].count; j++) {
-            const size_t row = of[1].at[j] + of[2].at[k];
-            for (size_t i = 0; i < of[0].count; i++, numbers += 3) {
-                const size_t place = row + of[0].at[i];
+    for (size_t k = 0; k < of->count[2]; k++)
+        for (size_t j = 0; j < of->count[1]; j++) {
+            const size_t row = of->at[1][j] + of->at[2][k];
+            for (size_t i = 0; i < of->count[0]; i++, numbers += 3) {
+                const size_t place = row + of->at[0][i];
                 if (place == last)
                     memcpy(numbers, values + place, 3 * sizeof *numbers);
                 else /* a vector and one number after it, in one move */
@@ -112,30 +132,35 @@ static void copy_offsets(const row_places of[3], const double *values, size_t la
 }
 
 /* Computes displacements of deformed control points. */
-static void subtract_rest(const row_places of[3], const double *values, const double *rest, double *numbers)
+static void subtract_rest(const cell_places *of, const double *values, const double *rest, double *numbers)
 {
-    for (size_t k = 0; k < of[2].count; k++)
-        for (size_t j = 0; j < of[1].count; j++) {
-            const double *const row = values + of[1].at[j] + of[2].at[k];
-            const double *const row_rest = rest + of[1].rest[j] + of[2].rest[k];
-            for (size_t i = 0; i < of[0].count; i++, numbers += 3)
-                for (size_t c = 0; c < 3; c++)
-                    numbers[c] = row[of[0].at[i] + c] - row_rest[of[0].rest[i] + c];
+    for (size_t k = 0; k < of->count[2]; k++)
+        for (size_t j = 0; j < of->count[1]; j++) {
+            const double *const row = values + of->at[1][j] + of->at[2][k];
+            const double *const row_rest = rest + of->rest[1][j] + of->rest[2][k];
+            for (size_t i = 0; i < of->count[0]; i++, numbers += 3) {
+                const double *const a = row + of->at[0][i], *const b = row_rest + of->rest[0][i];
+                numbers[0] = a[0] - b[0];
+                numbers[1] = a[1] - b[1];
+                numbers[2] = a[2] - b[2];
+            }
         }
 }
 
-void ffd_variant_cell(const variant_set *all, size_t variant, const int span[3], double *numbers)
+void ffd_variant_cell(const variant_set *all, size_t variant, const size_t index[3], double *numbers)
 {
     const double *const values = ffd_variant_values(all, variant);
-    row_places of[3];
-    size_t step[3];
-    find_steps(all->rest, false, step);
-    for (int a = 0; a < 3; a++)
-        of[a] = find_places(all, span, a, step);
+    cell_places of;
+    for (int a = 0; a < 3; a++) {
+        const size_t order = (size_t)all->rest->knots[a].degree + 1;
+        of.count[a] = order;
+        of.at[a] = all->at[a] + index[a] * order;
+        of.rest[a] = all->rest_at[a] + index[a] * order;
+    }
     if (all->of.are_points)
-        subtract_rest(of, values, all->rest->rest, numbers);
+        subtract_rest(&of, values, all->rest->rest, numbers);
     else
-        copy_offsets(of, values, 3 * (all->rest->count - 1), numbers);
+        copy_offsets(&of, values, 3 * (all->rest->count - 1), numbers);
 }
 
 static ffd_status set_values(const variant_set *all, ffd_lattice *lattice, const double *values,

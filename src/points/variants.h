@@ -13,14 +13,21 @@ typedef struct variant_set {
     ffd_variants of; /* the caller's */
     const ffd_embedding *embedding;
     const ffd_lattice *rest;
-    size_t step[3];   /* values of control points from one to the next along u, v, w */
+    size_t step[3]; /* control points from one to the next along u, v, w in the values of a variant */
+    size_t *places; /* owned: the tables that follow */
+    /* For each span of a direction that is not empty, and each function of it: the numbers before those of
+       its control point, among the values and among the points at rest. */
+    size_t *at[3], *rest_at[3];
     bool is_rational; /* weights of control points matter */
     bool is_large;    /* a point at rest is beyond VARIANT_MOST */
 } variant_set;
 
-/* Checks what a caller wants. Errors: FFD_E_ARGUMENT, FFD_E_INVALID. */
+/* Checks what a caller wants. To be ended in every case. Errors: FFD_E_ARGUMENT, FFD_E_INVALID,
+   FFD_E_MEMORY. */
 ffd_status ffd_variants_begin(const ffd_embedding *embedding, const ffd_variants *wanted, variant_set *made,
                               ffd_error *error);
+void ffd_variants_end(variant_set *made);
+
 /* Returns the values of a variant. */
 static inline const double *ffd_variant_values(const variant_set *all, size_t variant)
 {
@@ -33,9 +40,9 @@ ffd_status ffd_variants_origin(const variant_set *all, const double **origin, do
                                ffd_error *error);
 /* Returns whether no value of a variant is NaN or beyond VARIANT_MOST. */
 bool ffd_variant_fits(const variant_set *all, size_t variant);
-/* Copies the displacements of the control points of a cell, u fastest, as ffd_lattice_cell_points, and may
-   write one number more. */
-void ffd_variant_cell(const variant_set *all, size_t variant, const int span[3], double *numbers);
+/* Copies the displacements of the control points of the cell with these indices of spans, u fastest, as
+   ffd_lattice_cell_points, and may write one number more. */
+void ffd_variant_cell(const variant_set *all, size_t variant, const size_t index[3], double *numbers);
 /* Makes the lattice that a variant is, with all checks of its control points. The caller destroys *made.
    Errors: those of setting them; FFD_E_MEMORY. */
 ffd_status ffd_variant_lattice(const variant_set *all, size_t variant, ffd_lattice **made, ffd_error *error);
