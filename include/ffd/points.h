@@ -226,6 +226,12 @@ typedef struct ffd_csr {
 FFD_API ffd_status ffd_embedding_basis(const ffd_embedding *embedding, const double *weights, ffd_csr *matrix,
                                        const ffd_run_options *options, ffd_error *error);
 
+/* The same with the columns in the order of Python's arrays, if w_fastest: control point i,j,k has column
+   (i nv + j) nw + k. The entries of each row ascend in that order. weights are u fastest as elsewhere. */
+FFD_API ffd_status ffd_embedding_basis_ordered(const ffd_embedding *embedding, const double *weights,
+                                               bool w_fastest, ffd_csr *matrix,
+                                               const ffd_run_options *options, ffd_error *error);
+
 /* Frees the arrays of a matrix and sets it to zeros. */
 FFD_API void ffd_csr_free(ffd_csr *matrix);
 

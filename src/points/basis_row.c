@@ -64,14 +64,67 @@ static double sum_weights(const ffd_lattice *sealed, const lattice_basis *basis)
     return sum;
 }
 
+/* N N N of control point i,j,k of three factors, times its weight. */
+static inline double product_of(const factor of[3], size_t i, size_t j, size_t k, double weight)
+{
+    return of[2].value[k] * of[1].value[j] * of[0].value[i] * weight;
+}
+
+/* Adds the products that are not 0 to the row, in ascending order of their columns. Without weights. */
+static void add_plain(const factor of[3], const size_t step[3], basis_order order, basis_row *row)
+{
+    const int inner = order == BASIS_BY_U ? 0 : 2, outer = 2 - inner;
+    size_t at[3];
+    for (at[outer] = 0; at[outer] < of[outer].count; at[outer]++)
+        for (at[1] = 0; at[1] < of[1].count; at[1]++)
+            for (at[inner] = 0; at[inner] < of[inner].count; at[inner]++) {
+                const double value = product_of(of, at[0], at[1], at[2], 1);
+                row->columns[row->count] =
+                    (uint32_t)(step[0] * of[0].index[at[0]] + step[1] * of[1].index[at[1]] +
+                               step[2] * of[2].index[at[2]]);
+                row->values[row->count] = value;
+                row->count += value != 0;
+            }
+}
+
+/* The same with weights. Returns their sum, which has u innermost in every order. */
+static double add_weighted(const factor of[3], const ffd_lattice *lattice, const double *weights,
+                           const size_t step[3], basis_order order, basis_row *row)
+{
+    const int inner = order == BASIS_BY_U ? 0 : 2, outer = 2 - inner;
+    const size_t *const size = lattice->size;
+    double sum = 0;
+    size_t at[3];
+    for (size_t k = 0; k < of[2].count; k++)
+        for (size_t j = 0; j < of[1].count; j++)
+            for (size_t i = 0; i < of[0].count; i++)
+                sum += product_of(
+                    of, i, j, k,
+                    weights[of[0].index[i] + size[0] * (of[1].index[j] + size[1] * of[2].index[k])]);
+    for (at[outer] = 0; at[outer] < of[outer].count; at[outer]++)
+        for (at[1] = 0; at[1] < of[1].count; at[1]++)
+            for (at[inner] = 0; at[inner] < of[inner].count; at[inner]++) {
+                const size_t index[3] = {of[0].index[at[0]], of[1].index[at[1]], of[2].index[at[2]]};
+                const double weight = weights[index[0] + size[0] * (index[1] + size[1] * index[2])];
+                const double value = product_of(of, at[0], at[1], at[2], weight);
+                row->columns[row->count] =
+                    (uint32_t)(step[0] * index[0] + step[1] * index[1] + step[2] * index[2]);
+                row->values[row->count] = value;
+                row->count += value != 0;
+            }
+    return sum;
+}
+
 /* Fills the row at u,v,w of a lattice, times the scale: R_j = h_j N N N / sum h N N N (NURBS Book 4.2). */
 static void fill_row(const ffd_lattice *lattice, const double *weights, const row_seal *seal,
-                     const double uvw[3], double scale, basis_row *row)
+                     basis_order order, const double uvw[3], double scale, basis_row *row)
 {
+    const size_t *const size = lattice->size;
+    const size_t steps[2][3] = {{1, size[0], size[0] * size[1]}, {size[1] * size[2], size[2], 1}};
+    const size_t *const step = steps[order == BASIS_BY_W];
     lattice_basis basis, sealed;
     factor of[3];
-    double sum = 0;
-    double inside[3];
+    double inside[3], sum = 1;
     row->count = 0;
     for (int a = 0; a < 3; a++)
         inside[a] = ffd_knots_wrap(&lattice->knots[a], uvw[a]);
@@ -82,22 +135,13 @@ static void fill_row(const ffd_lattice *lattice, const double *weights, const ro
         ffd_lattice_basis(seal->sealed, inside, &sealed);
         seal_factors(seal, lattice, &basis, &sealed, of);
     }
-    for (size_t k = 0; k < of[2].count; k++)
-        for (size_t j = 0; j < of[1].count; j++)
-            for (size_t i = 0; i < of[0].count; i++) {
-                const size_t column =
-                    of[0].index[i] + lattice->size[0] * (of[1].index[j] + lattice->size[1] * of[2].index[k]);
-                const double value =
-                    of[2].value[k] * of[1].value[j] * of[0].value[i] * (weights ? weights[column] : 1);
-                sum += value;
-                if (value == 0)
-                    continue;
-                row->columns[row->count] = (uint32_t)column;
-                row->values[row->count++] = value;
-            }
+    if (weights)
+        sum = add_weighted(of, lattice, weights, step, order, row);
+    else
+        add_plain(of, step, order, row);
     if (seal && weights)
         sum = sum_weights(seal->sealed, &sealed);
-    for (size_t i = 0; i < row->count; i++)
+    for (size_t i = 0; i < row->count && (weights || scale != 1); i++)
         row->values[i] = weights ? scale * (row->values[i] / sum) : scale * row->values[i];
 }
 
@@ -118,12 +162,12 @@ bool ffd_basis_uvw(const ffd_embedding *embedding, size_t point, size_t next, do
     return has || extended;
 }
 
-void ffd_basis_row(const ffd_embedding *embedding, const double *weights, const row_seal *seal, size_t point,
-                   size_t *next, basis_row *row)
+void ffd_basis_row(const ffd_embedding *embedding, const double *weights, const row_seal *seal,
+                   basis_order order, size_t point, size_t *next, basis_row *row)
 {
     row->count = 0;
     if (ffd_embedding_has(embedding, point)) {
-        fill_row(embedding->rest, weights, seal, embedding->uvw + 3 * point, 1, row);
+        fill_row(embedding->rest, weights, seal, order, embedding->uvw + 3 * point, 1, row);
         return;
     }
     while (*next < embedding->extended_count && embedding->extended[*next].point < point)
@@ -132,5 +176,5 @@ void ffd_basis_row(const ffd_embedding *embedding, const double *weights, const 
     const double fade =
         extended ? ffd_extension_fade(extended->nearest.distance, embedding->falloff, NULL) : 0;
     if (fade > 0)
-        fill_row(embedding->rest, weights, seal, extended->nearest.uvw, fade, row);
+        fill_row(embedding->rest, weights, seal, order, extended->nearest.uvw, fade, row);
 }

@@ -27,7 +27,7 @@ static void add_block(void *context, size_t block, size_t first, size_t last, in
     size_t next = ffd_embedding_first_extended(work->embedding, before + first);
     memset(sum, 0, work->width * sizeof *sum);
     for (size_t i = before + first; i < before + last; i++) {
-        ffd_basis_row(work->embedding, work->weights, NULL, i, &next, row);
+        ffd_basis_row(work->embedding, work->weights, NULL, BASIS_BY_U, i, &next, row);
         for (size_t e = 0; e < row->count; e++)
             for (size_t c = 0; c < 3; c++)
                 sum[3 * (size_t)row->columns[e] + c] += row->values[e] * work->dfdx[3 * i + c];

@@ -142,8 +142,8 @@ static ffd_status check_points(check_work *work, size_t vertex, const double bas
     ffd_lattice *lattice;
     size_t next = ffd_embedding_first_extended(link->embedding, vertex);
     TRY(ffd_lattice_copy(of, &lattice, error));
-    ffd_basis_row(link->embedding, ffd_jacobian_weights(j, link), ffd_jacobian_seal(link), vertex, &next,
-                  &work->rows.basis);
+    ffd_basis_row(link->embedding, ffd_jacobian_weights(j, link), ffd_jacobian_seal(link), BASIS_BY_U, vertex,
+                  &next, &work->rows.basis);
     ffd_status status = FFD_OK;
     for (size_t e = 0; e < work->rows.basis.count; e++)
         for (int b = 0; b < 3; b++) {

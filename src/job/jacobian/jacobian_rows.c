@@ -58,7 +58,7 @@ static void fill_by_points(const jacobian *j, size_t vertex, jacobian_rows *rows
 {
     const jacobian_link *const link = &j->links[0];
     double product[9];
-    ffd_basis_row(link->embedding, ffd_jacobian_weights(j, link), ffd_jacobian_seal(link), vertex,
+    ffd_basis_row(link->embedding, ffd_jacobian_weights(j, link), ffd_jacobian_seal(link), BASIS_BY_U, vertex,
                   &rows->next[0], &rows->basis);
     const double *const block = block_of(j, link, vertex, product);
     const double weight = ffd_jacobian_weight(j, vertex);
@@ -117,7 +117,7 @@ static void add_link(const jacobian *j, size_t index, size_t vertex, jacobian_ro
     const jacobian_link *const link = &j->links[index];
     const ffd_lattice *const lattice = j->job.chain.links[link->index].lattice;
     double product[9], x[3];
-    ffd_basis_row(link->embedding, ffd_jacobian_weights(j, link), ffd_jacobian_seal(link), vertex,
+    ffd_basis_row(link->embedding, ffd_jacobian_weights(j, link), ffd_jacobian_seal(link), BASIS_BY_U, vertex,
                   &rows->next[index], &rows->basis);
     const double *const block = block_of(j, link, vertex, product);
     const double weight = ffd_jacobian_weight(j, vertex);

@@ -137,16 +137,16 @@ def to_library(array: np.ndarray) -> np.ndarray:
 class _Lent:
     """Memory of a library object. An array made from this keeps the owner alive."""
 
-    def __init__(self, owner: Any, where: int, shape: tuple[int, ...], kind: str) -> None:
+    def __init__(self, owner: Any, where: int, shape: tuple[int, ...], kind: str, writable: bool) -> None:
         self._owner = owner
-        self.__array_interface__ = {"data": (where, True), "shape": shape, "typestr": kind, "version": 3}
+        self.__array_interface__ = {"data": (where, not writable), "shape": shape, "typestr": kind, "version": 3}
 
 
-def lent(owner: Any, where: int | None, shape: tuple[int, ...], dtype: Any) -> np.ndarray:
-    """A read-only array of memory that owner keeps alive. where: its address; None: an empty array."""
+def lent(owner: Any, where: int | None, shape: tuple[int, ...], dtype: Any, writable: bool = False) -> np.ndarray:
+    """An array, read-only unless it is to be writable, of memory that owner keeps alive. where: its address; None: an empty array."""
     if not where or 0 in shape:
         return np.empty(shape, dtype)
-    return np.asarray(_Lent(owner, where, shape, np.dtype(dtype).str))
+    return np.asarray(_Lent(owner, where, shape, np.dtype(dtype).str, writable))
 
 
 def lent_controls(owner: Any, where: int | None, size: tuple[int, int, int], *more: int) -> np.ndarray:

@@ -486,17 +486,9 @@ class Lattice:
         self._check_same(embedding)
         matrix = library.empty("ffd_csr")
         kept = self._weights_for_library(weights)
-        try:
-            Run(threads, isa, progress)(lib.ffd_embedding_basis, embedding._pointer,
-                                        None if kept is None else arrays.address(kept), ctypes.byref(matrix))
-            rows, columns = matrix.rows, matrix.columns
-            starts = np.array(arrays.lent(None, matrix.starts, (rows + 1,), np.uintp))
-            count = int(starts[-1]) if len(starts) else 0
-            indices = np.array(arrays.lent(None, matrix.indices, (count,), np.uint32))
-            values = np.array(arrays.lent(None, matrix.values, (count,), np.float64))
-        finally:
-            lib.ffd_csr_free(ctypes.byref(matrix))
-        return csr(values, self._columns()[indices], starts, (rows, columns))
+        Run(threads, isa, progress)(lib.ffd_embedding_basis_ordered, embedding._pointer,
+                                    None if kept is None else arrays.address(kept), True, ctypes.byref(matrix))
+        return csr(matrix)
 
     def basis_times(self, embedding: Embedding, D: ControlPoints, *, weights: Grid | None = None, threads: int = 0,
                     isa: Isa = "auto", progress: Progress | None = None) -> Doubles:
@@ -614,11 +606,6 @@ class Lattice:
         copy = Lattice._new(lib.ffd_lattice_copy, self._pointer, parameters=self._parameters)
         copy._bounds, copy._is_still = self._bounds, self._is_still
         return copy
-
-    def _columns(self) -> np.ndarray:
-        """An array that maps the library's index of a control point to Python's."""
-        nu, nv, nw = self.size
-        return np.arange(self._count).reshape(nu, nv, nw).transpose(2, 1, 0).ravel()
 
     def _weights_for_library(self, weights: Any) -> np.ndarray | None:
         weights = self.weights if weights is None else weights

@@ -266,15 +266,15 @@ def list_parameters(data: bytes, name: str) -> list[Any]:
 
 
 class Owned:
-    """Owns an object of the library, and destroys it."""
+    """Owns an object of the library, and destroys it. structure: one whose content is to be freed, in place of a pointer."""
 
-    def __init__(self, destroy: Any) -> None:
-        self.pointer = ctypes.c_void_p()
+    def __init__(self, destroy: Any, structure: Any = None) -> None:
+        self.pointer = ctypes.c_void_p() if structure is None else structure
         self._destroy = destroy
 
     # ctypes is bound as a default: when the interpreter exits, the module may be gone before its last object.
     def __del__(self, byref: Any = ctypes.byref) -> None:
-        if self.pointer:
+        if self.pointer:  # a structure is always true
             self._destroy(byref(self.pointer))
 
 

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from . import _arrays as arrays
 from . import _declarations as declared
 from . import _library as library
+from ._library import Owned, lib
 from ._types import Doubles, Floats, Path, Verdict
 
 
@@ -241,17 +242,21 @@ def triangles_of(value: Any, count: int) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=np.uint32)
 
 
-def csr(values: np.ndarray, columns: np.ndarray, starts: np.ndarray, shape: tuple[int, int]) -> Any:
-    """Makes a scipy csr_array, or a `Csr`, with the columns of each row sorted."""
-    rows = np.repeat(np.arange(shape[0]), np.diff(starts).astype(np.intp))
-    order = np.lexsort((columns, rows))
-    kind: type[np.signedinteger[Any]] = np.int32 if max(len(values), *shape) < 2**31 else np.int64
-    data, indices, indptr = values[order], columns[order].astype(kind), starts.astype(kind)
+def csr(matrix: Any) -> Any:
+    """Makes a scipy csr_array, or a `Csr`, of an ffd_csr, whose memory it takes over."""
+    owned = Owned(lib.ffd_csr_free, matrix)
+    rows, columns = matrix.rows, matrix.columns
+    starts = arrays.lent(owned, matrix.starts, (rows + 1,), np.uintp)
+    count = int(starts[-1]) if len(starts) else 0
+    kind: type[np.signedinteger[Any]] = np.int32 if max(count, rows, columns) < 2**31 else np.int64
+    indices = arrays.lent(owned, matrix.indices, (count,), np.int32, writable=True)  # below 2**26, so the sign is never set
+    parts = (arrays.lent(owned, matrix.values, (count,), np.float64, writable=True), indices.astype(kind, copy=False),
+             starts.astype(kind))
     try:
         from scipy.sparse import csr_array  # type: ignore[import-untyped]
     except ImportError:
-        return Csr(data, indices, indptr, shape)
-    return csr_array((data, indices, indptr), shape=shape)
+        return Csr(*parts, (rows, columns))
+    return csr_array(parts, shape=(rows, columns))
 
 
 def parameters_of(data: bytes, name: str) -> dict[str, Parameter]:
