@@ -109,8 +109,8 @@ static ffd_status make_entries(basis_work *work, ffd_error *error)
     for (int a = 0; a < 3; a++)
         work->most *= (size_t)embedding->rest->knots[a].degree + 1;
     matrix->starts = ffd_alloc_zero(matrix->rows + 1, sizeof *matrix->starts);
-    matrix->indices = ffd_alloc(rows, work->most * sizeof *matrix->indices);
-    matrix->values = ffd_alloc(rows, work->most * sizeof *matrix->values);
+    matrix->indices = ffd_alloc_whole(rows, work->most * sizeof *matrix->indices);
+    matrix->values = ffd_alloc_whole(rows, work->most * sizeof *matrix->values);
     return matrix->starts && matrix->indices && matrix->values ? FFD_OK : ffd_fail_memory(error);
 }
 

@@ -1,6 +1,7 @@
 #include "points/basis_row.h"
 #include "base/text/number.h"
 #include "deform/extension.h"
+#include "spline/basis.h"
 #include "spline/knots.h"
 #include <math.h>
 #include <string.h>
@@ -115,6 +116,16 @@ static double add_weighted(const factor of[3], const ffd_lattice *lattice, const
     return sum;
 }
 
+/* As ffd_lattice_basis, without derivatives. */
+static void find_values(const ffd_lattice *lattice, const double inside[3], lattice_basis *basis)
+{
+    for (int a = 0; a < 3; a++) {
+        const knot_vector *const knots = &lattice->knots[a];
+        basis->span[a] = ffd_knots_span(knots, inside[a]);
+        ffd_basis_values(knots, basis->span[a], inside[a], basis->value[a]);
+    }
+}
+
 /* Fills the row at u,v,w of a lattice, times the scale: R_j = h_j N N N / sum h N N N (NURBS Book 4.2). */
 static void fill_row(const ffd_lattice *lattice, const double *weights, const row_seal *seal,
                      basis_order order, const double uvw[3], double scale, basis_row *row)
@@ -128,11 +139,11 @@ static void fill_row(const ffd_lattice *lattice, const double *weights, const ro
     row->count = 0;
     for (int a = 0; a < 3; a++)
         inside[a] = ffd_knots_wrap(&lattice->knots[a], uvw[a]);
-    ffd_lattice_basis(lattice, inside, &basis);
+    find_values(lattice, inside, &basis);
     for (int a = 0; a < 3; a++)
         make_factor(&lattice->knots[a], basis.span[a], basis.value[a], &of[a]);
     if (seal) {
-        ffd_lattice_basis(seal->sealed, inside, &sealed);
+        find_values(seal->sealed, inside, &sealed);
         seal_factors(seal, lattice, &basis, &sealed, of);
     }
     if (weights)
