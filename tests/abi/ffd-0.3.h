@@ -983,6 +983,22 @@ ffd_status ffd_embedding_deform_some_weighted(const ffd_embedding *embedding, co
                                               const double *slopes, ffd_span in, ffd_span out,
                                               double *gradients, const ffd_run_options *options,
                                               ffd_error *error);
+ffd_status ffd_embedding_deform_many(const ffd_embedding *embedding, size_t rows, const double *offsets,
+                                     ffd_span in, ffd_span out, const ffd_run_options *options,
+                                     ffd_error *error);
+typedef struct ffd_variants {
+    size_t struct_size;
+    size_t count;
+    const double *values;
+    bool are_points;
+    bool w_fastest;
+    const double *control_weights;
+    const double *weights;
+} ffd_variants;
+void ffd_variants_init(ffd_variants *variants, size_t size);
+ffd_status ffd_embedding_deform_variants(const ffd_embedding *embedding, const ffd_variants *variants,
+                                         ffd_span in, ffd_span out, const ffd_run_options *options,
+                                         ffd_error *error);
 ffd_status ffd_weight_slopes(ffd_span points, const double *weights, const uint32_t *triangles, size_t count,
                              double *slopes, const ffd_run_options *options, ffd_error *error);
 ffd_status ffd_embedding_affected(const ffd_embedding *embedding, const size_t *control_points, size_t count,
@@ -995,6 +1011,8 @@ typedef struct ffd_csr {
 } ffd_csr;
 ffd_status ffd_embedding_basis(const ffd_embedding *embedding, const double *weights, ffd_csr *matrix,
                                const ffd_run_options *options, ffd_error *error);
+ffd_status ffd_embedding_basis_ordered(const ffd_embedding *embedding, const double *weights, bool w_fastest,
+                                       ffd_csr *matrix, const ffd_run_options *options, ffd_error *error);
 void ffd_csr_free(ffd_csr *matrix);
 ffd_status ffd_embedding_basis_times(const ffd_embedding *embedding, const double *weights, const double *dq,
                                      double *dx, const ffd_run_options *options, ffd_error *error);

@@ -11,14 +11,13 @@ lattice = ffd.Lattice.around(points, size=(5, 5, 5))
 embedding = lattice.embed(points)
 
 parameters = qmc.scale(qmc.LatinHypercube(3, seed=1).random(500), [-0.3, -0.3, 0.6], [0.3, 2.5, 1.4])  # lift, pull, width
-variants = np.empty((500, *points.shape), points.dtype)
-folds = np.zeros(500, bool)
-for row, (lift, pull, width) in zip(range(500), parameters):
-    Q = lattice.rest * (width, 1, 1)
+Qs = np.empty((500, *lattice.rest.shape))
+for Q, (lift, pull, width) in zip(Qs, parameters):
+    Q[:] = lattice.rest * (width, 1, 1)
     Q[2, 2, 4, 2] += lift
     Q[1, :, :, 0] += pull
-    lattice.deform(embedding, Q, out=variants[row])
-    folds[row] = lattice.folds(Q).verdict != "none"
+variants = lattice.deform(embedding, Qs)
+folds = np.array([lattice.folds(Q).verdict != "none" for Q in Qs])
 
 np.savez("variants.npz", positions=variants[~folds], parameters=parameters[~folds])
 print(f"{len(variants)} variants of {len(points)} points, {folds.sum()} that fold and are left out")
