@@ -8,7 +8,6 @@
 #include "embed/near_border.h"
 #include "lattice/rest_hash.h"
 #include "mesh/rounding.h"
-#include "points/point_cells.h"
 #include "points/point_run.h"
 #include "points/span.h"
 #include <math.h>

@@ -1,5 +1,5 @@
 /* embedding.h - the struct behind ffd_embedding (public functions: ffd/points.h). Declares functions of
-   affected.c too. */
+   affected.c and point_cells.c too. */
 #ifndef FFD_POINTS_EMBEDDING_H
 #define FFD_POINTS_EMBEDDING_H
 
@@ -14,6 +14,8 @@ typedef struct extended_point {
     size_t point;
     boundary_point nearest;
 } extended_point;
+
+struct point_cells;
 
 struct ffd_embedding {
     ffd_lattice *rest; /* a copy */
@@ -59,6 +61,9 @@ typedef struct cell_lists {
 /* Returns the lists of an embedding, which has them from the first call on. NULL if memory runs out.
    Thread-safe. */
 const cell_lists *ffd_cell_lists(const ffd_embedding *embedding);
+
+/* Destroys the sorted points of an embedding (point_cells.h); NULL is allowed. */
+void ffd_point_cells_destroy(struct point_cells *cells);
 
 /* Checks that a lattice has the rest volume of the embedding. Errors: FFD_E_INVALID, FFD_E_ARGUMENT (no
    control points). */

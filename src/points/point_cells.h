@@ -28,7 +28,5 @@ struct point_cells {
 /* Returns the sorted points of an embedding, which has them from the first call on. NULL if memory runs out.
    Thread-safe. */
 const point_cells *ffd_point_cells(const ffd_embedding *embedding);
-/* Destroys them; NULL is allowed. */
-void ffd_point_cells_destroy(point_cells *cells);
 
 #endif

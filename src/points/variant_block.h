@@ -48,6 +48,7 @@ typedef struct block_part {
 
 /* Allocates the scratch memory of a thread; lanes: it is for blocks, too. */
 bool ffd_block_scratch_make(const block_work *work, bool lanes, block_scratch *scratch);
+/* Frees it. */
 void ffd_block_scratch_free(block_scratch *scratch);
 /* Returns the bytes of that memory for the control points. */
 double ffd_block_scratch_size(const block_work *work);

@@ -26,6 +26,7 @@ typedef struct variant_set {
    FFD_E_MEMORY. */
 ffd_status ffd_variants_begin(const ffd_embedding *embedding, const ffd_variants *wanted, variant_set *made,
                               ffd_error *error);
+/* Frees the tables. */
 void ffd_variants_end(variant_set *made);
 
 /* Returns the values of a variant. */
