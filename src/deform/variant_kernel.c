@@ -4,6 +4,7 @@
    Each lane has the operations of extraction_kernel.c and kernel.c, in the same order, so that it has their
    bits. What depends on a point and not on the variant is computed once for all lanes. */
 #include "deform/variant_kernel.h"
+#include "base/vector/quad.h"
 #include "deform/extraction_band.h"
 #include <math.h>
 #include <stdint.h>
@@ -107,11 +108,12 @@ static ALWAYS_INLINE void extract_depth(const variant_cell *cell, const int degr
     }
 }
 
-static ALWAYS_INLINE void extract_all(const variant_cell *cell, const int degree[3], variant_planes *planes)
+/* Fills in the planes of a cell that are not there. from: receives them, in their order. */
+static ALWAYS_INLINE void find_planes(const variant_cell *cell, const int degree[3], variant_planes *planes,
+                                      const variant_numbers **from)
 {
     const size_t order = (size_t)degree[2] + 1;
     const size_t size = FFD_LANES * 3 * ((size_t)degree[0] + 1) * ((size_t)degree[1] + 1);
-    const variant_numbers *from[MAX_ORDER];
     if (planes->column != cell->column)
         memset(planes->number, 0, sizeof planes->number);
     planes->column = cell->column;
@@ -123,13 +125,19 @@ static ALWAYS_INLINE void extract_all(const variant_cell *cell, const int degree
         planes->number[place] = number + 1;
         from[k] = plane;
     }
+}
+
+static ALWAYS_INLINE void extract_all(const variant_cell *cell, const int degree[3], variant_planes *planes)
+{
+    const variant_numbers *from[MAX_ORDER];
+    find_planes(cell, degree, planes, from);
     extract_depth(cell, degree, from, planes->bezier);
 }
 
 /* The functions t^i (1-t)^(d-i) of a span (kernel.c). */
-static ALWAYS_INLINE void find_basis(const variant_cell *cell, int a, int degree, double u, double *power)
+static ALWAYS_INLINE void find_basis(double first, double width, int degree, double u, double *power)
 {
-    const double t = (u - cell->first[a]) / cell->width[a], rest = 1.0 - t;
+    const double t = (u - first) / width, rest = 1.0 - t;
     power[0] = rest;
     power[1] = t;
 #pragma GCC unroll 4
@@ -156,7 +164,7 @@ static ALWAYS_INLINE void displace_point(const variant_cell *cell, const int deg
     lanes sum[3] = {0};
 #pragma GCC unroll 3
     for (int a = 0; a < 3; a++)
-        find_basis(cell, a, degree[a], uvw[a], basis[a]);
+        find_basis(cell->first[a], cell->width[a], degree[a], uvw[a], basis[a]);
     for (int k = 0; k <= degree[2]; k++) {
         lanes plane[3] = {0};
 #pragma GCC unroll 4
@@ -183,9 +191,97 @@ static ALWAYS_INLINE void displace_points(const variant_cell *cell, const int de
         displace_point(cell, degree, bezier, uvw + 3 * i, vectors + 3 * FFD_LANES * i);
 }
 
-static bool is_cubic(const variant_cell *cell)
+/* The sums of displace_point for all planes of Bezier points at once, each of which is used where it is
+ * found. */
+static ALWAYS_INLINE void sum_planes(const variant_cell *cell, const int degree[3],
+                                     const variant_numbers *const *from, double basis[3][MAX_ORDER],
+                                     lanes sum[3])
 {
-    return cell->degree[0] == 3 && cell->degree[1] == 3 && cell->degree[2] == 3;
+    const size_t order = (size_t)degree[2] + 1;
+    double by_w[MAX_ORDER * MAX_ORDER];
+    lanes plane[3 * MAX_ORDER];
+    size_t x = 0;
+    copy_matrix(cell, degree, 2, by_w);
+    for (int j = 0; j <= degree[1]; j++) {
+        lanes row[3 * MAX_ORDER];
+#pragma GCC unroll 4
+        for (int i = 0; i <= degree[0]; i++)
+            for (size_t c = 0; c < 3; c++, x++) {
+                lanes column[MAX_ORDER];
+#pragma GCC unroll 4
+                for (size_t k = 0; k < order; k++)
+                    column[k] = take(from[k] + FFD_LANES * x);
+#pragma GCC unroll 4
+                for (size_t r = 0; r < order; r++) {
+                    const lanes term = basis[0][i] * combine(by_w, order, r, column, 1);
+                    row[3 * r + c] = i == 0 ? term : row[3 * r + c] + term;
+                }
+            }
+#pragma GCC unroll 4
+        for (size_t r = 0; r < order; r++)
+            add_term(plane + 3 * r, j == 0, basis[1][j], row + 3 * r);
+    }
+#pragma GCC unroll 4
+    for (size_t r = 0; r < order; r++)
+        add_term(sum, r == 0, basis[2][r], plane + 3 * r);
+}
+
+static ALWAYS_INLINE void displace_alone(const variant_cell *cell, const int degree[3],
+                                         variant_planes *planes, const double uvw[3], variant_numbers *to)
+{
+    const variant_numbers *from[MAX_ORDER];
+    double basis[3][MAX_ORDER];
+    lanes sum[3] = {0};
+    find_planes(cell, degree, planes, from);
+#pragma GCC unroll 3
+    for (int a = 0; a < 3; a++)
+        find_basis(cell->first[a], cell->width[a], degree[a], uvw[a], basis[a]);
+    sum_planes(cell, degree, from, basis, sum);
+    for (int c = 0; c < 3; c++)
+        put(sum[c], to + c * FFD_LANES);
+}
+
+/* sum += factor * term; the first term initialises the sum. */
+static ALWAYS_INLINE void add_quad(quad *sum, bool is_first, double factor, const quad *term)
+{
+    if (is_first)
+        *sum = quad_times(factor, term);
+    else
+        quad_add(sum, factor, term);
+}
+
+/* Displaces a point of a single variant. The fourth number of each quad is of the next vector, and not used.
+ */
+static ALWAYS_INLINE void displace_vector(const kernel_cell *cell, const int degree[3], const double uvw[3],
+                                          double *delta)
+{
+    const double *point = cell->difference.points;
+    double basis[3][MAX_ORDER], result[4];
+    quad sum = {0};
+#pragma GCC unroll 3
+    for (int a = 0; a < 3; a++)
+        find_basis(cell->first[a], cell->width[a], degree[a], uvw[a], basis[a]);
+    for (int k = 0; k <= degree[2]; k++) {
+        quad plane = {0};
+#pragma GCC unroll 4
+        for (int j = 0; j <= degree[1]; j++) {
+            quad row = {0};
+#pragma GCC unroll 4
+            for (int i = 0; i <= degree[0]; i++, point += 3) {
+                const quad vector = quad_load(point);
+                add_quad(&row, i == 0, basis[0][i], &vector);
+            }
+            add_quad(&plane, j == 0, basis[1][j], &row);
+        }
+        add_quad(&sum, k == 0, basis[2][k], &plane);
+    }
+    quad_store(&sum, result);
+    memcpy(delta, result, 3 * sizeof *delta);
+}
+
+static bool is_cubic(const int degree[3])
+{
+    return degree[0] == 3 && degree[1] == 3 && degree[2] == 3;
 }
 
 /* Constant degrees let the compiler unroll the loops. */
@@ -193,7 +289,7 @@ static const int cubic[3] = {3, 3, 3};
 
 static void extract(const variant_cell *cell, variant_planes *planes)
 {
-    if (is_cubic(cell))
+    if (is_cubic(cell->degree))
         extract_all(cell, cubic, planes);
     else
         extract_all(cell, cell->degree, planes);
@@ -202,10 +298,29 @@ static void extract(const variant_cell *cell, variant_planes *planes)
 static void displace(const variant_cell *cell, const variant_numbers *bezier, const double *uvw, size_t count,
                      variant_numbers *vectors)
 {
-    if (is_cubic(cell))
+    if (is_cubic(cell->degree))
         displace_points(cell, cubic, bezier, uvw, count, vectors);
     else
         displace_points(cell, cell->degree, bezier, uvw, count, vectors);
+}
+
+static void displace_one(const variant_cell *cell, variant_planes *planes, const double uvw[3],
+                         variant_numbers *vector)
+{
+    if (is_cubic(cell->degree))
+        displace_alone(cell, cubic, planes, uvw, vector);
+    else
+        displace_alone(cell, cell->degree, planes, uvw, vector);
+}
+
+static void displace_few(const kernel_cell *cell, const double *uvw, size_t count, double *delta)
+{
+    if (is_cubic(cell->degree))
+        for (size_t i = 0; i < count; i++)
+            displace_vector(cell, cubic, uvw + 3 * i, delta + 3 * i);
+    else
+        for (size_t i = 0; i < count; i++)
+            displace_vector(cell, cell->degree, uvw + 3 * i, delta + 3 * i);
 }
 
 /* Whether a number is NaN or too large. */
@@ -216,6 +331,18 @@ static ALWAYS_INLINE mask is_beyond(lanes number, double most)
 #else
     return ~(lanes_magnitude(number) <= most);
 #endif
+}
+
+static bool fits(const double *numbers, size_t count, double most)
+{
+    mask beyond = (mask){0};
+    bool rest = true;
+    size_t i = 0;
+    for (; i + FFD_LANES <= count; i += FFD_LANES)
+        beyond |= is_beyond(take(numbers + i), most);
+    for (; i < count; i++)
+        rest = rest && fabs(numbers[i]) <= most;
+    return rest && all_true(~beyond);
 }
 
 /* The numbers from i on of all lanes, as many as there are lanes. */
@@ -240,16 +367,16 @@ static ALWAYS_INLINE mask pack_square(const double *const *from, const double *m
 static bool pack(const double *const *from, const double *minus, size_t count, double most, double *to)
 {
     mask beyond = (mask){0};
-    bool fits = true;
+    bool rest = true;
     size_t i = 0;
     for (; i + FFD_LANES <= count; i += FFD_LANES)
         beyond |= pack_square(from, minus, i, most, to);
     for (; i < count; i++)
         for (size_t l = 0; l < FFD_LANES; l++) {
-            fits = fits && fabs(from[l][i]) <= most;
+            rest = rest && fabs(from[l][i]) <= most;
             to[FFD_LANES * i + l] = minus ? from[l][i] - minus[i] : from[l][i];
         }
-    return fits && all_true(~beyond);
+    return rest && all_true(~beyond);
 }
 
 /* Returns the mask of the lanes in which a coordinate may not be moved there. */
@@ -283,4 +410,5 @@ static bool move(const variant_moves *moves)
     return all_true(~unfit);
 }
 
-const variant_kernel FFD_VARIANT_KERNEL = {FFD_LANES, pack, extract, displace, move};
+const variant_kernel FFD_VARIANT_KERNEL = {FFD_LANES,    pack,     fits,         extract,
+                                           displace_one, displace, displace_few, move};

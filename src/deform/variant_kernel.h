@@ -4,6 +4,7 @@
 #define FFD_DEFORM_VARIANT_KERNEL_H
 
 #include "base/vector/isa.h"
+#include "deform/kernel.h"
 #include "lattice/lattice.h"
 #include <stdbool.h>
 
@@ -46,12 +47,20 @@ typedef struct variant_kernel {
        subtracted if it is not NULL. Returns whether no number in `from` is NaN or greater than `most` in
        magnitude. */
     bool (*pack)(const double *const *from, const double *minus, size_t count, double most, double *to);
+    /* Returns whether none of count numbers is NaN or greater than `most` in magnitude. */
+    bool (*fits)(const double *numbers, size_t count, double most);
     /* Computes the Bezier points of a cell (extraction_kernel), with the planes that are there already. */
     void (*extract)(const variant_cell *cell, variant_planes *planes);
+    /* Computes the displacements of one point, without those. */
+    void (*displace_one)(const variant_cell *cell, variant_planes *planes, const double uvw[3],
+                         variant_numbers *vector);
     /* Computes the displacements of count points of the cell, as displacement_kernel does for one variant.
        uvw: 3 numbers for each. */
     void (*displace)(const variant_cell *cell, const variant_numbers *bezier, const double *uvw, size_t count,
                      variant_numbers *vectors);
+    /* As displacement_kernel for a single variant, without derivatives and for points 0 to count - 1: a lane
+       holds a coordinate, so that few points are quicker. Reads one number after those of the field. */
+    void (*displace_few)(const kernel_cell *cell, const double *uvw, size_t count, double *delta);
     /* Multiplies displacements with their factors, and adds them to the points; a coordinate to which 0 is
        added keeps its bits. Returns whether no coordinate that changes is NaN or too large. */
     bool (*move)(const variant_moves *moves);

@@ -203,17 +203,6 @@ static void free_scratch(const point_run *run, block_scratch *scratch)
     ffd_free(scratch);
 }
 
-/* Returns the instruction set for a few points. */
-static ffd_isa narrow_of(ffd_isa isa)
-{
-    const ffd_isa wide = ffd_isa_resolve(isa);
-#ifdef FFD_X86
-    return wide == FFD_ISA_AVX512 ? FFD_ISA_AVX2 : wide;
-#else
-    return wide;
-#endif
-}
-
 static ffd_status deform_blocks(const variant_set *all, ffd_span in, ffd_span out,
                                 const ffd_run_options *options, ffd_error *error)
 {
@@ -234,7 +223,6 @@ static ffd_status deform_blocks(const variant_set *all, ffd_span in, ffd_span ou
                               .out_doubles = ffd_span_doubles(&out, 0),
                               .out_floats = ffd_span_floats(&out, 0),
                               .single = ffd_cell_kernels(options->isa),
-                              .few = ffd_cell_kernels(narrow_of(options->isa)),
                               .arrays = ffd_array_kernel(options->isa)};
     divide(&work, ffd_threads_for(options->threads, all->of.count * (cells->count / 256 + 1)));
     const size_t blocks =

@@ -6,8 +6,8 @@
 #include <stdint.h>
 #include <string.h>
 
-/* At most this many points of a cell take a narrower kernel, whose registers they fill. */
-#define FEW_IN_CELL 4
+/* With at most this many points of a cell, a lane for each would leave most of a register empty. */
+#define FEW_IN_CELL 2
 
 /* Returns the number of control points of a cell. */
 static size_t cell_size(const ffd_lattice *lattice)
@@ -66,7 +66,8 @@ bool ffd_block_take(const block_work *work, const block_part *part, block_scratc
     if (all->is_large)
         scratch->fits = false;
     else if (part->is_single)
-        scratch->fits = ffd_variant_fits(all, part->variant);
+        scratch->fits =
+            work->kernel->fits(ffd_variant_values(all, part->variant), 3 * all->rest->count, VARIANT_MOST);
     else {
         for (size_t l = 0; l < work->kernel->lanes; l++) /* lanes to spare have the first variant */
             from[l] = ffd_variant_values(all, part->variant + (l < part->count ? l : 0));
@@ -188,8 +189,11 @@ static bool deform_lanes(const block_work *work, const variant_cell *cell, const
                                  .count = points->count,
                                  .largest = work->largest,
                                  .vectors = s->vectors};
-    work->kernel->displace(cell, s->planes.bezier, work->cells->uvw + 3 * points->first, points->count,
-                           s->vectors);
+    const double *const uvw = work->cells->uvw + 3 * points->first;
+    if (points->cell->count == 1)
+        work->kernel->displace_one(cell, &s->planes, uvw, s->vectors);
+    else
+        work->kernel->displace(cell, s->planes.bezier, uvw, points->count, s->vectors);
     shift_lanes(work, cell, points, part, s);
     read_points(work, points, s);
     if (!work->kernel->move(&moves))
@@ -249,7 +253,10 @@ static bool deform_single(const block_work *work, const kernel_cell *cell, const
                                      .count = points->count,
                                      .delta = s->vectors};
     const shift_points shifts = shift_of(work, points, s->vectors, 1);
-    (points->count <= FEW_IN_CELL ? work->few : work->single)->displace(cell, &displaced);
+    if (points->count <= FEW_IN_CELL)
+        work->kernel->displace_few(cell, displaced.uvw, points->count, s->vectors);
+    else
+        work->single->displace(cell, &displaced);
     ffd_shift_points(&shifts, s->numbers);
     read_points(work, points, s);
     apply_factors(work, points, s);
@@ -276,7 +283,8 @@ static bool deform_cell(const block_work *work, const point_cell *of, size_t fir
         extract_single(work, of, part->variant, s, &single);
     else {
         cell = begin_cell(work, of, points.span, s);
-        work->kernel->extract(&cell, &s->planes);
+        if (of->count > 1)
+            work->kernel->extract(&cell, &s->planes);
     }
     for (; first < end; first += points.count) {
         points.first = first;

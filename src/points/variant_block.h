@@ -22,7 +22,7 @@ typedef struct block_work {
     float *out_floats;        /* out, if it is floats without gaps */
     double largest;           /* that the type of out holds */
     const variant_kernel *kernel;
-    const cell_kernels *single, *few; /* of a single variant: many points of a cell, or few */
+    const cell_kernels *single; /* for a single variant */
     const array_kernel *arrays;
 } block_work;
 

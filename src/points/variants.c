@@ -100,15 +100,6 @@ ffd_status ffd_variants_begin(const ffd_embedding *embedding, const ffd_variants
     return find_places(made, error);
 }
 
-bool ffd_variant_fits(const variant_set *all, size_t variant)
-{
-    const double *const values = ffd_variant_values(all, variant);
-    int64_t fits = -1; /* a mask, so that compilers vectorise */
-    for (size_t i = 0; i < 3 * all->rest->count; i++)
-        fits &= fabs(values[i]) <= VARIANT_MOST ? -1 : 0;
-    return fits;
-}
-
 /* The control points of a cell: where their values are along each direction, and where they are at rest. */
 typedef struct cell_places {
     size_t count[3];
@@ -131,18 +122,21 @@ static void copy_offsets(const cell_places *of, const double *values, size_t las
         }
 }
 
-/* Computes displacements of deformed control points. */
-static void subtract_rest(const cell_places *of, const double *values, const double *rest, double *numbers)
+/* Computes displacements of deformed control points. last: as above. */
+static void subtract_rest(const cell_places *of, const double *values, const double *rest, size_t last,
+                          double *numbers)
 {
     for (size_t k = 0; k < of->count[2]; k++)
         for (size_t j = 0; j < of->count[1]; j++) {
-            const double *const row = values + of->at[1][j] + of->at[2][k];
-            const double *const row_rest = rest + of->rest[1][j] + of->rest[2][k];
+            const size_t row = of->at[1][j] + of->at[2][k], row_rest = of->rest[1][j] + of->rest[2][k];
             for (size_t i = 0; i < of->count[0]; i++, numbers += 3) {
-                const double *const a = row + of->at[0][i], *const b = row_rest + of->rest[0][i];
+                const size_t place = row + of->at[0][i];
+                const double *const a = values + place, *const b = rest + row_rest + of->rest[0][i];
                 numbers[0] = a[0] - b[0];
                 numbers[1] = a[1] - b[1];
                 numbers[2] = a[2] - b[2];
+                if (place != last) /* by pairs; the next vector replaces it */
+                    numbers[3] = a[3] - b[3];
             }
         }
 }
@@ -150,6 +144,7 @@ static void subtract_rest(const cell_places *of, const double *values, const dou
 void ffd_variant_cell(const variant_set *all, size_t variant, const size_t index[3], double *numbers)
 {
     const double *const values = ffd_variant_values(all, variant);
+    const size_t last = 3 * (all->rest->count - 1); /* is the same control point in each order */
     cell_places of;
     for (int a = 0; a < 3; a++) {
         const size_t order = (size_t)all->rest->knots[a].degree + 1;
@@ -158,9 +153,9 @@ void ffd_variant_cell(const variant_set *all, size_t variant, const size_t index
         of.rest[a] = all->rest_at[a] + index[a] * order;
     }
     if (all->of.are_points)
-        subtract_rest(&of, values, all->rest->rest, numbers);
+        subtract_rest(&of, values, all->rest->rest, last, numbers);
     else
-        copy_offsets(&of, values, 3 * (all->rest->count - 1), numbers);
+        copy_offsets(&of, values, last, numbers);
 }
 
 static ffd_status set_values(const variant_set *all, ffd_lattice *lattice, const double *values,

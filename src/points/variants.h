@@ -39,8 +39,6 @@ static inline const double *ffd_variant_values(const variant_set *all, size_t va
    to be freed in every case. Errors: FFD_E_MEMORY. */
 ffd_status ffd_variants_origin(const variant_set *all, const double **origin, double **room,
                                ffd_error *error);
-/* Returns whether no value of a variant is NaN or beyond VARIANT_MOST. */
-bool ffd_variant_fits(const variant_set *all, size_t variant);
 /* Copies the displacements of the control points of the cell with these indices of spans, u fastest, as
    ffd_lattice_cell_points, and may write one number more. */
 void ffd_variant_cell(const variant_set *all, size_t variant, const size_t index[3], double *numbers);
