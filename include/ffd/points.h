@@ -148,7 +148,7 @@ FFD_API ffd_status ffd_embedding_deform_some_weighted(const ffd_embedding *embed
      the same array as in.
    - options: may be NULL. Threads share the variants and the points; progress is told once in a while.
 
-   A failure that concerns a variant names it, if there are several. Memory: 60 bytes a point, kept by the
+   A failure that concerns a variant names it, if there are several. Memory: 40 bytes a point, kept by the
    embedding from the first such call on, and for each thread 24 n bytes for each of up to eight variants, or
    less. Thread-safe. Errors: as of ffd_lattice_set_offsets and ffd_embedding_deform. */
 FFD_API ffd_status ffd_embedding_deform_many(const ffd_embedding *embedding, size_t rows,

@@ -239,13 +239,17 @@ end:
     return status;
 }
 
-/* Whether one call of a single variant is better done as such: in place, or with many points in few cells. */
+/* Whether a single variant is better done by a call for its lattice: in place, in one cell, or where many
+   points of a tile are in each cell and the points are not sorted. */
 static bool is_one_call(const variant_set *all, const ffd_span *in, const ffd_span *out)
 {
     const knot_vector *const knots = all->rest->knots;
     const size_t cells = knots[0].span_count * knots[1].span_count * knots[2].span_count;
-    return all->of.count == 1 &&
-           (in->data == out->data || (cells <= FEW_CELLS && all->embedding->count / 8 >= all->rest->count));
+    if (all->of.count != 1 || in->data == out->data)
+        return all->of.count == 1;
+    if (cells > FEW_CELLS || all->embedding->count / 8 < all->rest->count)
+        return false;
+    return cells == 1 || !ffd_point_cells_pay(all->embedding);
 }
 
 /* Checks a call, and fills in the strides of its arrays. */

@@ -190,6 +190,7 @@ ffd_status ffd_embedding_make(const ffd_lattice *lattice, size_t count, ffd_embe
     made->status = ffd_alloc(count, sizeof *made->status);
     made->index = ffd_cell_index_create();
     atomic_init(&made->sorted, NULL);
+    atomic_init(&made->asked, false);
     if (made->uvw && made->status && made->index && ffd_lattice_copy(lattice, &made->rest, NULL) == FFD_OK) {
         made->rest_hash = ffd_rest_hash(made->rest);
         return FFD_OK;

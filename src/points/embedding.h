@@ -28,6 +28,7 @@ struct ffd_embedding {
     size_t extended_count;
     struct cell_index *index;             /* the points of each span cell, made on first use (affected.c) */
     _Atomic(struct point_cells *) sorted; /* the points cell by cell, likewise (point_cells.h) */
+    atomic_bool asked;                    /* whether these would have been of use (point_cells.h) */
 };
 
 /* Makes an embedding with a copy of the lattice and with uninitialised arrays for count points. Errors:

@@ -123,6 +123,12 @@ const point_cells *ffd_point_cells(const ffd_embedding *embedding)
     return there;
 }
 
+bool ffd_point_cells_pay(const ffd_embedding *embedding)
+{
+    atomic_bool *const asked = (atomic_bool *)&embedding->asked;
+    return atomic_load((_Atomic(point_cells *) *)&embedding->sorted) || atomic_exchange(asked, true);
+}
+
 void ffd_point_cells_destroy(point_cells *cells)
 {
     if (!cells)

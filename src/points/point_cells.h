@@ -28,5 +28,9 @@ struct point_cells {
 /* Returns the sorted points of an embedding, which has them from the first call on. NULL if memory runs out.
    Thread-safe. */
 const point_cells *ffd_point_cells(const ffd_embedding *embedding);
+/* Returns whether a call for which they are of use, but not needed, should ask for them: they are there, or
+   this is not the first such call. To sort points takes as long as to deform them a few times. Thread-safe.
+ */
+bool ffd_point_cells_pay(const ffd_embedding *embedding);
 
 #endif
