@@ -20,7 +20,8 @@
 
 typedef struct results {
     float moved[3 * POINTS], some[3 * POINTS];
-    double gradients[9 * POINTS], products[3 * POINTS], adjoint[3 * 125], uvw[3 * POINTS];
+    double variants[2 * 3 * POINTS], gradients[9 * POINTS], products[3 * POINTS], adjoint[3 * 125],
+        uvw[3 * POINTS];
     uint32_t affected;
     double entries;
 } results;
@@ -31,6 +32,7 @@ typedef struct shared {
     ffd_locator *locator;
     double points[3 * POINTS];
     uint32_t vertices[POINTS / 2];
+    double offsets[2 * 3 * 125];
 } shared;
 
 typedef struct user {
@@ -58,6 +60,9 @@ static void take_part(user *u)
         ffd_embedding_basis_times(all->embedding, NULL, all->points, own->products, &run, NULL) != FFD_OK;
     u->failed |=
         ffd_embedding_basis_transposed(all->embedding, NULL, all->points, own->adjoint, &run, NULL) != FFD_OK;
+    const ffd_span variants = {own->variants, 2 * POINTS, FFD_FLOAT64, 0, 0};
+    u->failed |=
+        ffd_embedding_deform_many(all->embedding, 2, all->offsets, in, variants, &run, NULL) != FFD_OK;
     const size_t corner = 31;
     uint32_t *listed = NULL;
     size_t count = 0;
@@ -100,6 +105,8 @@ static void prepare(shared *all)
         all->points[i] = draw_between(&d, -0.05, 1.05);
     for (size_t i = 0; i < POINTS / 2; i++)
         all->vertices[i] = (uint32_t)(2 * i);
+    for (size_t i = 0; i < 2 * 3 * 125; i++)
+        all->offsets[i] = draw_between(&d, -0.05, 0.05);
     ffd_embedding_desc desc;
     ffd_embedding_desc_init(&desc, sizeof desc);
     desc.lattice = all->lattice;
