@@ -46,10 +46,10 @@ typedef struct scene {
     bool is_weighted;
 } scene;
 
-/* Displacements as they come: all, few, alike, rounded, none. */
-static double draw_offset(draw *d, size_t variant, size_t number)
+/* Displacements as they come: all, few, alike, rounded, none, alike in one half. */
+static double draw_offset(draw *d, const size_t size[3], size_t variant, size_t number)
 {
-    switch (variant % 5) {
+    switch (variant % 6) {
     case 0:
         return draw_between(d, -0.1, 0.1);
     case 1:
@@ -58,8 +58,11 @@ static double draw_offset(draw *d, size_t variant, size_t number)
         return 0.01 * (double)(1 + number % 3);
     case 3:
         return draw_int(d, -1, 1) * 0.25;
-    default:
+    case 4:
         return 0;
+    default:
+        return number / 3 % size[0] <= size[0] / 2 ? 0.1 * (double)(1 + number % 3)
+                                                   : draw_between(d, -0.1, 0.1);
     }
 }
 
@@ -80,7 +83,7 @@ static void begin(size_t rest, ffd_outside outside, size_t count, draw *d, scene
     assert_non_null(s->offsets);
     for (size_t v = 0; v < count; v++)
         for (size_t i = 0; i < 3 * s->control_points; i++)
-            s->offsets[3 * s->control_points * v + i] = draw_offset(d, v, i);
+            s->offsets[3 * s->control_points * v + i] = draw_offset(d, s->size, v, i);
     ffd_embedding_desc_init(&desc, sizeof desc);
     desc.lattice = s->lattice;
     desc.points = (ffd_span){.data = s->xyz, .count = POINTS};
@@ -417,6 +420,39 @@ static void a_basis_in_the_order_of_python_has_the_same_entries(void **state)
     (void)state;
 }
 
+/* Several tiles, with rows that are shorter than others. */
+static void rows_of_a_long_basis_are_those_of_its_product(void **state)
+{
+    enum { LONG = 9500 };
+    static double xyz[3 * LONG], product[3 * LONG], dq[3 * 120];
+    draw d = {draw_seed()};
+    ffd_lattice *lattice = make(rests[0], "");
+    ffd_embedding_desc desc;
+    ffd_embedding *embedding;
+    ffd_csr matrix;
+    for (size_t i = 0; i < 3 * LONG; i++)
+        xyz[i] = draw_int(&d, 0, 3) == 0 ? draw_int(&d, -4, 5) * 0.25 : draw_between(&d, -1.1, 1.1);
+    for (size_t i = 0; i < 3 * 120; i++)
+        dq[i] = draw_between(&d, -1, 1);
+    ffd_embedding_desc_init(&desc, sizeof desc);
+    desc.lattice = lattice;
+    desc.points = (ffd_span){.data = xyz, .count = LONG};
+    assert_int_equal(ffd_embedding_create(&desc, NULL, &embedding, NULL), FFD_OK);
+    assert_int_equal(ffd_embedding_basis(embedding, NULL, &matrix, NULL, NULL), FFD_OK);
+    assert_int_equal(ffd_embedding_basis_times(embedding, NULL, dq, product, NULL, NULL), FFD_OK);
+    for (size_t i = 0; i < LONG; i++) {
+        double sum[3] = {0, 0, 0};
+        for (size_t e = matrix.starts[i]; e < matrix.starts[i + 1]; e++)
+            for (size_t c = 0; c < 3; c++)
+                sum[c] += matrix.values[e] * dq[3 * (size_t)matrix.indices[e] + c];
+        assert_memory_equal(sum, product + 3 * i, sizeof sum);
+    }
+    ffd_csr_free(&matrix);
+    ffd_embedding_destroy(&embedding);
+    ffd_lattice_destroy(&lattice);
+    (void)state;
+}
+
 static void many_evaluations_have_the_bits_of_one(void **state)
 {
     draw d = {draw_seed()};
@@ -460,6 +496,7 @@ int main(void)
         cmocka_unit_test(progress_ends_at_1_and_cancels),
         cmocka_unit_test(the_outer_functions_are_in_one_bezier_point),
         cmocka_unit_test(a_basis_in_the_order_of_python_has_the_same_entries),
+        cmocka_unit_test(rows_of_a_long_basis_are_those_of_its_product),
         cmocka_unit_test(many_evaluations_have_the_bits_of_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
