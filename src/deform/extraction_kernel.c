@@ -2,49 +2,10 @@
    function. It converts the control points of a cell to weighted Bezier points (NURBS Book 5.3): N_j = sum_r
    E_rj B_r, so Bezier point r in a direction is sum_j E_rj P_j, in ascending j, over the j for which E_rj can
    be other than 0 (extraction_band.h). The rows of E are weighted (bezier.h). */
-#include "base/vector/quad.h"
-#include "deform/extraction_band.h"
+#include "deform/extraction_steps.h"
 #include "deform/kernel.h"
 #include <stdbool.h>
 #include <string.h>
-
-/* Sets row r of `to` to sum_j E_rj (row j of `from`); rows have `inner` numbers. */
-static ALWAYS_INLINE void combine_rows(const double *extraction, size_t order, size_t inner,
-                                       const double *restrict from, double *restrict to)
-{
-    for (size_t r = 0; r < order; r++, extraction += order, to += inner) {
-        const size_t first = band_first(r), last = band_last(r, order);
-        for (size_t x = 0; x < inner; x++) {
-            double sum = extraction[first] * from[first * inner + x];
-            for (size_t j = first + 1; j <= last; j++)
-                sum += extraction[j] * from[j * inner + x];
-            to[x] = sum;
-        }
-    }
-}
-
-/* The same for single points, as quads: a point and one number after it, which the next point overwrites. */
-static ALWAYS_INLINE void combine_points(const double *extraction, const double *from, double *to)
-{
-    quad point[4];
-    for (int j = 0; j < 4; j++)
-        point[j] = quad_load(from + 3 * j);
-#pragma GCC unroll 4
-    for (size_t r = 0; r < 4; r++, extraction += 4) {
-        const size_t first = band_first(r);
-        quad sum = quad_times(extraction[first], &point[first]);
-        for (size_t j = first + 1; j <= band_last(r, 4); j++)
-            quad_add(&sum, extraction[j], &point[j]);
-        quad_store(&sum, to + 3 * r);
-    }
-}
-
-static ALWAYS_INLINE void combine_slabs(const double *extraction, size_t order, size_t inner, size_t count,
-                                        const double *restrict from, double *restrict to)
-{
-    for (size_t first = 0; first < count; first += order * inner)
-        combine_rows(extraction, order, inner, from + first, to + first);
-}
 
 /* Computes the slopes of rows of d+1 points in the same way. */
 static ALWAYS_INLINE void find_point_slopes(size_t degree, size_t rows, const double *points, double *slopes)

@@ -4,8 +4,7 @@
    Each lane has the operations of extraction_kernel.c and kernel.c, in the same order, so that it has their
    bits. What depends on a point and not on the variant is computed once for all lanes. */
 #include "deform/variant_kernel.h"
-#include "base/vector/quad.h"
-#include "deform/extraction_band.h"
+#include "deform/extraction_steps.h"
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -313,6 +312,47 @@ static void displace_one(const variant_cell *cell, variant_planes *planes, const
         displace_alone(cell, cell->degree, planes, uvw, vector);
 }
 
+/* Loads a vector and the number after it, or 0 where that is beyond the end. */
+static ALWAYS_INLINE quad load_vector(const double *vectors, size_t place, size_t last)
+{
+    double end[4] = {0};
+    if (place != last)
+        return quad_load(vectors + place);
+    memcpy(end, vectors + place, 3 * sizeof *end);
+    return quad_load(end);
+}
+
+static ALWAYS_INLINE void extract_source(const variant_source *source, const double *rest, double *points)
+{
+    double by_u[3 * 64 + 1], by_v[3 * 64];
+    for (size_t k = 0; k < 4; k++)
+        for (size_t j = 0; j < 4; j++) {
+            quad row[4];
+#pragma GCC unroll 4
+            for (size_t i = 0; i < 4; i++) {
+                const size_t place = source->at[0][i] + source->at[1][j] + source->at[2][k];
+                row[i] = load_vector(source->values, place, source->last);
+                if (rest) {
+                    const size_t at = source->rest_at[0][i] + source->rest_at[1][j] + source->rest_at[2][k];
+                    const quad origin = load_vector(rest, at, source->last);
+                    row[i] = quad_difference(&row[i], &origin);
+                }
+            }
+            combine_quads(source->extraction[0], row, by_u + 12 * (4 * k + j));
+        }
+    combine_slabs(source->extraction[1], 4, 12, 3 * 64, by_u, by_v);
+    combine_slabs(source->extraction[2], 4, 48, 3 * 64, by_v, points);
+    points[3 * 64] = 0;
+}
+
+static void extract_cubic(const variant_source *source, double *points)
+{
+    if (source->rest)
+        extract_source(source, source->rest, points);
+    else
+        extract_source(source, NULL, points);
+}
+
 static void displace_few(const kernel_cell *cell, const double *uvw, size_t count, double *delta)
 {
     if (is_cubic(cell->degree))
@@ -410,5 +450,5 @@ static bool move(const variant_moves *moves)
     return all_true(~unfit);
 }
 
-const variant_kernel FFD_VARIANT_KERNEL = {FFD_LANES,    pack,     fits,         extract,
-                                           displace_one, displace, displace_few, move};
+const variant_kernel FFD_VARIANT_KERNEL = {FFD_LANES, pack,          fits,         extract, displace_one,
+                                           displace,  extract_cubic, displace_few, move};

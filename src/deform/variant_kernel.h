@@ -23,6 +23,17 @@ typedef struct variant_cell {
     size_t first_plane;           /* number of the first function along w */
 } variant_cell;
 
+/* A cell of a single variant, of degree 3, where the values are that a caller gives. */
+typedef struct variant_source {
+    const double *extraction[3];
+    const double
+        *values; /* a vector for each control point, that of i,j,k from at[0][i] + at[1][j] + at[2][k] on */
+    const size_t *at[3];
+    const double *rest; /* NULL, or what is subtracted, likewise */
+    const size_t *rest_at[3];
+    size_t last; /* where the last vector is, in both, after which nothing may be read */
+} variant_source;
+
 /* What is known of a column: its planes of control points, in Bezier form along u and v. Neighbouring cells
    of a column share all but one. */
 typedef struct variant_planes {
@@ -58,6 +69,8 @@ typedef struct variant_kernel {
        uvw: 3 numbers for each. */
     void (*displace)(const variant_cell *cell, const variant_numbers *bezier, const double *uvw, size_t count,
                      variant_numbers *vectors);
+    /* As extraction_kernel for a single variant; writes one number after the points. */
+    void (*extract_cubic)(const variant_source *source, double *points);
     /* As displacement_kernel for a single variant, without derivatives and for points 0 to count - 1: a lane
        holds a coordinate, so that few points are quicker. Reads one number after those of the field. */
     void (*displace_few)(const kernel_cell *cell, const double *uvw, size_t count, double *delta);

@@ -204,23 +204,47 @@ static bool deform_lanes(const block_work *work, const variant_cell *cell, const
 
 /* -- a single variant */
 
-static void extract_single(const block_work *work, const point_cell *of, size_t variant, block_scratch *s,
+/* Whether two neighbours in a cell may have the same displacement. */
+static bool may_share(const variant_source *source)
+{
+    const size_t place = source->at[0][0] + source->at[1][0] + source->at[2][0];
+    const size_t next = place - source->at[0][0] + source->at[0][1];
+    const double *const a = source->values + place, *const b = source->values + next;
+    if (!source->rest)
+        return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+    const size_t origin = source->rest_at[0][0] + source->rest_at[1][0] + source->rest_at[2][0];
+    const double *const p = source->rest + origin, *const q =
+                                                       p - source->rest_at[0][0] + source->rest_at[0][1];
+    return a[0] - p[0] == b[0] - q[0] && a[1] - p[1] == b[1] - q[1] && a[2] - p[2] == b[2] - q[2];
+}
+
+/* Finds the Bezier points of a cell. Returns whether its points may have a common displacement, which the
+   control points in s->numbers then tell. */
+static bool extract_single(const block_work *work, const point_cell *of, size_t variant, block_scratch *s,
                            kernel_cell *cell)
 {
     const ffd_lattice *const rest = work->variants->rest;
-    const double *extraction[3];
-    int degree[3];
-    for (int a = 0; a < 3; a++) {
-        const knot_vector *const knots = &rest->knots[a];
-        const size_t order = (size_t)knots->degree + 1;
-        degree[a] = knots->degree;
-        extraction[a] = knots->extractions + of->index[a] * order * order;
+    variant_source source;
+    const bool is_cubic = ffd_variant_source(work->variants, variant, of->index, &source);
+    const bool may_shift = !is_cubic || of->has_knots || may_share(&source);
+    if (may_shift)
+        ffd_variant_cell(work->variants, variant, of->index, s->numbers);
+    if (is_cubic)
+        work->kernel->extract_cubic(&source, s->bezier);
+    else {
+        const double *extraction[3];
+        int degree[3];
+        for (int a = 0; a < 3; a++) {
+            const size_t order = (size_t)rest->knots[a].degree + 1;
+            degree[a] = rest->knots[a].degree;
+            extraction[a] = rest->knots[a].extractions + of->index[a] * order * order;
+        }
+        memcpy(s->bezier, s->numbers, 3 * cell_size(rest) * sizeof *s->bezier);
+        s->bezier[3 * cell_size(rest)] = 0;
+        work->single->extract(degree, extraction, s->bezier, NULL);
     }
-    ffd_variant_cell(work->variants, variant, of->index, s->numbers);
-    s->numbers[3 * cell_size(rest)] = 0;
-    memcpy(s->bezier, s->numbers, (3 * cell_size(rest) + 1) * sizeof *s->bezier);
-    work->single->extract(degree, extraction, s->bezier, NULL);
     ffd_displacement_cell_begin(rest, of->index, CELL_VALUES, s->bezier, cell);
+    return may_shift;
 }
 
 /* Multiplies the displacements with their factors. */
@@ -246,7 +270,7 @@ static bool move_few(const block_work *work, size_t count, block_scratch *s)
 }
 
 static bool deform_single(const block_work *work, const kernel_cell *cell, const cell_points *points,
-                          size_t variant, block_scratch *s)
+                          bool may_shift, size_t variant, block_scratch *s)
 {
     const kernel_points displaced = {.uvw = work->cells->uvw + 3 * points->first,
                                      .which = s->order,
@@ -257,7 +281,8 @@ static bool deform_single(const block_work *work, const kernel_cell *cell, const
         work->kernel->displace_few(cell, displaced.uvw, points->count, s->vectors);
     else
         work->single->displace(cell, &displaced);
-    ffd_shift_points(&shifts, s->numbers);
+    if (may_shift)
+        ffd_shift_points(&shifts, s->numbers);
     read_points(work, points, s);
     apply_factors(work, points, s);
     if (points->count <= FEW_IN_CELL ? !move_few(work, points->count, s)
@@ -279,8 +304,9 @@ static bool deform_cell(const block_work *work, const point_cell *of, size_t fir
     variant_cell cell;
     kernel_cell single;
     ffd_displacement_spans(work->variants->rest, of->index, points.span);
+    bool may_shift = false;
     if (part->is_single)
-        extract_single(work, of, part->variant, s, &single);
+        may_shift = extract_single(work, of, part->variant, s, &single);
     else {
         cell = begin_cell(work, of, points.span, s);
         if (of->count > 1)
@@ -289,7 +315,7 @@ static bool deform_cell(const block_work *work, const point_cell *of, size_t fir
     for (; first < end; first += points.count) {
         points.first = first;
         points.count = end - first < VARIANT_POINTS ? end - first : VARIANT_POINTS;
-        if (!(part->is_single ? deform_single(work, &single, &points, part->variant, s)
+        if (!(part->is_single ? deform_single(work, &single, &points, may_shift, part->variant, s)
                               : deform_lanes(work, &cell, &points, part, s)))
             return false;
     }

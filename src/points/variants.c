@@ -158,6 +158,22 @@ void ffd_variant_cell(const variant_set *all, size_t variant, const size_t index
         copy_offsets(&of, values, last, numbers);
 }
 
+bool ffd_variant_source(const variant_set *all, size_t variant, const size_t index[3], variant_source *source)
+{
+    *source = (variant_source){.values = ffd_variant_values(all, variant),
+                               .rest = all->of.are_points ? all->rest->rest : NULL,
+                               .last = 3 * (all->rest->count - 1)};
+    for (int a = 0; a < 3; a++) {
+        const knot_vector *const knots = &all->rest->knots[a];
+        if (knots->degree != 3)
+            return false;
+        source->extraction[a] = knots->extractions + 16 * index[a];
+        source->at[a] = all->at[a] + 4 * index[a];
+        source->rest_at[a] = all->rest_at[a] + 4 * index[a];
+    }
+    return true;
+}
+
 static ffd_status set_values(const variant_set *all, ffd_lattice *lattice, const double *values,
                              ffd_error *error)
 {

@@ -3,6 +3,7 @@
 #ifndef FFD_POINTS_VARIANTS_H
 #define FFD_POINTS_VARIANTS_H
 
+#include "deform/variant_kernel.h"
 #include "points/embedding.h"
 
 /* The greatest magnitude of numbers with which nothing that is computed of them can overflow: displacements
@@ -42,6 +43,9 @@ ffd_status ffd_variants_origin(const variant_set *all, const double **origin, do
 /* Copies the displacements of the control points of the cell with these indices of spans, u fastest, as
    ffd_lattice_cell_points, and may write one number more. */
 void ffd_variant_cell(const variant_set *all, size_t variant, const size_t index[3], double *numbers);
+/* Sets up the same cell where its values are, if all degrees are 3. */
+bool ffd_variant_source(const variant_set *all, size_t variant, const size_t index[3],
+                        variant_source *source);
 /* Makes the lattice that a variant is, with all checks of its control points. The caller destroys *made.
    Errors: those of setting them; FFD_E_MEMORY. */
 ffd_status ffd_variant_lattice(const variant_set *all, size_t variant, ffd_lattice **made, ffd_error *error);
