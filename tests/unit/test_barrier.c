@@ -19,7 +19,17 @@ static draw dice;
 
 static const knot_kind kinds[] = {KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_UNIFORM, KNOTS_CLOSED};
 
-/* A warped lattice of random knots, whose control points are shaken. Closed directions go round an axis. */
+/* v goes round an axis. */
+static void ring_map(const double g[3], double out[3])
+{
+    const double angle = 6.283185307179586 * g[1];
+    out[0] = (1 + g[0]) * cos(angle);
+    out[1] = (1 + g[0]) * sin(angle);
+    out[2] = g[2];
+}
+
+/* A warped lattice of random knots, whose control points are shaken. A closed v is a ring of at least four
+   control points: with two there and back are the same, and the volume is 0. */
 static ffd_lattice *shaken(double by)
 {
     lattice_kinds shape;
@@ -27,9 +37,11 @@ static ffd_lattice *shaken(double by)
         shape.degree[a] = 1 + (int)(draw_number(&dice) % 4);
         shape.size[a] = (size_t)shape.degree[a] + 1 + draw_number(&dice) % 3;
         shape.kind[a] = kinds[draw_number(&dice) % (a == 1 ? 4 : 3)];
+        if (shape.kind[a] == KNOTS_CLOSED && shape.size[a] < 4)
+            shape.size[a] = 4;
     }
     ffd_lattice *const lattice = lattice_of_kinds(&shape);
-    lattice_map(lattice, shape.kind[1] == KNOTS_CLOSED ? bent_map : warped_map);
+    lattice_map(lattice, shape.kind[1] == KNOTS_CLOSED ? ring_map : warped_map);
     for (size_t i = 0; i < 3 * lattice->count; i++)
         lattice->deformed[i] = lattice->rest[i] + by * (2 * draw_unit(&dice) - 1);
     assert_int_equal(finish_by_hand(lattice, NULL), FFD_OK);
