@@ -182,9 +182,8 @@ def where_memory_is_short_a_run_says_so(run):
             limit = kilobytes * 1024
             done = subprocess.run([FFD, "info", name], cwd=run.folder, capture_output=True, text=True, check=False, timeout=SECONDS,
                                   preexec_fn=lambda limit=limit: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
-            # 127: the C library cannot start the program.
-            check(done.returncode in (OK, LIMIT) or "error while loading shared libraries" in done.stderr, name, kilobytes,
-                  done.returncode, done.stderr)
+            # 127: the C library cannot start the program, and says so in its own words.
+            check(done.returncode in (OK, LIMIT) or (done.returncode == 127 and done.stderr), name, kilobytes, done.returncode, done.stderr)
             check(done.returncode != LIMIT or re.fullmatch(r"ffd: .*out of memory\b.*\n", done.stderr), done.stderr)
             codes.add(done.returncode)
         check({OK, LIMIT} <= codes, name, codes)
