@@ -94,8 +94,8 @@ class EmbedFileOptions(EmbedOptions, total=False):
     force: bool
 
 
-class JacobianOptions(EmbedOptions, total=False):
-    """Options of `jacobian_bytes`: those that positions depend on."""
+class PositionOptions(EmbedOptions, total=False):
+    """Options that positions depend on."""
 
     time: float
     outside: Outside
@@ -104,6 +104,11 @@ class JacobianOptions(EmbedOptions, total=False):
     only: Texts
     weight: Path | bytes | Row
     isa: Isa
+
+
+class JacobianOptions(PositionOptions, total=False):
+    """Options of `jacobian_bytes`."""
+
     timeout: float
 
 
@@ -113,8 +118,8 @@ class JacobianFileOptions(JacobianOptions, total=False):
     force: bool
 
 
-class ViewOptions(JacobianOptions, total=False):
-    """Options of `view_file`, `view_bytes`."""
+class MeshOptions(PositionOptions, total=False):
+    """Options of all that deforms a whole mesh."""
 
     blocks: bool
     normals: Literal["transform", "keep", "recompute"]
@@ -127,8 +132,14 @@ class ViewOptions(JacobianOptions, total=False):
     make_folders: bool
 
 
-class JobOptions(ViewOptions, total=False):
-    """Options of `deform_file` and of all that do its work without writing a mesh file."""
+class ViewOptions(MeshOptions, total=False):
+    """Options of `view_file`, `view_bytes`."""
+
+    timeout: float
+
+
+class WriteOptions(MeshOptions, total=False):
+    """Options of what writes the mesh: one, or each of a batch."""
 
     as_morph: str
     clips: Texts
@@ -136,42 +147,18 @@ class JobOptions(ViewOptions, total=False):
     output_format: Format
     force: bool
     if_changed: bool
+
+
+class JobOptions(WriteOptions, total=False):
+    """Options of `deform_file` and of all that do its work without writing a mesh file."""
+
+    timeout: float
     dry_run: bool
 
 
-class BatchOptions(TypedDict, total=False):
-    """Options of `batch`: those of jobs without timeout and dry_run, and those of their pictures."""
+class BatchOptions(WriteOptions, total=False):
+    """Options of `batch`: those of its jobs, and those of their pictures."""
 
-    input_format: Format
-    space: Space
-    memory: int
-    strict: bool
-    allow_extensions: Texts
-    set: Mapping[str, Any]
-    snap: float | str
-    threads: int
-    time: float
-    outside: Outside
-    falloff: float
-    seam: str
-    only: Texts
-    weight: Path | bytes | Row
-    isa: Isa
-    blocks: bool
-    normals: Literal["transform", "keep", "recompute"]
-    rig: Literal["keep", "follow"]
-    rigid: Texts
-    uniform: Texts
-    embedding: Path | bytes
-    fail_on: Texts
-    quality: bool
-    make_folders: bool
-    as_morph: str
-    clips: Texts
-    resources: Literal["copy", "reference", "refresh"]
-    output_format: Format
-    force: bool
-    if_changed: bool
     in_place: bool
     shared_box: bool
     csv_ignore: str
