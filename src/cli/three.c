@@ -53,8 +53,8 @@ bool cli_set_sizes(void *settings, const cli_option *option, const char *value)
     char part[3][CLI_PART] = {{0}};
     long counts[3];
     if (!parse_counts(value, 2, LONG_MAX, part, counts)) {
-        cli_complain("--%s: \"%.80s\" is not three whole numbers of at least 2, like 4,4,4%s", option->name,
-                     value,
+        cli_complain("--%s: \"%.80s\" is not one or three whole numbers of at least 2, like 4,4,4%s",
+                     option->name, value,
                      is_plane(part) ? ": a plane needs two layers that move alike: --size 5,5,2 --degree "
                                       "3,3,1, and \"at\": [i, j, \"all\"]"
                                     : "");
@@ -71,8 +71,8 @@ bool cli_set_degrees(void *settings, const cli_option *option, const char *value
     char part[3][CLI_PART];
     long counts[3];
     if (!parse_counts(value, 1, FFD_MAX_DEGREE, part, counts)) {
-        cli_complain("--%s: \"%.80s\" is not three whole numbers from 1 to %d, like 3,3,3", option->name,
-                     value, FFD_MAX_DEGREE);
+        cli_complain("--%s: \"%.80s\" is not one or three whole numbers from 1 to %d, like 3,3,3",
+                     option->name, value, FFD_MAX_DEGREE);
         return false;
     }
     for (int a = 0; a < 3; a++)
@@ -100,8 +100,8 @@ bool cli_read_knots(ffd_knots knots[3], const cli_option *option, const char *va
         meant = right ? NULL : ffd_word_meant(part[a], cli_knots_names, KNOTS_NAMES);
     }
     if (!right)
-        cli_complain("--%s: \"%s\" is not three of clamped, open, uniform, closed%s%s%s", option->name, value,
-                     meant ? " (nearest: " : "", meant ? meant : "", meant ? ")" : "");
+        cli_complain("--%s: \"%s\" is not one or three of clamped, open, uniform, closed%s%s%s", option->name,
+                     value, meant ? " (nearest: " : "", meant ? meant : "", meant ? ")" : "");
     return right;
 }
 

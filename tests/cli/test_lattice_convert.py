@@ -191,7 +191,7 @@ def what_cannot_be_is_refused(run):
             ("a.json", "o.csv", ["--degree", "2"], USAGE, "tells its degree itself: --degree"), ("a.csv", "o.json", ["--degree", "2"], USAGE, "tells its degree in line 1"),
             ("a.csv", "o.json", ["--size", "4"], USAGE, "tells its size itself"), ("a.csv", "o.json", ["--set", "A=1"], USAGE, "has no placeholders: --set"),
             ("a.csv", "o.json", ["--mesh", "a.obj"], USAGE, "does not go round a mesh: --mesh"), ("a.json", "o.csv", ["--mesh", "a.obj"], USAGE, "--mesh cannot be used"),
-            ("a.json", "o.csv", ["--size", "1,2,3"], USAGE, "three whole numbers of at least 2"), ("a.json", "o.csv", ["--degree", "15"], USAGE, "from 1 to 14"),
+            ("a.json", "o.csv", ["--size", "1,2,3"], USAGE, "one or three whole numbers of at least 2"), ("a.json", "o.csv", ["--degree", "15"], USAGE, "from 1 to 14"),
             ("a.json", "o.csv", ["--report", "r.json"], USAGE, "report"), ("gone.csv", "o.json", [], IO, "gone.csv"), ("a.csv", "a.csv", [], IO, "is an input"),
             ("mesh.json", "o.csv", [], INVALID, r"mesh\.json: .*needs positions \(--mesh\)"), ("mesh.json", "o.npy", [], INVALID, "needs positions"),
             ("empty.csv", "o.json", [], INVALID, r"empty\.csv:2: there is no header i,j,k,x,y,z"), ("head.csv", "o.json", [], INVALID, rf"head\.csv:{head + 2}: there are no control points"),

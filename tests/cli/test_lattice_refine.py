@@ -211,7 +211,7 @@ def what_cannot_be_is_refused(run):
             ([], USAGE, "nothing would change"), (["--size", "4,4,4"], USAGE, "nothing would change"),
             (["--degree", "3"], USAGE, "nothing would change"), (["--size", "3,5,5"], USAGE, "--size 3 along u is less than the 4"),
             (["--degree", "2,3,3"], USAGE, "--degree 2 along u"), (["--degree", "15"], USAGE, "1 to 14"),
-            (["--size", "5,5"], USAGE, "three whole numbers"), (["--size", "1e3"], USAGE, "three whole numbers"),
+            (["--size", "5,5"], USAGE, "one or three whole numbers"), (["--size", "1e3"], USAGE, "three whole numbers"),
             (["--insert", "u:1.5"], USAGE, "the knot 1.5 is outside of the domain, 0 to 1"),
             (["--insert", "u:-0.001"], USAGE, "the knot -0.001 is outside"),
             (["--insert", "w:0.5,0.5,0.5,0.5"], USAGE, "the knot 0.5 would be there 4 times; degree 3 allows 3"),
