@@ -129,9 +129,9 @@ typedef struct ffd_batch_result {
     bool is_complete;               /* all jobs have ended; else some were not begun */
 } ffd_batch_result;
 
-/* Runs a batch. A job that fails is counted, and is no error of the batch. result is filled in every case.
-   Errors: FFD_E_UNSUPPORTED (there is no program `ffd`, or one of another build), FFD_E_CANCELLED, and those
-   of the manifest, the report, the journal and the workers; jobs that have ended until then stay done. */
+/* Runs a batch. A job that fails is counted, and is not an error of the batch. result is filled in every
+   case. Errors: FFD_E_UNSUPPORTED (there is no program `ffd`, or one of another build), FFD_E_CANCELLED, and
+   those of the manifest, the report, the journal and the workers; jobs that have ended stay done. */
 FFD_API ffd_status ffd_batch_run(const ffd_batch_desc *desc, ffd_batch_result *result, ffd_error *error);
 
 #ifdef __cplusplus

@@ -496,7 +496,7 @@ static ffd_status draw_ended(batch_worker *worker, const wire_task *task, ffd_de
     return status == FFD_E_GATE ? FFD_OK : status; /* of the gate the job has told */
 }
 
-/* A column that is no placeholder may be a note. */
+/* A column that is not a placeholder may be a note. */
 static void hint_at_columns(const wire_task *task, ffd_error *error)
 {
     const size_t length = strlen(error->message);
@@ -634,7 +634,7 @@ static ffd_status take_texts(batch_worker *worker, ffd_error *error)
     return desc->morph_results ? FFD_OK : ffd_fail_memory(error);
 }
 
-/* A column "time" of a table is the option of that name, where it is no placeholder. set: gets the values
+/* A column "time" of a table is the option of that name, where it is not a placeholder. set: gets the values
    without it; freed by the caller. */
 static ffd_status take_time(const wire_task *task, ffd_deform_desc *desc, ffd_setting **set, ffd_error *error)
 {

@@ -28,7 +28,7 @@ static bool set_margin(void *context, const cli_option *option, const char *valu
     return cli_read_margin(s->desc.margin, option, value, &s->has_margins);
 }
 
-/* The hint at a word that is no axis: with a sign it means a direction. */
+/* The hint at a word that is not an axis: with a sign it means a direction. */
 static void hint_axis(const char *value, char hint[CLI_HINT])
 {
     static const char *const known[] = {"x", "y", "z"};

@@ -77,8 +77,8 @@ static void find_rounding(const ffd_lattice *lattice, const double uvw[3], const
             rounding[3 * r + c] = ffd_slope_rounding(lattice, r, by_p[c] + (falloff > 0 ? 1 / falloff : 0));
 }
 
-/* A determinant that is larger than this, relative to rows that are longer by 1, is no rounding. Nearly all
-   are, and the rounding need not be known. */
+/* A determinant that is larger than this, relative to rows that are longer by 1, is not due to rounding.
+   Nearly all are, and the rounding need not be known. */
 #define COARSE 1e-6
 
 bool ffd_collapses(const ffd_lattice *lattice, const double uvw[3], const double *uvw_by_p, double falloff,

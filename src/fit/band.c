@@ -40,7 +40,7 @@ static double *tile_at(const band_matrix *band, size_t row, size_t column)
     return band->entries + (column * band->depth + row - column) * ENTRIES;
 }
 
-/* The rows that are no rows of the matrix make no difference. */
+/* The rows that are not rows of the matrix make no difference. */
 static void fill_up(const band_matrix *band)
 {
     for (size_t i = band->n; i < band->tiles * BAND_TILE; i++)

@@ -118,7 +118,7 @@ static bool holds(const model_target *target, uint32_t feature)
 }
 
 /* Clears normals, texture coordinates and colours that would not be finite in the file: they do not change
-   the shape, so they are no reason to fail. */
+   the shape, so they are not a reason to fail. */
 static void clear_attributes(mesh_model *model, const model_target *target, const mesh_log *log)
 {
     const double largest = target->float_texcoords ? (double)FLT_MAX : DBL_MAX;

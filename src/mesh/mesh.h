@@ -353,7 +353,7 @@ typedef struct mesh_format {
     const mesh_selector_calls *selectors; /* names that `--only` selects by */
     const mesh_resource_calls *resources; /* images and other files that they name */
     const mesh_sidecar_calls *sidecars;   /* further files that they consist of */
-    const mesh_place_calls *places;       /* places that are no vertices */
+    const mesh_place_calls *places;       /* places that are not vertices */
     const mesh_morph_calls *morphs;
     const mesh_rig_calls *rig; /* skeletons and animations */
     const mesh_splat_calls *splats;

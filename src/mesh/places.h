@@ -1,5 +1,5 @@
-/* places.h - the places of a mesh: what is at a point but is no vertex, such as joints, cameras and sockets.
-   They can follow the deformation. */
+/* places.h - the places of a mesh: what is at a point but is not a vertex, such as joints, cameras and
+   sockets. They can follow the deformation. */
 #ifndef FFD_MESH_PLACES_H
 #define FFD_MESH_PLACES_H
 

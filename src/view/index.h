@@ -20,7 +20,7 @@ typedef struct index_row {
     const char *settings; /* "NAME=VALUE, NAME=VALUE" */
     index_state state;
     const char *error;
-    const char *pointer;           /* the JSON pointer in it, which is no path; NULL or "": there is none */
+    const char *pointer; /* the JSON pointer in it, which is not a path; NULL or "": there is none */
     const ffd_job_result *figures; /* NULL: not known. A number that is not known is NaN */
 } index_row;
 

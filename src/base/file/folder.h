@@ -22,14 +22,14 @@ void ffd_folder_unmake(char *path, size_t made);
    FFD_E_MEMORY, FFD_E_IO (it cannot be read to its end). */
 ffd_status ffd_folder_list(const char *path, path_list *names, ffd_error *error);
 /* Adds the files in a folder and in those below it, as paths relative to it with '/', sorted by bytes. Links
-   to files count, links to folders are not followed. Errors: FFD_E_IO (it, or one below it, is no folder that
-   can be read), FFD_E_MEMORY. */
+   to files count, links to folders are not followed. Errors: FFD_E_IO (it, or one below it, is not a folder
+   that can be read), FFD_E_MEMORY. */
 ffd_status ffd_folder_walk(const char *path, path_list *files, ffd_error *error);
 /* Returns the absolute path of a file or folder, with symbolic links resolved; NULL if it does not exist or
    memory runs out. Free with ffd_free. */
 char *ffd_path_resolve(const char *path);
 /* Returns the path that a symbolic link leads to, whether or not a file is there; a copy of the path itself
-   if it is no link, or links lead round in a circle; NULL if memory runs out. Free with ffd_free. */
+   if it is not a link, or links lead round in a circle; NULL if memory runs out. Free with ffd_free. */
 char *ffd_path_follow(const char *path);
 /* Returns whether two files are in different folders, which need not exist. Returns false if memory runs
    out. */

@@ -254,9 +254,9 @@ ffd_status ffd_file_lend(ffd_bytes bytes, const char *name, file_input *input, f
     return FFD_OK;
 }
 
-/* Opening a pipe does not block with O_NONBLOCK: one that is no stream is refused later, and at one of a name
-   like /dev/stdin, to which nobody writes yet, wait_for_bytes looks at the deadline. Without need not for
-   inherited descriptors, whose flags must not change. */
+/* Opening a pipe does not block with O_NONBLOCK: one that is not a stream is refused later, and at one of a
+   name like /dev/stdin, to which nobody writes yet, wait_for_bytes looks at the deadline. Without need not
+   for inherited descriptors, whose flags must not change. */
 static int open_flags(const char *path)
 {
     struct stat info;

@@ -25,7 +25,7 @@ bool ffd_text_has_mark(const void *data, size_t size);
    follow the last word, and the blanks and line ends after it. */
 size_t ffd_text_size(const void *data, size_t size);
 /* Whether the # at `at`, in or behind a word that begins at first, is part of it: Microsoft's old libraries
-   write 1.#QNAN, -1.#IND and 1.#INF for what is no finite number. */
+   write 1.#QNAN, -1.#IND and 1.#INF for what is not a finite number. */
 bool ffd_text_hash_is_of_word(const char *first, const char *at, const char *last);
 /* Begins a scan of these bytes, which must outlive the scan. */
 void ffd_text_begin(text_scan *scan, const void *data, size_t size, bool comments);

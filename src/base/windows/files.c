@@ -118,7 +118,7 @@ static OVERLAPPED position(int64_t at)
     return place;
 }
 
-/* at: NULL, from where the file stands. The end of a file or pipe is no failure. */
+/* at: NULL, from where the file stands. The end of a file or pipe is not a failure. */
 static ssize_t read_at(int fd, void *to, size_t size, OVERLAPPED *at)
 {
     DWORD got = 0;

@@ -22,8 +22,8 @@ typedef struct job_maker {
     batch_job *job;
 } job_maker;
 
-/* Members of a description that are no options of a job: the batch has its own, or a manifest has a member of
-   that name. */
+/* Members of a description that are not options of a job: the batch has its own, or a manifest has a member
+   of that name. */
 static const char *const reserved[] = {"set", "lattice", "morph", "clip", "timeout"};
 enum { RESERVED = sizeof reserved / sizeof *reserved };
 

@@ -332,8 +332,8 @@ static const char *other_manifest(const job_source *source)
     return is_table && *begin != '{' ? "is no JSON ({csv} reads a table)" : NULL;
 }
 
-/* Guesses what a manifest is whose first line is no object, by that line, and by the whole file if it can be
-   read again: comments do not tell. */
+/* Guesses what a manifest is whose first line is not an object, by that line, and by the whole file if it can
+   be read again: comments do not tell. */
 static const content_kind *kind_of_manifest(const job_source *source)
 {
     const byte_buffer *const line = &source->reader.line;

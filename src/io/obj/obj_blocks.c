@@ -30,7 +30,7 @@ static const char *find_cut(const char *first, const char *at, const char *last)
 /* Bytes at the start of a block that are searched for a line to estimate the block by. */
 #define HEAD ((size_t)1024)
 
-/* The shortest line with numbers, "v 1 2 3". A shorter line is no basis for an estimate. */
+/* The shortest line with numbers, "v 1 2 3". A shorter line is not a basis for an estimate. */
 #define SHORTEST_LINE 8
 
 /* Estimates how many `v` or `vn` lines the block has by the length of the first one. Estimates nothing if a

@@ -52,7 +52,7 @@ static ALWAYS_INLINE bool ffd_obj_find_slashes(const char *at, obj_corner_form *
 /* Corners in 64 bytes, whose kinds are found once for all of them. */
 typedef struct obj_corner_run {
     const char *text;
-    uint64_t others; /* a bit for each byte that is no digit, from the next corner on */
+    uint64_t others; /* a bit for each byte that is not a digit, from the next corner on */
     int first;       /* offset of the next corner */
 } obj_corner_run;
 

@@ -7,7 +7,7 @@
 #include "io/obj/obj_faces.h"
 #include "io/obj/obj_vectors.h"
 
-/* A file that is no text may have lines that begin like a statement. */
+/* A file that is not text may have lines that begin like a statement. */
 static ffd_status check_bytes(const obj_document *d, ffd_error *error)
 {
     const content_kind *const kind = ffd_content_kind(d->file.input.data, d->file.input.size);

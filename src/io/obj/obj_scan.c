@@ -25,7 +25,7 @@ static bool takes_names(obj_keyword keyword)
     return keyword >= OBJ_GROUP;
 }
 
-/* What follows the backslash at `at`: the first character that is no blank where numbers are expected. */
+/* What follows the backslash at `at`: the first character that is not a blank where numbers are expected. */
 static const char *after_backslash(const obj_scan *scan, const char *at)
 {
     const bool numbers = scan->inside && scan->keyword != OBJ_OTHER && !takes_names(scan->keyword);

@@ -51,8 +51,8 @@ static ffd_status take_vertex(extractor *e, size_t i)
 }
 
 /* Reads the colour behind a face's corners: whole numbers up to 255, or numbers up to 1, of which one has a
-   point or an exponent (*whole tells which). Returns how many words there are, SIZE_MAX if one is no number;
-   colour is set if there are 3 or 4 numbers. */
+   point or an exponent (*whole tells which). Returns how many words there are, SIZE_MAX if one is not a
+   number; colour is set if there are 3 or 4 numbers. */
 static size_t read_colour(extractor *e, double colour[4], bool *whole)
 {
     size_t words = 0, numbers = 0;

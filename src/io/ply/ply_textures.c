@@ -29,7 +29,8 @@ bool ffd_ply_texture_name(text_word note, text_word *name)
     return false;
 }
 
-/* Adds an image by its name, which counts from the mesh's folder. An absolute name is no file beside it. */
+/* Adds an image by its name, which counts from the mesh's folder. An absolute name is not a file beside it.
+ */
 static ffd_status add(const file_folder *folder, text_word name, resource_list *list, ffd_error *error)
 {
     const size_t size = (size_t)(name.last - name.first);

@@ -7,7 +7,7 @@
 static const char *const colours[][4] = {{"red", "green", "blue", "alpha"},
                                          {"diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"}};
 
-/* Returns the value of a type that stands for 1; 0: its numbers are no weights. */
+/* Returns the value of a type that stands for 1; 0: its numbers are not weights. */
 static double unit_of(ply_type type)
 {
     switch (type) {

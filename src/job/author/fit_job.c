@@ -282,7 +282,7 @@ end:
     return status;
 }
 
-/* An array in memory is no mesh. */
+/* An array in memory is not a mesh. */
 static ffd_status take_source(fit_run *run, const ffd_source *callers, const char *name, ffd_source *source,
                               ffd_error *error)
 {

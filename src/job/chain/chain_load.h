@@ -53,7 +53,7 @@ void ffd_chain_end_alone(lattice_chain *alone);
 /* Makes the locator of a link whose lattice is fitted, and its border if the chain extends. Uses the
    cache. */
 ffd_status ffd_chain_prepare(lattice_chain *chain, size_t link, ffd_error *error);
-/* Returns whether u,v,w of a link take a search, as the volume is no box. It has its locator. */
+/* Returns whether u,v,w of a link take a search, as the volume is not a box. It has its locator. */
 bool ffd_link_searches(const chain_link *link);
 
 #endif

@@ -5,7 +5,7 @@
    - Bits. Bit 0: no link may move the point. Bit l + 1: link l leaves the point where it is, because it is
      outside of the link. Blocks count as one link.
    - Owners, of blocks: the block that gives the displacement, in two bytes, the lower one first.
-   - Parts, of volumes that are no boxes: where u, v and w are in the domain, a byte each. */
+   - Parts, of volumes that are not boxes: where u, v and w are in the domain, a byte each. */
 #ifndef FFD_JOB_CHAIN_MARKS_H
 #define FFD_JOB_CHAIN_MARKS_H
 
@@ -28,7 +28,7 @@ static inline uint8_t ffd_kept_bit(size_t link)
 #define OWNER_NEAREST 0x8000u
 
 /* Lays out the marks of a chain whose links are fitted. owners: whether blocks note owners; those of which
-   some are no boxes always do. */
+   some are not boxes always do. */
 void ffd_marks_lay_out(lattice_chain *chain, bool owners);
 
 /* Marks a point of a run, if it has marks, as left by a link. */

@@ -138,7 +138,7 @@ static ffd_status read_format(const reading *r)
     return FFD_OK;
 }
 
-/* Reads "u-,v+", "all" or "cut". Returns false if they are no faces. */
+/* Reads "u-,v+", "all" or "cut". Returns false if they are not faces. */
 static bool parse_faces(const char *text, unsigned *faces)
 {
     *faces = strcmp(text, "all") == 0 ? FFD_FACES_ALL : FFD_FACES_CUT;

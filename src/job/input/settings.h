@@ -35,7 +35,7 @@ typedef struct member_piece {
 } member_piece;
 /* The most pieces of a member. */
 #define MEMBER_PIECES 4
-/* Returns the number of pieces that a member is made of, which is no list. */
+/* Returns the number of pieces that a member is made of, which is not a list. */
 size_t ffd_member_pieces(const ffd_member *member, member_piece pieces[MEMBER_PIECES]);
 /* Copies such a member from one description to another. */
 void ffd_member_copy(const ffd_member *member, const ffd_deform_desc *from, ffd_deform_desc *to);

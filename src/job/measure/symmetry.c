@@ -127,7 +127,7 @@ static void add_image(image_grid *grid, const double image[3])
     }
 }
 
-/* Draws a vertex. An image beyond the bounds is no vertex. */
+/* Draws a vertex. An image beyond the bounds is not a vertex. */
 static void draw(void *context, const double place[3])
 {
     image_grid *const grid = context;

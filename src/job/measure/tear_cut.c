@@ -21,7 +21,7 @@
 /* A place farther from a border than this many eps of the coordinates is on one side of it, whatever the
    rounding. */
 #define MARGIN 256
-/* An edge is cut into so many pieces first where it is in the bounds of a volume that is no box. */
+/* An edge is cut into so many pieces first where it is in the bounds of a volume that is not a box. */
 #define PIECES 4
 /* The most parts of an edge that wait while another one is cut; of more those with the smallest defects are
    left out. */

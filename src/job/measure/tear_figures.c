@@ -18,7 +18,7 @@
 /* A deformation of a larger mesh reads the faces only if the figures are asked for. */
 #define UNASKED_VERTICES ((uint64_t)5500000)
 
-/* Unasked, edges in volumes that are no boxes are cut only if that takes little beside the search for the
+/* Unasked, edges in volumes that are not boxes are cut only if that takes little beside the search for the
    vertices: of a mesh that is coarse beside its lattice all edges may have to be, and in a lattice that
    overlaps itself each place takes long. These evaluations are allowed: this part of those of the search, and
    so many anyway. */
@@ -41,7 +41,8 @@ static size_t count_vertices(const deform_job *job)
     return (size_t)ffd_mesh_vertex_count(job->document);
 }
 
-/* The ends' displacements, and their derivatives, rule out most edges outside of a volume that is no box. */
+/* The ends' displacements, and their derivatives, rule out most edges outside of a volume that is not a box.
+ */
 static ffd_status make_arrays(const deform_job *job, figure_arrays *arrays, ffd_error *error)
 {
     const size_t count = count_vertices(job);
@@ -203,7 +204,7 @@ static bool may_part(const lattice_chain *chain)
 }
 
 /* The first planes of marks in which the ends of an edge have to differ, or what lies between them. Of blocks
-   that are no boxes the parts tell what leads through other blocks. */
+   that are not boxes the parts tell what leads through other blocks. */
 static size_t count_telling(const deform_job *job, size_t planes)
 {
     return is_asked_for(job) && job->chain.blocks ? job->chain.marks.planes : planes;

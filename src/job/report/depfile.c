@@ -25,7 +25,7 @@ static ffd_status begin(ffd_depfile *depfile, ffd_error *error)
 }
 
 /* Whether a file looks like a depfile: each of its lines names targets, the last of which ends in a colon,
-   and is no comment or JSON. */
+   and is neither a comment nor JSON. */
 static bool is_depfile(const file_input *old)
 {
     const char *const text = (const char *)old->data;

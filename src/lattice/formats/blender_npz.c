@@ -13,7 +13,7 @@
 #include <string.h>
 
 #define VERSION 3
-/* The room for a member that is no list of points. */
+/* The room for a member that is not a list of points. */
 #define SMALL 65536
 /* A point may be so far from the even spacing of its direction, as a part of the range. */
 #define UNEVEN 1e-6

@@ -48,7 +48,7 @@ static uint64_t count_words(const plot3d_reader *r)
     return count;
 }
 
-/* Takes the counts of a block. Returns false if they are no counts, or their product is too large. */
+/* Takes the counts of a block. Returns false if they are not counts, or their product is too large. */
 static bool take_counts(text_scan *scan, plot3d_block *block)
 {
     text_word word;

@@ -91,7 +91,7 @@ def _groups(cells: Cells) -> list[tuple[int, np.ndarray, np.ndarray]]:
 
 
 def _around(kind: int, points: np.ndarray) -> np.ndarray | None:
-    """The points of faces (C, k), around; None: they are no faces."""
+    """The points of faces (C, k), around; None: they are not faces."""
     if kind == _POLYGON and points.shape[1] > 2:
         return points
     return points[:, _AROUND[kind]] if kind in _AROUND else None

@@ -205,12 +205,12 @@ def _with_points(mesh: Any) -> Any:
 
 
 def _refused(mesh: Any) -> TypeError:
-    """The exception for what is no mesh."""
+    """The exception for what is not a mesh."""
     return TypeError(f"{type(mesh).__module__}.{type(mesh).__qualname__} is no mesh with points of trimesh, meshio or pyvista")
 
 
 def copied(mesh: Any) -> tuple[Any, list[Part]]:
-    """A copy of a mesh, and its parts, which change it. Raises TypeError for what is no mesh, and ValueError for points in a plane."""
+    """A copy of a mesh, and its parts, which change it. Raises TypeError for what is not a mesh, and ValueError for points in a plane."""
     package = library_of(mesh)
     if package == "trimesh" and hasattr(mesh, "vertices"):
         copy = mesh.copy()

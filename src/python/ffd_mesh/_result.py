@@ -19,7 +19,7 @@ class Group(SimpleNamespace):
     """A group of figures: the members of its struct (ffd/result.h) as attributes."""
 
 
-# Members of ffd_job_result that are no figures of the job.
+# Members of ffd_job_result that are not figures of the job.
 _NO_FIGURES = {"struct_size", "status", "error", "picture", "page", "own_frame", "morphs", "outputs"}
 
 

@@ -48,7 +48,7 @@ def triples(arrays: list[Stored]) -> list[list[Stored]]:
 
 
 def vectors_of(group: list[Stored], count: int) -> np.ndarray | None:
-    """Normals as (count, 3); None: they are no vectors of floats, one for each point or cell."""
+    """Normals as (count, 3); None: they are not vectors of floats, one for each point or cell."""
     value = np.asarray(group[0].value) if len(group) == 1 else np.stack([np.asarray(array.value) for array in group], axis=-1)
     return value if value.dtype.kind == "f" and value.shape == (count, 3) else None
 
@@ -61,7 +61,7 @@ def lengths_of(vectors: np.ndarray) -> np.ndarray | None:
 
 
 def stale(array: Stored) -> bool:
-    """Whether an array that is no normals may depend on the shape of the mesh."""
+    """Whether an array other than normals may depend on the shape of the mesh."""
     words, value = _words(array.name), np.asarray(array.value)
     directed = value.ndim == 2 and value.shape[1] == 3 and value.dtype.kind == "f" and not words & _FREE
     return array.where != "mesh" and (directed or bool(words & (_MEASURES | _NORMALS)))

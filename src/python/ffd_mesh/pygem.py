@@ -389,7 +389,7 @@ def _weight_of(words: list[str], counts: list[int], letter: str) -> tuple[tuple[
 
 
 def _write_whole(path: str | bytes, text: str) -> None:
-    """Writes a file beside the path, and then gives it that name. What is no file, such as a device, is written to."""
+    """Writes a file beside the path, and then gives it that name. What is not a file, such as a device, is written to."""
     if os.path.exists(path) and not os.path.isfile(path):
         with open(path, "w", encoding="ascii", newline="\n") as file:
             file.write(text)

@@ -12,7 +12,7 @@ static bool is_array(const gltf_document *d, uint32_t value)
     return value != JSON_NONE && d->tree.values[value].kind == JSON_ARRAY;
 }
 
-/* Returns the list in the extras of a mesh or primitive; JSON_NONE: none, or it is no list. */
+/* Returns the list in the extras of a mesh or primitive; JSON_NONE: none, or it is not a list. */
 static uint32_t list_of(const gltf_document *d, uint32_t value)
 {
     const uint32_t extras = ffd_json_tree_member(&d->tree, value, "extras");

@@ -28,7 +28,7 @@ typedef struct glb_layout {
     bool has_bin; /* the second chunk is BIN */
     size_t bin_begin, bin_size;
     size_t rest_begin, end; /* further chunks, up to the length that the file's header states */
-    size_t uneven;          /* where the first chunk begins whose size is no multiple of 4; 0: none */
+    size_t uneven;          /* where the first chunk begins whose size is not a multiple of 4; 0: none */
     size_t more_bins;       /* BIN chunks that nothing reads: only the second chunk may be one */
 } glb_layout;
 

@@ -92,7 +92,7 @@ static ffd_status read_path(const gltf_document *d, uint32_t target, gltf_channe
 }
 
 /* Whether the keys of weights hold other numbers of them than the mesh has morph targets: exporters leave
-   such channels behind when targets are removed or applied. What is no row of weights for each time is an
+   such channels behind when targets are removed or applied. What is not a row of weights for each time is an
    error that loading tells. */
 static bool is_left_behind(const gltf_document *d, const gltf_animation *animation,
                            const gltf_channel *channel)

@@ -11,7 +11,7 @@ static const char *const shown[] = {"asset", "bufferViews", "accessors", "meshes
 static const struct {
     const char *list, *member;
 } hidden[] = {
-    {"bufferViews", "byteStride"}, /* refused if it is no multiple of 4, which is a flaw for us */
+    {"bufferViews", "byteStride"}, /* refused if it is not a multiple of 4, which is a flaw for us */
     {"primitives", "mode"},        /* a number that is not an integer is not seen, others are not checked */
     {"primitives", "indices"}, /* not all versions take an accessor without a bufferView, which is right for
                                   compressed and sparse ones */

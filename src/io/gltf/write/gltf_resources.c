@@ -65,7 +65,7 @@ static bool may_name_files(const char *text, size_t size)
 }
 
 /* Parses the JSON text of a file that may name others. *is_model: false if it does not, or is not valid,
-   which is no error. */
+   which is not an error. */
 static ffd_status parse(const char *path, const file_input *bytes, json_tree *tree, bool *is_model,
                         ffd_error *error)
 {

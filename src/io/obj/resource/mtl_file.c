@@ -85,7 +85,7 @@ static bool pass_option(text_scan *scan, const map_option *option, text_word *wo
     return there;
 }
 
-/* Moves to the first word that is no option and belongs to none. */
+/* Moves to the first word that is not an option and belongs to none. */
 static bool pass_options(text_scan *scan, text_word *word, mtl_map *map)
 {
     const map_option *option;

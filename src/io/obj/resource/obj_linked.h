@@ -15,8 +15,8 @@ bool ffd_obj_names_file(text_word keyword);
    left_out. Errors: FFD_E_MEMORY. */
 ffd_status ffd_obj_leave_name(const file_folder *from, const char *name, const char *to, left_out *left,
                               const char *why, ffd_error *error);
-/* Adds the files that an output in folder `to` (NULL: it is no file) does not reach. name: of the mesh, for
-   messages; from: its folder. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+/* Adds the files that an output in folder `to` (NULL: it is not a file) does not reach. name: of the mesh,
+   for messages; from: its folder. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_obj_leave_linked(const file_input *input, const char *name, const file_folder *from,
                                 const char *to, left_out *left, ffd_error *error);
 /* Adds the paths of the files that the mesh at a path names. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */

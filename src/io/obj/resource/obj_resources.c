@@ -115,7 +115,7 @@ end:
     return status;
 }
 
-/* Adds the libraries that an output in folder `to` (both NULL: it is no file) does not reach. name: of the
+/* Adds the libraries that an output in folder `to` (both NULL: it is not a file) does not reach. name: of the
    mesh, for messages. */
 static ffd_status leave_libraries(const file_input *input, const char *name, const char *output,
                                   const char *to, left_out *left, ffd_error *error)
