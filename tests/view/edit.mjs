@@ -73,6 +73,16 @@ const commands = {
     await page.mouse.up();
     for (const key of keys) await page.keyboard.up(key);
   },
+  // The same with fingers, as a touch screen tells of them: each goes along a list of places.
+  async fingers({page, paths}) {
+    const screen = await page.context().newCDPSession(page);
+    const send = (type, step) => screen.send('Input.dispatchTouchEvent',
+      {type, touchPoints: step === null ? [] : paths.map((path, id) => ({x: path[step][0], y: path[step][1], id}))});
+    await send('touchStart', 0);
+    for (let step = 1; step < paths[0].length; step++) await send('touchMove', step);
+    await send('touchEnd', null);
+    await screen.detach();
+  },
   // The largest canvas: [x, y, width, height].
   canvas: ({page}) => page.evaluate(() => {
     const boxes = Array.from(document.querySelectorAll('canvas'), (one) => one.getBoundingClientRect());

@@ -773,6 +773,28 @@ def a_pointer_drags_a_point(run):
 
 
 @case_of("chromium")
+def a_finger_drags_a_point(run):
+    with page_by_hand(run) as page:
+        place, point = find_point(page)
+        page.soft(None)
+        page.select([], "set")
+        beside = [place[0] + 10, place[1] + 8]  # a finger is not so exact as a mouse
+        page.do("fingers", paths=[[beside, [beside[0] + 25, beside[1] - 15], [beside[0] + 50, beside[1] - 30]]])
+        wait_for(lambda: any(page.offsets()), "the finger moves something")
+        equal([i for i, d in enumerate(rows(page.offsets())) if any(d)], [point], "the points that have moved")
+        judge(run, page, "ball.obj")
+        offsets = page.offsets().tobytes()
+        x, y, width, height = page.do("canvas")
+        middle = [x + width / 2, y + height / 2]
+        apart = [[[middle[0] + side * far, middle[1]] for far in (40, 80, 120)] for side in (-1, 1)]
+        page.do("fingers", paths=apart)
+        page.do("click", pattern=UNDO)
+        wait_for(lambda: not any(page.offsets()), "two fingers move the camera, and make no step to undo")
+        page.do("click", pattern=REDO)
+        wait_for(lambda: page.offsets().tobytes() == offsets, "the edit again")
+
+
+@case_of("chromium")
 def a_box_selects_points(run):
     with page_by_hand(run) as page:
         x, y, width, height = page.do("canvas")
