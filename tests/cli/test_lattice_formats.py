@@ -291,7 +291,9 @@ def cages(run):
     run.write("hint.obj", "# ffd-lattice size 3 4 2\n" + run.text("a.obj"))
     equal(convert(run, "hint.obj", "b.json")["size"], [3, 4, 2])
     equal(convert(run, "hint.obj", "b.json", "--order", "auto", err=found)["size"], [3, 4, 2])
-    run.write("mixed.obj", "".join("v {} {} {}\n".format(*p) for p in RANDOM.sample(grid(3, 4, 2), 24)))
+    # Any order of so few points may by chance have all its cells of one sign: the layers here are turned against each other.
+    lower, upper = grid(3, 4, 2)[:12], grid(3, 4, 2)[12:]
+    run.write("mixed.obj", "".join("v {} {} {}\n".format(*p) for p in lower + upper[::-1]))
     for name, more, code, what in (
             ("a.obj", [], USAGE, r"has 24 points in a row: give .* \(--size\)"), ("a.obj", ["--size", "3,3,3"], INVALID, "has 24 points, but a lattice of 3 x 3 x 3"),
             ("hint.obj", ["--size", "3,4,2"], USAGE, "tells its size itself"), ("mixed.obj", ["--size", "3,4,2"], INVALID, "is not a grid of 3 x 4 x 2 points in any order"),
