@@ -512,7 +512,7 @@ def artist_10_hints_name_what_is_meant(run):
     for words, why in ((["--axis", "Y"], "x, y, z or a direction like 0,1,1 (nearest: y)"), (["--axis", "up"], "x, y, z or a direction like 0,1,1"),
                        (["--axis", "-Y"], "x, y, z or a direction like 0,1,1 (that direction is 0,-1,0)"),
                        (["--axis", "x-"], "x, y, z or a direction like 0,1,1 (that direction is -1,0,0)"),
-                       (["--knots", "open,Closed,open"], "three of clamped, open, uniform, closed (nearest: closed)")):
+                       (["--knots", "open,Closed,open"], "one or three of clamped, open, uniform, closed (nearest: closed)")):
         run.ffd("lattice", "new", "m.obj", "-o", "n.json", *words, code=USAGE, err=f'{words[0]}: "{words[1]}" is not {why}')
 
 
