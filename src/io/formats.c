@@ -6,6 +6,8 @@
 #include "io/off/off_format.h"
 #include "io/ply/ply_format.h"
 #include "io/stl/stl_format.h"
+#include "io/su2/su2_format.h"
+#include "io/vtk/vtk_format.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -23,6 +25,10 @@ const mesh_format *ffd_format_table(ffd_format format)
         return &ffd_off_format;
     case FFD_FORMAT_STL:
         return &ffd_stl_format;
+    case FFD_FORMAT_VTK:
+        return &ffd_vtk_format;
+    case FFD_FORMAT_SU2:
+        return &ffd_su2_format;
     case FFD_FORMAT_AUTO:
         break;
     }
@@ -55,7 +61,7 @@ ffd_format ffd_format_from_name(const char *name)
         ffd_format format;
     } known[] = {{".obj", FFD_FORMAT_OBJ}, {".gltf", FFD_FORMAT_GLTF}, {".glb", FFD_FORMAT_GLB},
                  {".vrm", FFD_FORMAT_GLB}, {".ply", FFD_FORMAT_PLY},   {".off", FFD_FORMAT_OFF},
-                 {".stl", FFD_FORMAT_STL}};
+                 {".stl", FFD_FORMAT_STL}, {".vtk", FFD_FORMAT_VTK},   {".su2", FFD_FORMAT_SU2}};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (ffd_path_has_ending(name, known[i].ending))
             return known[i].format;

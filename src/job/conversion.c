@@ -16,10 +16,11 @@ bool ffd_conversion_needed(const mesh_document *document, ffd_format format)
 ffd_status ffd_conversion_check(const mesh_document *document, ffd_format format, ffd_error *error)
 {
     const model_target *target = ffd_model_target(format);
-    if (!ffd_conversion_needed(document, format) || (document->format->model && target))
+    if (!ffd_conversion_needed(document, format) || (target && !document->format->keeps_format))
         return FFD_OK;
-    return ffd_fail(error, FFD_E_UNSUPPORTED, "%s cannot become %s in this build", document->format->name,
-                    target ? target->name : "the output's format");
+    return ffd_fail(error, FFD_E_UNSUPPORTED,
+                    "%s cannot become %s: meshes of volumes keep their format (meshio converts them)",
+                    document->format->name, ffd_format_table(format)->name);
 }
 
 static bool fits(double value, const model_target *target)

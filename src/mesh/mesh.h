@@ -119,7 +119,8 @@ typedef struct mesh_faces {
     uint32_t *vertices;
     size_t lines, points; /* numbers of primitives other than faces */
     /* Number of vertices in no face because an earlier vertex at the same position represents them (formats
-       that list a vertex for every corner); topology does not count them. */
+       that list a vertex for every corner), or because they are inside of volumes or between corners; topology
+       does not count them. */
     size_t repeated;
 } mesh_faces;
 
@@ -326,6 +327,7 @@ typedef struct mesh_format {
     ffd_format format;
     const char *name;          /* "OBJ" */
     double largest_coordinate; /* of the format's number type */
+    bool keeps_format;         /* its meshes cannot become those of another format */
     mesh_open_function *open;
     mesh_close_function *close;
     mesh_describe_function *describe;
