@@ -13,6 +13,12 @@ bool ffd_conversion_needed(const mesh_document *document, ffd_format format)
     return ffd_format_table(format) != document->format;
 }
 
+bool ffd_conversion_keeps(ffd_format format)
+{
+    const mesh_format *const table = ffd_format_table(format);
+    return table && table->keeps_format;
+}
+
 ffd_status ffd_conversion_check(const mesh_document *document, ffd_format format, ffd_error *error)
 {
     const model_target *target = ffd_model_target(format);

@@ -7,6 +7,8 @@
 /* Whether saving in a format needs a conversion. .gltf and .glb are one format. */
 bool ffd_conversion_needed(const mesh_document *document, ffd_format format);
 
+/* Returns whether meshes of a format cannot become those of another one. */
+bool ffd_conversion_keeps(ffd_format format);
 /* Refuses a conversion that this build does not support (FFD_E_UNSUPPORTED). */
 ffd_status ffd_conversion_check(const mesh_document *document, ffd_format format, ffd_error *error);
 

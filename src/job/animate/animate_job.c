@@ -9,6 +9,7 @@
 #include "base/text/words.h"
 #include "job/animate/animation.h"
 #include "job/chain/chain_load.h"
+#include "job/conversion.h"
 #include "job/deform_job.h"
 #include "job/input/deform_desc.h"
 #include "job/input/settings.h"
@@ -82,6 +83,10 @@ static ffd_status check_output(const ffd_deform_desc *job, ffd_error *error)
 {
     if (!job->output)
         return ffd_fail(error, FFD_E_ARGUMENT, "no output is given");
+    const char *const input = job->input.path ? job->input.path : "";
+    if (ffd_conversion_keeps(job->input.format ? job->input.format : ffd_format_from_name(input)))
+        return ffd_fail_file(error, FFD_E_ARGUMENT, input,
+                             "a mesh of volumes keeps its format, which has no animations");
     const ffd_format format = ffd_format_from_name(job->output);
     return format == FFD_FORMAT_GLTF || format == FFD_FORMAT_GLB
                ? FFD_OK

@@ -1,0 +1,344 @@
+#!/usr/bin/env python3
+"""Volume meshes: VTK's legacy files and SU2, with readers of their own here: what deform changes in them, what the other
+commands say of them, and what is refused."""
+import re
+
+import volume_files as volume
+from harness import (INVALID, NO, UNSUPPORTED, USAGE, carried, case, check, equal, float32, lattice, main, near)
+
+BUMP = [{"at": [[1, 2], [1, 2], [1, 2]], "by": [0.5, 0.25, -0.125]}]
+STAYS = re.compile("stays? as (it is|they are)")
+
+
+def words(data):
+    return re.split(rb"(\s+)", data)
+
+
+def same_but_numbers(name, before, after):
+    """Words that differ are numbers that differ; all that is between the words is the same."""
+    changed = 0
+    for a, b in zip(words(before), words(after), strict=True):
+        check(a == b or float(a) != float(b), f"{name}: {a} became {b}")
+        changed += a != b
+    return changed
+
+
+def deformed(run, name, data, *options, **expected):
+    """The bytes of a mesh after BUMP; the warning of what stays is expected."""
+    run.write("l.json", lattice(moves=BUMP))
+    run.write("still.json", lattice())
+    run.write(name, data)
+    ending = "." + name.rsplit(".", 1)[1]
+    run.ffd("deform", name, "still" + ending, "-l", "still.json", "--force")
+    equal(run.read("still" + ending), data, f"{name}: nothing moves")
+    run.ffd("deform", name, "out" + ending, "-l", "l.json", "--force", *options, **expected)
+    run.ffd("compare", name, "out" + ending, code=NO)
+    run.ffd("compare", "out" + ending, "out" + ending)
+    return run.read("out" + ending)
+
+
+def rounded(points, kind):
+    return [[float32(x) for x in p] for p in points] if kind == "float" else points
+
+
+@case
+def points_of_vtk_get_the_bits_of_an_obj(run):
+    """Each kind of data, in text and in binary, of both versions; every other byte stays."""
+    run.write("l.json", lattice(moves=BUMP))
+    for make, extra in ((volume.vtk, {}), (volume.vtk, {"offsets": True}), (volume.vtk_polygons, {}),
+                        (volume.vtk_polygons, {"offsets": True}), (volume.vtk_grid, {})):
+        points = volume.grid_points((4, 3, 3)) if make is volume.vtk_grid else volume.POINTS
+        lines = {"lines": 1} if make is volume.vtk else {}
+        for kind in ("float", "double"):
+            expected = rounded(carried(run, rounded(points, kind), "l.json"), kind)
+            check(expected != rounded(points, kind), "the lattice moves")
+            for is_binary in (False, True):
+                name = f"{make.__name__} {extra} {kind} {is_binary}"
+                before = make(is_binary=is_binary, kind=kind, **extra)
+                after = deformed(run, "m.vtk", before, "--normals", "keep", **lines)
+                found, first, last = volume.vtk_vectors(after, b"POINTS", volume.CODES[kind], len(points))
+                equal(rounded(found, kind), expected, name)
+                if is_binary:
+                    equal(after[:first] + after[last:], before[:first] + before[last:], f"{name}: the rest")
+                else:
+                    check(same_but_numbers(name, before, after) > 9, "numbers change")
+
+
+@case
+def texts_of_floats_are_the_shortest(run):
+    before = volume.vtk_polygons(kind="float")
+    after = deformed(run, "m.vtk", before)
+    found, _, _ = volume.vtk_vectors(after, b"POINTS", "f", len(volume.POINTS))
+    for word in after.split(b"float\n")[1].split()[:3 * len(volume.POINTS)]:
+        digits = len(word.strip(b"-").replace(b".", b"").strip(b"0"))
+        shorter = [f"{float(word):.{n}g}" for n in range(1, digits)]
+        check(not any(float32(float(text)) == float32(float(word)) for text in shorter), word)
+    check(found != volume.POINTS, "it moves")
+
+
+@case
+def normals_of_vtk_follow_those_of_obj(run):
+    run.write("l.json", lattice(moves=BUMP))
+    run.write("p.obj", "".join("v %r %r %r\n" % tuple(p) for p in volume.POINTS)
+              + "".join("vn %r %r %r\n" % tuple(n) for n in volume.NORMALS)
+              + "".join(f"f {i}//{i} {i}//{i} {i}//{i}\n" for i in range(1, len(volume.POINTS) + 1)))
+    run.ffd("deform", "p.obj", "q.obj", "-l", "l.json")
+    expected = [[float(x) for x in line.split()[1:]] for line in run.text("q.obj").splitlines() if line.startswith("vn ")]
+    check(expected != volume.NORMALS, "they turn")
+    for is_binary in (False, True):
+        before = volume.vtk(is_binary=is_binary, kind="double")
+        after = deformed(run, "m.vtk", before, err='m.vtk: this array of three components stays as it is: "velocity"')
+        equal(volume.vtk_vectors(after, b"NORMALS", "d", len(volume.POINTS))[0], expected)
+        equal(volume.vtk_vectors(after, b"VECTORS", "d", len(volume.POINTS))[0], volume.NORMALS, "others stay")
+        after = deformed(run, "m.vtk", before, "--normals", "keep", lines=1)
+        equal(volume.vtk_vectors(after, b"NORMALS", "d", len(volume.POINTS))[0], volume.NORMALS, "kept")
+
+
+@case
+def weights_are_arrays_of_the_points(run):
+    run.write("l.json", lattice(moves=BUMP))
+    whole = carried(run, volume.POINTS, "l.json")
+    expected = [[a + w * (b - a) for a, b in zip(p, q)] for p, q, w in zip(volume.POINTS, whole, volume.WEIGHTS)]
+    for is_binary in (False, True):
+        run.write("m.vtk", volume.vtk(is_binary=is_binary, kind="double"))
+        run.ffd("deform", "m.vtk", "o.vtk", "-l", "l.json", "--force", "-q", "--weight", "property:w")
+        near(volume.vtk_vectors(run.read("o.vtk"), b"POINTS", "d", len(volume.POINTS))[0], expected, 1e-15)
+        run.ffd("deform", "m.vtk", "o.vtk", "-l", "l.json", "--force", "-q", "--weight", "property:tags")
+        found = volume.vtk_vectors(run.read("o.vtk"), b"POINTS", "d", len(volume.POINTS))[0]
+        equal(found, [(whole, volume.POINTS)[i % 2][i] for i in range(len(found))], "bytes from 0 to 255")
+    run.ffd("deform", "m.vtk", "n.vtk", "-l", "l.json", "--weight", "property:x", code=INVALID,
+            err='m.vtk: the points have no array "x" (--weight)')
+    run.ffd("deform", "m.vtk", "n.vtk", "-l", "l.json", "--weight", "property:velocity", code=INVALID,
+            err=re.compile('the array "velocity" has 3 components of double'))
+
+
+@case
+def points_of_su2_get_the_bits_of_an_obj(run):
+    run.write("l.json", lattice(moves=BUMP))
+    expected = carried(run, volume.POINTS, "l.json")
+    for end in ("\n", "\r\n"):
+        before = volume.su2(end=end)
+        after = deformed(run, "m.su2", before)
+        equal(volume.su2_points(after, 3), expected)
+        check(same_but_numbers("su2", before, after) > 9, "numbers change")
+    deformed(run, "m.su2", volume.su2(boxes=1), err="m.su2: the FFD boxes of the file stay as they are")
+
+
+@case
+def a_flat_mesh_stays_flat(run):
+    run.write("l.json", lattice(moves=BUMP))
+    points = [[*p, 0.0] for p in volume.SU2_FLAT]
+    expected = [p[:2] for p in carried(run, points, "l.json")]
+    after = deformed(run, "m.su2", volume.su2_flat(),
+                     err="m.su2: the mesh has two dimensions: displacements along z are left out, of 5 vertices")
+    equal(volume.su2_points(after, 2), expected)
+    equal(after, volume.su2_flat(expected), "every other byte")
+    run.write("l.json", lattice(moves=[{"at": [[1, 2], [1, 2], [1, 2]], "by": [0.5, 0.25, 0]}]))
+    run.ffd("deform", "m.su2", "o.su2", "-l", "l.json")
+
+
+@case
+def groups_are_markers_and_zones(run):
+    run.write("l.json", lattice(moves=BUMP))
+    whole = carried(run, volume.POINTS, "l.json")
+    run.write("m.su2", volume.su2())
+    for group, members in (("wall", {0, 1, 2, 3}), ("far", {4, 5, 6, 8})):
+        run.ffd("deform", "m.su2", "o.su2", "-l", "l.json", "--force", "-q", "--only", "group:" + group)
+        equal(volume.su2_points(run.read("o.su2"), 3), [(volume.POINTS, whole)[i in members][i] for i in range(10)], group)
+    run.ffd("deform", "m.su2", "n.su2", "-l", "l.json", "--only", "group:wal", code=USAGE, err=re.compile("wall"))
+    named = {name["selector"]: name["vertices"] for name in run.ffd("info", "m.su2", "--json", "--parts").json["named_parts"]}
+    equal(named, {"group:wall": 4, "group:far": 4})
+    run.write("z.su2", volume.su2_zones())
+    run.ffd("deform", "z.su2", "o.su2", "-l", "l.json", "--force", "-q", "--only", "group:zone 2")
+    before, after = (data.split(b"IZONE= 2") for data in (run.read("z.su2"), run.read("o.su2")))
+    equal(after[0], before[0])
+    check(after[1] != before[1], "the second zone moves")
+    equal(run.ffd("info", "z.su2", "--json").json["topology"]["components"], 2, "zones number their points anew")
+
+
+@case
+def commands_see_the_outer_faces(run):
+    """What an OBJ of the outer faces has: topology, u,v,w, a lattice round it, figures of check."""
+    run.write("l.json", lattice(moves=BUMP))
+    run.write("m.obj", "".join("v %r %r %r\n" % tuple(p) for p in volume.POINTS)
+              + "".join("f " + " ".join(str(i + 1) for i in face) + "\n" for face in volume.OUTER))
+    expected = run.ffd("info", "m.obj", "--json").json
+    for name, data in (("m.vtk", volume.vtk(is_binary=True, kind="double")), ("m.su2", volume.su2())):
+        run.write(name, data)
+        found = run.ffd("info", name, "--json").json
+        equal({**found["topology"], "area": 0}, {**expected["topology"], "area": 0}, name)
+        near([found["topology"]["area"]], [expected["topology"]["area"]], 1e-12)
+        equal(found["bounds"], expected["bounds"])
+        equal(found["contents"]["cells"], 3 if name == "m.vtk" else 2)
+        equal(found["contents"]["volumes"], 2)
+        for path in (name, "m.obj"):
+            run.ffd("embed", path, "-l", "l.json", "-o", path + ".npy", "--force")
+            run.ffd("check", path, "-l", "l.json", "--report", path + ".report", "--report-stable", data=True)
+        equal(run.read(name + ".npy")[:128 + 240], run.read("m.obj.npy")[:128 + 240], "u,v,w")
+        mine, other = (run.read(path + ".report") for path in (name, "m.obj"))
+        for member in (b'"area"', b'"volume"', b'"flipped_faces"', b'"vertices"'):
+            equal(line_of(mine, member), line_of(other, member), name)
+        run.ffd("lattice", "new", name, "-o", name + ".json")
+        run.ffd("view", name, "-l", "l.json", "-o", name + ".png", data=True)
+        run.ffd("view", name, "-l", "l.json", "-o", name + ".html", data=True)
+    run.ffd("fit", "m.su2", "m.su2", "-o", "f.json", lines=2)
+
+
+def line_of(report, member):
+    return [re.sub(rb"(\d\.\d{10})\d+", rb"\1", line) for line in report.splitlines() if member in line]
+
+
+@case
+def sides_that_cells_share_are_inside(run):
+    """A box of 3 by 2 by 2 hexahedra has only its outer quads; its inner points are no loose ones."""
+    run.write("g.vtk", volume.vtk_grid())
+    topology = run.ffd("info", "g.vtk", "--json").json["topology"]
+    equal([topology[key] for key in ("faces", "boundary_edges", "euler", "isolated_vertices")], [32, 0, 2, 0])
+    run.write("g.vtk", volume.vtk_grid(size=(4, 1, 3)))
+    equal(run.ffd("info", "g.vtk", "--json").json["topology"]["faces"], 6, "a grid of quads")
+    two = volume.Vtk(False, "UNSTRUCTURED_GRID").line("POINTS 8 double").numbers("d", volume.flat(volume.POINTS[:8]))
+    two.line("CELLS 2 35").numbers("i", [16, 4, 3, 0, 1, 2, 3, 0, 3, 1, 3, 1, 3, 2, 3, 2, 3][:17])
+    cells = [[4, 3, 0, 2, 1, 3, 0, 1, 4, 3, 1, 2, 4, 3, 2, 0, 4], [4, 3, 0, 1, 2, 3, 0, 3, 1, 3, 1, 3, 2, 3, 2, 3, 0]]
+    text = ("# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n0 0 0 1 0 0 0 1 0 0 0 -1 0 0 1\n"
+            "CELLS 2 36\n" + "".join(f"{len(c)} " + " ".join(map(str, c)) + "\n" for c in cells) + "CELL_TYPES 2\n42 42\n")
+    run.write("p.vtk", text)
+    topology = run.ffd("info", "p.vtk", "--json").json["topology"]
+    equal([topology[key] for key in ("faces", "boundary_edges", "euler")], [6, 0, 2], "two polyhedra with one side in common")
+
+
+@case
+def every_kind_of_cell_has_its_sides(run):
+    """Alone, each is closed: the sides of a ball, whose normals all look outwards."""
+    ring = lambda n, z: [[round(x, 3), round(y, 3), z] for x, y in  # noqa: E731
+                         [((1, 0), (0, 1), (-1, 0), (0, -1))[i] if n == 4 else (i, i * (n - i)) for i in range(n)]]
+    shapes = {10: (3, True), 14: (4, True), 13: (3, False), 12: (4, False), 15: (5, False), 16: (6, False)}
+    for number, (base, is_pointed) in shapes.items():
+        points = ring(base, 0) + ([[0, 0, 1]] if is_pointed else ring(base, 1))
+        text = (f"# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {len(points)} float\n"
+                + "".join("%g %g %g\n" % tuple(p) for p in points) + f"CELLS 1 {len(points) + 1}\n{len(points)} "
+                + " ".join(map(str, range(len(points)))) + f"\nCELL_TYPES 1\n{number}\n")
+        run.write("k.vtk", text)
+        topology = run.ffd("info", "k.vtk", "--json").json["topology"]
+        equal([topology[key] for key in ("faces", "boundary_edges", "non_manifold_edges", "euler")],
+              [base + 1 + (not is_pointed), 0, 0, 2], f"kind {number}")
+
+
+@case
+def meshes_of_volumes_keep_their_format(run):
+    run.write("l.json", lattice(moves=BUMP))
+    run.write("m.vtk", volume.vtk())
+    run.write("m.su2", volume.su2())
+    run.write("m.obj", "v 0 0 0\n")
+    for a, b, name, other in (("m.vtk", "n.obj", "VTK", "OBJ"), ("m.su2", "n.vtk", "SU2", "VTK"), ("m.obj", "n.su2", "OBJ", "SU2")):
+        run.ffd("deform", a, b, "-l", "l.json", code=UNSUPPORTED,
+                err=f"{a}: {name} cannot become {other}: meshes of volumes keep their format (meshio converts them)")
+    run.write("k.json", lattice(keys=[{"time": 0, "moves": []}, {"time": 1, "moves": BUMP}]))
+    run.ffd("animate", "m.vtk", "n.glb", "-l", "k.json", code=USAGE,
+            err="m.vtk: a mesh of volumes keeps its format, which has no animations")
+
+
+@case
+def streams_and_in_place(run):
+    """Through pipes, in place and under a capital name the same bytes come out; so in a batch and with threads."""
+    run.write("l.json", lattice(moves=BUMP))
+    for name, data in (("m.vtk", volume.vtk(is_binary=True)), ("m.su2", volume.su2())):
+        ending = name.split(".")[1]
+        run.write(name, data)
+        run.ffd("deform", name, "out." + ending, "-l", "l.json", "-q")
+        expected = run.read("out." + ending)
+        done = run.ffd("deform", "-", "-", "-l", "l.json", "-q", "--input-format", ending, "--output-format", ending, stdin=data)
+        equal(done.out, expected, "through the streams")
+        run.write("P." + ending.upper(), data)
+        run.ffd("deform", "P." + ending.upper(), "--in-place", "-l", "l.json", "-q")
+        equal(run.read("P." + ending.upper()), expected, "in place")
+        run.write("jobs.jsonl", '{"in": "%s", "lattice": "l.json", "out": "b.%s"}\n' % (name, ending))
+        run.ffd("batch", "jobs.jsonl", "-q")
+        equal(run.read("b." + ending), expected, "in a batch")
+        run.ffd("deform", name, "t." + ending, "-l", "l.json", "-q", "--threads", "3")
+        equal(run.read("t." + ending), expected, "with threads")
+
+
+@case
+def what_differs_is_told(run):
+    run.write("a.vtk", volume.vtk(kind="double"))
+    moved = [[x + (i == 3) * 0.5 for x in p] for i, p in enumerate(volume.POINTS)]
+    run.write("b.vtk", volume.vtk(moved, kind="double"))
+    done = run.ffd("compare", "a.vtk", "b.vtk", code=NO)
+    check("point 3 counted from 0: x differs by 0.5" in done.text, done.text)
+    run.ffd("compare", "a.vtk", "b.vtk", "--tolerance", "1")
+    for change, said in ((("5 4 5 6 7 8", "5 5 4 6 7 8"), "cell 1 counted from 0 differs"), (("0.25 0.0", "0.75 0.0"), "other bytes"),
+                         (("0.5 0.25 1.75", "0.5  0.25 1.75"), None)):
+        text = volume.vtk(kind="double").decode()
+        text = re.sub(r"\s+".join(re.escape(w) for w in change[0].split()), change[1], text)
+        check(text != volume.vtk(kind="double").decode(), change)
+        run.write("c.vtk", text)
+        done = run.ffd("compare", "a.vtk", "c.vtk", code=NO if said else 0)
+        check(not said or said in done.text, done.text)
+    run.write("b.vtk", volume.vtk(is_binary=True, kind="double"))
+    check("one is ascii, the other binary" in run.ffd("compare", "a.vtk", "b.vtk", code=NO).text, "encodings")
+
+
+HEAD = "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+BROKEN_VTK = [
+    ("solid x\n", INVALID, 'does not begin with "# vtk DataFile Version"; it seems to be an STL file'),
+    ("# vtk DataFile Version 3.0\nt\nASCI\n", INVALID, '"ASCI" is not ASCII or BINARY'),
+    ("# vtk DataFile Version 3.0\nt\nASCII\nDATASET RECTILINEAR_GRID\n", UNSUPPORTED, "the data are a RECTILINEAR_GRID"),
+    (HEAD, INVALID, "has no POINTS"),
+    (HEAD + "POINTS 1 int\n0 0 0\n", UNSUPPORTED, "the points are of the type int"),
+    (HEAD + "POINTS x float\n", INVALID, ':5: "x" is not the number of points'),
+    (HEAD + "POINTS 99999999999999 float\n0 0 0\n", INVALID, "more than the file can hold"),
+    (HEAD + "POINTS 20 float\n0 0 0\n", INVALID, "the file ends too early: 7 bytes are left for 20 points"),
+    (HEAD + "POINTS 2 float\n0 0 0 1 1\n\n\n\n", INVALID, "the file ends after 1 of 2 points"),
+    (HEAD + "POINTS 1 float\n0 0 z\n", INVALID, ':6: point 0 (counted from 0) has "z", which is not a number'),
+    (HEAD + "POINTS 1 float\n0 0 0\nPOINTS 1 float\n0 0 0\n", INVALID, "there are POINTS twice"),
+    (HEAD + "POINTS 1 float\n0 0 0\nCELLS 1 3\n2 0 1\nCELL_TYPES 1\n3\n", INVALID, "a line has the point 1, but there are only 1"),
+    (HEAD + "POINTS 1 float\n0 0 0\nCELLS 1 2\n1 0\nCELL_TYPES 1\n3\n", INVALID, "a line has 1 points, not 2"),
+    (HEAD + "POINTS 1 float\n0 0 0\nCELLS 1 2\n1 0\nCELL_TYPES 1\n99\n", UNSUPPORTED, "cells of the type 99 are not supported"),
+    (HEAD + "POINTS 1 float\n0 0 0\nCELLS 1 2\n1 -1\nCELL_TYPES 1\n1\n", INVALID, '"-1" is not a point'),
+    (HEAD + "POINTS 1 float\n0 0 0\nCELLS 1 2\n1 0\n", INVALID, "there are 1 cells, but 0 CELL_TYPES"),
+    (HEAD + "POINTS 1 float\n0 0 0\nCELLS 1 3\n1 0 0\nCELL_TYPES 1\n1\n", INVALID, "1 more numbers than the cells"),
+    (HEAD + "POINTS 1 float\n0 0 0\nCELLS 1 2\n9 0\nCELL_TYPES 1\n1\n", INVALID, "more points than their list"),
+    (HEAD + "POINTS 1 float\n0 0 0\nCELLS 1 6\n5 1 9 0 0 0\nCELL_TYPES 1\n42\n", INVALID, "the faces of a polyhedron"),
+    (HEAD + "POINTS 1 float\n0 0 0\nPOINT_DATA 2\n", INVALID, "POINT_DATA are of 2 points, but there are 1"),
+    (HEAD + "POINTS 1 float\n0 0 0\nPOINT_DATA 1\nNORMALS n float\n0 0\n", INVALID, "the file ends"),
+    (HEAD + "POINTS 1 float\n0 0 0\nPOINT_DATA 1\nSCALARS a utf8\n", UNSUPPORTED, 'arrays of the type "utf8"'),
+    (HEAD + "POINTS 1 float\n0 0 0\n7\n", INVALID, '"7" is not a keyword'),
+    (HEAD.replace("UN", "") + "DIMENSIONS 2 1 1\nPOINTS 1 float\n0 0 0\n", INVALID, "the dimensions are 2 by 1 by 1"),
+    (HEAD.replace("UN", "") + "POINTS 1 float\n0 0 0\n", INVALID, "has no DIMENSIONS"),
+    (HEAD.replace("3.0", "5.1") + "POINTS 1 float\n0 0 0\nCELLS 2 1\nOFFSETS vtktypeint64\n1 1\nCONNECTIVITY vtktypeint64\n0\n"
+     "CELL_TYPES 1\n1\n", INVALID, "the first offset of the cells is 1, not 0"),
+    (HEAD.replace("3.0", "5.1") + "POINTS 1 float\n0 0 0\nCELLS 3 1\nOFFSETS vtktypeint64\n0 1 0\nCONNECTIVITY vtktypeint64\n0\n"
+     "CELL_TYPES 2\n1 1\n", INVALID, "the offset 0 of a cell is below the one before it, 1"),
+]
+BROKEN_SU2 = [
+    ("", INVALID, "has no NDIME="),
+    ("v 0 0 0\n", INVALID, ":1: a line KEY= VALUE is expected here; it seems to be an OBJ file"),
+    ("NDIME= 4\n", INVALID, ":1: NDIME is 4, not 2 or 3"),
+    ("NDIME= 3\n", INVALID, "has no NPOIN="),
+    ("NDIME= 3\nNPOIN= x\n", INVALID, ':2: NPOIN is not a whole number: "x"'),
+    ("NDIME= 3\nNPOIN= 3\n0 0 0\n", INVALID, ":2: NPOIN states 3 lines, but only 1 follow"),
+    ("NDIME= 3\nNPOIN= 18446744073709551615\n0 0 0\n", INVALID, "NPOIN states"),
+    ("NDIME= 3\nNPOIN= 1\n0 0 % z\n", INVALID, ":3: point 0 (counted from 0) needs 3 numbers"),
+    ("NDIME= 3\nNPOIN= 1\n0 0 y\n", INVALID, ':3: point 0 (counted from 0) has "y"'),
+    ("NDIME= 3\nNPOIN= 1\n0 0 0\n1 1 1\n", INVALID, ":4: a line KEY= VALUE is expected here"),
+    ("NDIME= 3\nNELEM= 1\n10 0 0 0 1\nNPOIN= 1\n0 0 0\n", INVALID, ":3: an element has the point 1, but there are only 1"),
+    ("NDIME= 3\nNELEM= 1\n10 0 0\nNPOIN= 1\n0 0 0\n", INVALID, ':3: a point of an element is not a whole number: ""'),
+    ("NDIME= 3\nNELEM= 1\n77 0 0\nNPOIN= 1\n0 0 0\n", UNSUPPORTED, ":3: elements of the type 77 are not supported"),
+    ("NDIME= 3\nNPOIN= 1\n0 0 0\nMARKER_ELEMS= 1\n1 0\n", INVALID, ":4: MARKER_ELEMS are there before MARKER_TAG"),
+    ("NDIME= 3\nNPOIN= 1\n0 0 0\nNPOIN= 1\n0 0 0\n", INVALID, ":5: there are points twice in a zone"),
+    ("NDIME= 3\nNDIME= 2\n", UNSUPPORTED, ":2: zones of two and of three dimensions"),
+]
+
+
+@case
+def broken_files_are_refused(run):
+    run.write("l.json", lattice(moves=BUMP))
+    for name, broken in (("m.vtk", BROKEN_VTK), ("m.su2", BROKEN_SU2)):
+        for text, code, said in broken:
+            run.write(name, text)
+            done = run.ffd("deform", name, "n." + name[2:], "-l", "l.json", code=code)
+            check(said in done.err[0], f"{text!r}: {done.err[0]!r} lacks {said!r}")
+            run.ffd("info", name, code=code)
+
+
+main()

@@ -1,0 +1,147 @@
+"""Files of volume meshes in every encoding, written and read by other code than the program's."""
+
+import struct
+
+# The corners of a hexahedron, one point above it, and one that no cell has.
+POINTS = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 1.0],
+          [1.0, 1.0, 1.0], [0.0, 1.0, 1.0], [0.5, 0.25, 1.75], [-1.5, 0.5, 0.1]]
+HEXAHEDRON, PYRAMID, QUAD = 12, 14, 9
+# The quad is a side of the hexahedron.
+CELLS = [(HEXAHEDRON, [0, 1, 2, 3, 4, 5, 6, 7]), (PYRAMID, [4, 5, 6, 7, 8]), (QUAD, [0, 1, 2, 3])]
+OUTER = [[0, 3, 2, 1], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7], [4, 5, 8], [5, 6, 8], [6, 7, 8], [7, 4, 8]]
+NORMALS = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.6, 0.8], [0.0, -1.0, 0.0]] * 2
+WEIGHTS = [1.0, 0.0, 0.5, 1.0, 0.25, 0.0, 1.0, 1.0, 0.0, 1.0]
+CODES = {"float": "f", "double": "d"}
+
+
+def rows(values):
+    return "".join(" ".join(repr(x) for x in row) + "\n" for row in values)
+
+
+def flat(values):
+    return [x for row in values for x in row]
+
+
+# VTK, legacy
+
+class Vtk:
+    """Builds a file of the legacy format, in text or in binary."""
+
+    def __init__(self, is_binary, dataset, version="3.0", title="made by a test"):
+        self.is_binary = is_binary
+        self.data = (f"# vtk DataFile Version {version}\n{title}\n{'BINARY' if is_binary else 'ASCII'}\n"
+                     f"DATASET {dataset}\n").encode()
+
+    def line(self, text):
+        self.data += text.encode() + b"\n"
+        return self
+
+    def numbers(self, code, values):
+        if self.is_binary:
+            self.data += struct.pack(f">{len(values)}{code}", *values) + b"\n"
+        else:
+            texts = [repr(x) for x in values]
+            self.data += "".join(" ".join(texts[i:i + 6]) + " \n" for i in range(0, len(texts), 6)).encode()
+        return self
+
+
+def vtk(points=None, is_binary=False, kind="float", normals=None, offsets=False):
+    """A grid with normals, a vector that stays, and weights."""
+    points = POINTS if points is None else points
+    count = len(points)
+    made = Vtk(is_binary, "UNSTRUCTURED_GRID", "5.1" if offsets else "3.0")
+    made.line("FIELD FieldData 1").line("TIME 1 1 double").numbers("d", [0.5])
+    made.line(f"POINTS {count} {kind}").numbers(CODES[kind], flat(points))
+    words = [len(c) for _, c in CELLS]
+    if offsets:
+        made.line(f"CELLS {len(CELLS) + 1} {sum(words)}")
+        made.line("OFFSETS vtktypeint64").numbers("q", [sum(words[:i]) for i in range(len(words) + 1)])
+        made.line("CONNECTIVITY vtktypeint64").numbers("q", flat(c for _, c in CELLS))
+    else:
+        made.line(f"CELLS {len(CELLS)} {sum(words) + len(words)}").numbers("i", flat([len(c), *c] for _, c in CELLS))
+    made.line(f"CELL_TYPES {len(CELLS)}").numbers("i", [k for k, _ in CELLS])
+    made.line(f"CELL_DATA {len(CELLS)}").line("SCALARS region int 1").line("LOOKUP_TABLE default").numbers("i", [1, 2, 3])
+    made.line(f"POINT_DATA {count}").line(f"NORMALS n {kind}").numbers(CODES[kind], flat(normals or NORMALS))
+    made.line("METADATA").line("INFORMATION 0").line("")
+    made.line("VECTORS velocity double").numbers("d", flat(NORMALS))
+    made.line("FIELD FieldData 2").line(f"w 1 {count} double").numbers("d", WEIGHTS)
+    made.line(f"tags 1 {count} unsigned_char").numbers("B", [255, 0] * (count // 2))
+    return made.data
+
+
+def vtk_polygons(points=None, is_binary=False, kind="float", offsets=False):
+    points = POINTS if points is None else points
+    made = Vtk(is_binary, "POLYDATA", "5.1" if offsets else "4.2")
+    made.line(f"POINTS {len(points)} {kind}").numbers(CODES[kind], flat(points))
+    for keyword, cells in (("VERTICES", [[0], [1, 2]]), ("LINES", [[0, 1], [1, 2, 3]]), ("POLYGONS", OUTER),
+                           ("TRIANGLE_STRIPS", [[0, 1, 9, 2]])):
+        words = [len(c) for c in cells]
+        if offsets:
+            made.line(f"{keyword} {len(cells) + 1} {sum(words)}")
+            made.line("OFFSETS vtktypeint64").numbers("q", [sum(words[:i]) for i in range(len(words) + 1)])
+            made.line("CONNECTIVITY vtktypeint64").numbers("q", flat(cells))
+        else:
+            made.line(f"{keyword} {len(cells)} {sum(words) + len(words)}").numbers("i", flat([len(c), *c] for c in cells))
+    return made.data
+
+
+def grid_points(size):
+    return [[0.25 * x, 0.3 * y, 0.2 * z] for z in range(size[2]) for y in range(size[1]) for x in range(size[0])]
+
+
+def vtk_grid(points=None, is_binary=False, kind="float", size=(4, 3, 3)):
+    points = grid_points(size) if points is None else points
+    made = Vtk(is_binary, "STRUCTURED_GRID")
+    made.line("DIMENSIONS %d %d %d" % size).line(f"POINTS {len(points)} {kind}").numbers(CODES[kind], flat(points))
+    return made.data
+
+
+def vtk_vectors(data, keyword, code, count):
+    """The numbers behind a line that begins with a keyword."""
+    at = data.index(keyword)
+    at = data.index(b"\n", at) + 1
+    if b"\nBINARY\n" in data[:200]:
+        size = struct.calcsize(code)
+        values = list(struct.unpack_from(f">{3 * count}{code}", data, at))
+        return [values[i:i + 3] for i in range(0, 3 * count, 3)], at, at + 3 * count * size
+    words = data[at:].split()[:3 * count]
+    values = [float(x) for x in words]
+    return [values[i:i + 3] for i in range(0, 3 * count, 3)], at, None
+
+
+# SU2
+
+SU2_FLAT = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.5, 1.5]]
+
+
+def su2(points=None, end="\n", boxes=0):
+    """In three dimensions, with a comment here and there."""
+    points = POINTS if points is None else points
+    lines = ["% a mesh", "NDIME= 3", f"NELEM= {len(CELLS) - 1}   % cells"]
+    lines += [" ".join(map(str, [kind, *cell, i])) for i, (kind, cell) in enumerate(CELLS[:2])]
+    lines += [f"NPOIN = {len(points)} {len(points)}", "% the points"]
+    lines += ["\t" + " ".join(repr(x) for x in p) + (f"  {i}" if i % 2 == 0 else " % here") for i, p in enumerate(points)]
+    lines += ["NMARK= 2", "MARKER_TAG= wall", "MARKER_ELEMS= 1", "9 0 1 2 3", "MARKER_TAG= far", "MARKER_ELEMS= 2", "5 4 5 8",
+              "5 5 6 8"]
+    lines += [f"FFD_NBOX= {boxes}", "FFD_TAG= box", "FFD_CORNER_POINTS= 8", *["0 0 0"] * 8] if boxes else []
+    return end.join(lines + [""]).encode()
+
+
+def su2_flat(points=None):
+    points = SU2_FLAT if points is None else points
+    return ("NDIME= 2\nNELEM= 2\n9 0 1 2 3\n5 3 2 4\n" + f"NPOIN= {len(points)}\n"
+            + "".join("%r %r %d\n" % (x, y, i) for i, (x, y) in enumerate(points))
+            + "NMARK= 1\nMARKER_TAG= low\nMARKER_ELEMS= 1\n3 0 1\n").encode()
+
+
+def su2_zones():
+    zone = su2_flat().decode()
+    return ("NZONE= 2\nIZONE= 1\n" + zone + "IZONE= 2\n" + zone).encode()
+
+
+def su2_points(data, dimensions):
+    lines = [line.split("%")[0].split() for line in data.decode().replace("\r\n", "\n").split("\n")]
+    lines = [words for words in lines if words]
+    first = next(i for i, words in enumerate(lines) if words[0].startswith("NPOIN"))
+    count = int(" ".join(lines[first]).split("=")[1].split()[0])
+    return [[float(x) for x in words[:dimensions]] for words in lines[first + 1:first + 1 + count]]
