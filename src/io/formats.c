@@ -8,6 +8,7 @@
 #include "io/stl/stl_format.h"
 #include "io/su2/su2_format.h"
 #include "io/vtk/vtk_format.h"
+#include "io/vtkxml/vtkxml_format.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -29,6 +30,12 @@ const mesh_format *ffd_format_table(ffd_format format)
         return &ffd_vtk_format;
     case FFD_FORMAT_SU2:
         return &ffd_su2_format;
+    case FFD_FORMAT_VTU:
+        return &ffd_vtu_format;
+    case FFD_FORMAT_VTP:
+        return &ffd_vtp_format;
+    case FFD_FORMAT_VTS:
+        return &ffd_vts_format;
     case FFD_FORMAT_AUTO:
         break;
     }
@@ -61,7 +68,8 @@ ffd_format ffd_format_from_name(const char *name)
         ffd_format format;
     } known[] = {{".obj", FFD_FORMAT_OBJ}, {".gltf", FFD_FORMAT_GLTF}, {".glb", FFD_FORMAT_GLB},
                  {".vrm", FFD_FORMAT_GLB}, {".ply", FFD_FORMAT_PLY},   {".off", FFD_FORMAT_OFF},
-                 {".stl", FFD_FORMAT_STL}, {".vtk", FFD_FORMAT_VTK},   {".su2", FFD_FORMAT_SU2}};
+                 {".stl", FFD_FORMAT_STL}, {".vtk", FFD_FORMAT_VTK},   {".su2", FFD_FORMAT_SU2},
+                 {".vtu", FFD_FORMAT_VTU}, {".vtp", FFD_FORMAT_VTP},   {".vts", FFD_FORMAT_VTS}};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (ffd_path_has_ending(name, known[i].ending))
             return known[i].format;

@@ -62,11 +62,12 @@ LAYERS = {
     },
     "io/volume": {"base", "base/memory", "base/system", "base/text", "base/vector", "io/text", "mesh"},
     "io/vtk": {"base/memory", "base/system", "io/volume", "mesh"},
+    "io/vtkxml": {"base/memory", "base/system", "base/text", "io/deflate", "io/volume", "mesh"},
     "io/su2": {"base", "base/memory", "base/system", "base/text", "io/volume", "mesh"},
     "io/stl": {"base", "base/memory", "base/system", "base/text", "base/vector", "io/text", "mesh"},
     "io": {
         "base", "base/file", "base/memory", "base/text", "io/gltf", "io/obj", "io/off", "io/ply", "io/stl", "io/su2", "io/vtk",
-        "mesh",
+        "io/vtkxml",        "mesh",
     },
     "io/write": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/file", "io/stl", "json",

@@ -126,6 +126,17 @@ bool ffd_text_find(text_scan *scan)
     return false;
 }
 
+const char *ffd_find_text(const char *first, const char *last, const char *text)
+{
+    const size_t length = strlen(text);
+    for (; (size_t)(last - first) >= length; first++) {
+        first = memchr(first, text[0], (size_t)(last - first) - length + 1);
+        if (!first || memcmp(first, text, length) == 0)
+            return first;
+    }
+    return NULL;
+}
+
 bool ffd_text_is(text_word word, const char *text)
 {
     const size_t size = strlen(text);

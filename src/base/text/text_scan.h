@@ -41,6 +41,9 @@ bool ffd_text_next_line(text_scan *scan);
 /* Moves to the next word, in this line or a later one. Returns false at the end of the file. */
 bool ffd_text_find(text_scan *scan);
 
+/* Returns where a text begins in [first, last), or NULL. */
+const char *ffd_find_text(const char *first, const char *last, const char *text);
+
 /* Whether a word equals this text. */
 bool ffd_text_is(text_word word, const char *text);
 /* The same, without regard to case. text is in lower case. */

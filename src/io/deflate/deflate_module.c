@@ -6,4 +6,5 @@ FFD_API extern const deflate_module ffd_module;
 const deflate_module ffd_module = {
     {DEFLATE_IDENTITY, NULL, ffd_spell_members, ffd_deadline_ask},
     ffd_inflate,
+    ffd_deflate,
 };

@@ -9,13 +9,15 @@
 
 #define DEFLATE_IDENTITY                                                                                     \
     {                                                                                                        \
-        "ffd-deflate.so", FFD_VERSION, 1                                                                     \
+        "ffd-deflate.so", FFD_VERSION, 2                                                                     \
     }
 
 typedef struct deflate_module {
     module_head head;
     ffd_status (*inflate)(const unsigned char *bytes, size_t size, bool is_raw, unsigned char *out,
                           size_t wanted, ffd_error *error);
+    ffd_status (*deflate)(const unsigned char *bytes, size_t size, unsigned char *out, size_t *made,
+                          ffd_error *error);
 } deflate_module;
 
 #endif

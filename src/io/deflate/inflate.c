@@ -65,3 +65,27 @@ ffd_status ffd_inflate(const unsigned char *bytes, size_t size, bool is_raw, uns
     inflateEnd(&stream);
     return status;
 }
+
+ffd_status ffd_deflate(const unsigned char *bytes, size_t size, unsigned char *out, size_t *made,
+                       ffd_error *error)
+{
+    z_stream stream;
+    size_t input = size, room = ffd_deflate_most(size);
+    ffd_status status = FFD_OK;
+    int code = Z_OK;
+    memset(&stream, 0, sizeof stream);
+    stream.next_in = bytes;
+    stream.next_out = out;
+    if (deflateInit(&stream, Z_DEFAULT_COMPRESSION) != Z_OK)
+        return ffd_fail_memory(error);
+    while (!status && code == Z_OK) {
+        status = ffd_deadline_check(error);
+        feed(&stream, &input, &room);
+        code = deflate(&stream, input ? Z_NO_FLUSH : Z_FINISH);
+    }
+    if (!status && code != Z_STREAM_END)
+        status = ffd_fail(error, FFD_E_LIMIT, "zlib needs more room than it should");
+    *made = (size_t)(stream.next_out - out);
+    deflateEnd(&stream);
+    return status;
+}

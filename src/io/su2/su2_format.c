@@ -171,7 +171,7 @@ static ffd_status read_sections(su2_reader *r)
 static ffd_status open_su2(file_input *input, const ffd_source *source, mesh_document **document,
                            ffd_error *error)
 {
-    su2_reader r = {.d = ffd_volume_make(input, source, error), .error = error};
+    su2_reader r = {.d = ffd_volume_make(sizeof(volume_document), input, source, error), .error = error};
     if (!r.d)
         return FFD_E_MEMORY;
     ffd_status status;

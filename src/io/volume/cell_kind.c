@@ -3,7 +3,7 @@
 /* clang-format off */
 static const cell_kind kinds[CELL_KINDS] = {
     [CELL_VERTEX] = {"vertex", 0, 0, false, 1},
-    [2] = {"poly vertex", 0, 0, false, 0},
+    [CELL_POLY_VERTEX] = {"poly vertex", 0, 0, false, 0},
     [CELL_LINE] = {"line", 1, 0, false, 2},
     [CELL_POLYLINE] = {"poly line", 1, 0, false, 0},
     [CELL_TRIANGLE] = {"triangle", 2, 3, false, 3},

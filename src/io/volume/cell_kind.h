@@ -8,6 +8,7 @@
 
 enum {
     CELL_VERTEX = 1,
+    CELL_POLY_VERTEX = 2,
     CELL_LINE = 3,
     CELL_POLYLINE = 4,
     CELL_TRIANGLE = 5,

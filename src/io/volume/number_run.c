@@ -158,7 +158,7 @@ static void splice_text(const number_run *run, const double *before, const doubl
     ffd_run_begin(run, &walk);
     for (size_t i = 0; i < run->count && splice->status == FFD_OK; i++) {
         if (ffd_run_words(&walk, words) < run->width) {
-            splice->status = ffd_file_document_changed(splice->document, splice->error);
+            splice->status = ffd_fail(splice->error, FFD_E_IO, "the file was changed while it was read");
             return;
         }
         const unsigned changes = ffd_vectors_changes(before + i * columns, after + i * columns, columns);
@@ -169,9 +169,8 @@ static void splice_text(const number_run *run, const double *before, const doubl
     }
 }
 
-/* Copies tuples of a block, with the changed numbers in their places. */
-static void patch(const number_run *run, size_t first, size_t last, const double *before, const double *after,
-                  size_t columns, char *block)
+void ffd_run_patch(const number_run *run, size_t first, size_t last, const double *before,
+                   const double *after, size_t columns, char *block)
 {
     const size_t size = ffd_type_size(run->type);
     memcpy(block, run->first + first * run->stride, (last - first) * run->stride);
@@ -196,7 +195,7 @@ static void splice_binary(const number_run *run, const double *before, const dou
     ffd_splice_copy(splice, run->first);
     for (size_t first = 0; first < run->count && splice->status == FFD_OK; first += step) {
         const size_t last = run->count - first < step ? run->count : first + step;
-        patch(run, first, last, before, after, columns, block);
+        ffd_run_patch(run, first, last, before, after, columns, block);
         ffd_splice_bytes(splice, block, (last - first) * run->stride);
         splice->copied = run->first + last * run->stride;
     }

@@ -46,6 +46,10 @@ ffd_status ffd_run_read(const number_run *run, const char *file, const char *wha
    now, because another program has changed the file. */
 bool ffd_run_load(const number_run *run, double *values);
 
+/* Copies the bytes of the tuples [first, last) of a run in binary to block, with new numbers where their bits
+   differ, as ffd_run_splice does. */
+void ffd_run_patch(const number_run *run, size_t first, size_t last, const double *before,
+                   const double *after, size_t columns, char *block);
 /* Copies the file up to the end of a run, with new numbers where their bits differ. before and after have
    `columns` numbers for each tuple, of which the first ones are in the file. The failure is that of the
    splice. */

@@ -103,8 +103,8 @@ void ffd_cell_visit(const volume_cells *cells, size_t cell, cell_point_visitor *
 }
 
 /* Adds the cell at a place of a grid, whose axes of one point are left out. */
-static ffd_status add_grid_cell(volume_cells *cells, const uint64_t at[3], const uint64_t size[3],
-                                ffd_error *error)
+static ffd_status add_grid_cell(volume_cells *cells, uint64_t origin, const uint64_t at[3],
+                                const uint64_t size[3], ffd_error *error)
 {
     static const uint8_t kinds[] = {CELL_VERTEX, CELL_LINE, CELL_QUAD, CELL_HEXAHEDRON};
     static const uint8_t order[8] = {0, 1, 3, 2, 4, 5, 7, 6}; /* bits: a step along each axis */
@@ -114,17 +114,17 @@ static ffd_status add_grid_cell(volume_cells *cells, const uint64_t at[3], const
     for (int a = 0; a < 3; a++)
         if (size[a] > 1)
             along[dimension++] = steps[a];
-    const uint64_t first = at[0] + at[1] * steps[1] + at[2] * steps[2];
+    const uint64_t first = origin + at[0] + at[1] * steps[1] + at[2] * steps[2];
     for (size_t c = 0; c < (size_t)1 << dimension; c++) {
         uint64_t point = first;
         for (size_t d = 0; d < dimension; d++)
             point += order[c] >> d & 1 ? along[d] : 0;
         TRY(ffd_cells_word(cells, (uint32_t)point, error));
     }
-    return ffd_cells_end(cells, kinds[dimension], size[0] * size[1] * size[2], error);
+    return ffd_cells_end(cells, kinds[dimension], origin + size[0] * size[1] * size[2], error);
 }
 
-ffd_status ffd_cells_grid(volume_cells *cells, const uint64_t size[3], ffd_error *error)
+ffd_status ffd_cells_grid(volume_cells *cells, uint64_t first, const uint64_t size[3], ffd_error *error)
 {
     uint64_t at[3], cell_size[3];
     for (int a = 0; a < 3; a++)
@@ -133,7 +133,7 @@ ffd_status ffd_cells_grid(volume_cells *cells, const uint64_t size[3], ffd_error
         for (at[1] = 0; at[1] < cell_size[1]; at[1]++) {
             TRY(ffd_deadline_check(error));
             for (at[0] = 0; at[0] < cell_size[0]; at[0]++)
-                TRY(add_grid_cell(cells, at, size, error));
+                TRY(add_grid_cell(cells, first, at, size, error));
         }
     return FFD_OK;
 }

@@ -37,7 +37,8 @@ static inline const uint32_t *ffd_cell_words(const volume_cells *cells, size_t c
 typedef void cell_point_visitor(void *context, uint32_t point);
 void ffd_cell_visit(const volume_cells *cells, size_t cell, cell_point_visitor *visit, void *context);
 
-/* Adds the cells of a grid of so many points along each axis. Errors: FFD_E_MEMORY. */
-ffd_status ffd_cells_grid(volume_cells *cells, const uint64_t size[3], ffd_error *error);
+/* Adds the cells of a grid of so many points along each axis, whose first point is `first`. Errors:
+   FFD_E_MEMORY. */
+ffd_status ffd_cells_grid(volume_cells *cells, uint64_t first, const uint64_t size[3], ffd_error *error);
 
 #endif

@@ -34,9 +34,9 @@ static bool is_same_form(comparer *c)
     if (a->normal_count != b->normal_count)
         ffd_difference_stop(c->result, FFD_DIFFERENCE_OTHER, "normals are only in the %s",
                             a->normal_count ? "first" : "second");
-    if (c->a->piece_count != c->b->piece_count)
+    if (c->a->span_count != c->b->span_count)
         ffd_difference_stop(c->result, FFD_DIFFERENCE_OTHER, "the points are in %zu and %zu pieces",
-                            c->a->piece_count, c->b->piece_count);
+                            c->a->span_count, c->b->span_count);
     return c->result->equal;
 }
 
@@ -80,16 +80,17 @@ static bool compare_cells(comparer *c)
     return same;
 }
 
-/* The bytes between two pieces. */
+/* The bytes between two spans that may change. */
 typedef struct between {
     const char *first, *last;
 } between;
 
-static between bytes_before(const volume_document *d, size_t piece)
+static between bytes_before(const volume_document *d, size_t span)
 {
     const char *const data = (const char *)d->file.input.data;
-    return (between){piece ? d->pieces[piece - 1].run.last : data,
-                     piece < d->piece_count ? d->pieces[piece].run.first : data + d->file.input.size};
+    const char *const first = span ? d->spans[span - 1].last : data;
+    const char *const last = span < d->span_count ? d->spans[span].first : data + d->file.input.size;
+    return (between){first, last > first ? last : first};
 }
 
 static uint64_t common_bytes(between a, between b)
@@ -104,7 +105,7 @@ static uint64_t common_bytes(between a, between b)
 
 static void compare_bytes(comparer *c)
 {
-    for (size_t i = 0; i <= c->a->piece_count; i++) {
+    for (size_t i = 0; i <= c->a->span_count; i++) {
         const between a = bytes_before(c->a, i), b = bytes_before(c->b, i);
         const uint64_t common = common_bytes(a, b);
         if (a.first + common == a.last && b.first + common == b.last)

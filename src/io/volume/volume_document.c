@@ -2,11 +2,13 @@
 #include "base/memory/memory.h"
 #include <float.h>
 #include <inttypes.h>
+#include <stdlib.h>
 #include <string.h>
 
-volume_document *ffd_volume_make(const file_input *input, const ffd_source *source, ffd_error *error)
+volume_document *ffd_volume_make(size_t size, const file_input *input, const ffd_source *source,
+                                 ffd_error *error)
 {
-    volume_document *const d = ffd_file_document_make(sizeof *d, input, source, error);
+    volume_document *const d = ffd_file_document_make(size, input, source, error);
     if (d) {
         d->dimensions = 3;
         d->point_type = d->normal_type = NUMBER_DOUBLE;
@@ -24,6 +26,7 @@ static void free_content(volume_document *d)
     ffd_free(d->groups);
     ffd_free(d->arrays);
     ffd_free(d->pieces);
+    ffd_free(d->spans);
     ffd_free(d->selected);
     ffd_cells_free(&d->cells);
 }
@@ -39,6 +42,12 @@ void ffd_volume_close(mesh_document *document)
     if (document)
         free_content((volume_document *)document);
     ffd_file_document_close(document);
+}
+
+static int compare_spans(const void *a, const void *b)
+{
+    const volume_span *const x = a, *const y = b;
+    return x->first < y->first ? -1 : x->first > y->first;
 }
 
 /* The memory for cells exists already. */
@@ -58,6 +67,8 @@ mesh_document *ffd_volume_ready(volume_document *d, bool text, const ffd_source 
     d->file.part.normal_count = d->file.directions ? d->file.part.vertex_count : 0;
     d->file.base.largest_coordinate = is_float ? FLT_MAX : DBL_MAX;
     take_cells(d);
+    if (d->span_count > 1)
+        qsort(d->spans, d->span_count, sizeof *d->spans, compare_spans);
     return document;
 }
 
@@ -95,11 +106,19 @@ ffd_status ffd_volume_add_piece(volume_document *d, mesh_stream stream, size_t v
     if (run->width == 2)
         spread(values + 3 * vertex, run->count);
     d->pieces[d->piece_count++] = (volume_piece){*run, stream, vertex};
-    d->pieces[d->piece_count - 1].run.last = *last;
+    TRY(ffd_volume_add_span(d, run->first, *last, error));
     if (is_point)
         d->point_type = run->type;
     else
         d->normal_type = run->type;
+    return FFD_OK;
+}
+
+ffd_status ffd_volume_add_span(volume_document *d, const char *first, const char *last, ffd_error *error)
+{
+    if (!ffd_grow((void **)&d->spans, &d->span_capacity, d->span_count + 1, sizeof *d->spans))
+        return ffd_fail_memory(error);
+    d->spans[d->span_count++] = (volume_span){first, last};
     return FFD_OK;
 }
 

@@ -24,6 +24,11 @@ typedef struct volume_piece {
     size_t vertex; /* the first one */
 } volume_piece;
 
+/* Bytes of the file that may change: of points, normals, and what depends on them. */
+typedef struct volume_span {
+    const char *first, *last;
+} volume_span;
+
 /* An array of values of all vertices, or of the cells. */
 typedef struct volume_array {
     text_word name;
@@ -45,6 +50,8 @@ typedef struct volume_document {
     char content_text[32];
     volume_piece *pieces;
     size_t piece_count, piece_capacity;
+    volume_span *spans; /* in the order of the file, once it is open */
+    size_t span_count, span_capacity;
     volume_cells cells;
     volume_array *arrays;
     size_t array_count, array_capacity;
@@ -66,8 +73,9 @@ static inline const volume_document *ffd_volume_of(const mesh_document *document
     return (const volume_document *)document;
 }
 
-/* Allocates a document, as ffd_file_document_make. */
-volume_document *ffd_volume_make(const file_input *input, const ffd_source *source, ffd_error *error);
+/* Allocates a document of size bytes, as ffd_file_document_make. */
+volume_document *ffd_volume_make(size_t size, const file_input *input, const ffd_source *source,
+                                 ffd_error *error);
 /* Frees a document that could not be opened, but not its input. */
 void ffd_volume_free(volume_document *document);
 /* Ends opening: the positions are read, and the cells, groups and arrays are there. */
@@ -79,6 +87,9 @@ ffd_status ffd_volume_make_points(volume_document *document, uint64_t count, siz
    the line there. Errors: FFD_E_INVALID, FFD_E_MEMORY. */
 ffd_status ffd_volume_add_piece(volume_document *document, mesh_stream stream, size_t vertex,
                                 const number_run *run, const char **last, size_t *line, ffd_error *error);
+/* Notes bytes that may change; those of pieces are noted. Errors: FFD_E_MEMORY. */
+ffd_status ffd_volume_add_span(volume_document *document, const char *first, const char *last,
+                               ffd_error *error);
 /* Adds an array. Errors: FFD_E_MEMORY. */
 ffd_status ffd_volume_add_array(volume_document *document, text_word name, const number_run *run,
                                 bool of_cells, ffd_error *error);

@@ -103,7 +103,7 @@ static ffd_status add_cell(vtk_reader *r, vtk_wholes *points, uint64_t size, uin
 static uint64_t kind_of(text_word keyword, uint64_t size)
 {
     if (ffd_text_is(keyword, "VERTICES"))
-        return size == 1 ? CELL_VERTEX : 2;
+        return size == 1 ? CELL_VERTEX : CELL_POLY_VERTEX;
     if (ffd_text_is(keyword, "LINES"))
         return size == 2 ? CELL_LINE : CELL_POLYLINE;
     if (ffd_text_is(keyword, "TRIANGLE_STRIPS"))
@@ -189,7 +189,7 @@ ffd_status ffd_vtk_end_cells(vtk_reader *r)
                               "there are %" PRIu64 " points, but the dimensions are %" PRIu64 " by %" PRIu64
                               " by %" PRIu64,
                               points, n[0], n[1], n[2]);
-        return ffd_cells_grid(&r->d->cells, n, r->error);
+        return ffd_cells_grid(&r->d->cells, 0, n, r->error);
     }
     if (r->dataset != VTK_UNSTRUCTURED || !r->has_cells)
         return FFD_OK;

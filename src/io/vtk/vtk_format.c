@@ -109,7 +109,7 @@ static ffd_status take_parts(vtk_reader *r)
 static ffd_status open_vtk(file_input *input, const ffd_source *source, mesh_document **document,
                            ffd_error *error)
 {
-    vtk_reader r = {.d = ffd_volume_make(input, source, error), .error = error};
+    vtk_reader r = {.d = ffd_volume_make(sizeof(volume_document), input, source, error), .error = error};
     if (!r.d)
         return FFD_E_MEMORY;
     ffd_text_begin(&r.scan, input->data, input->size, false);

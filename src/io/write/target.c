@@ -18,6 +18,9 @@ const model_target *ffd_model_target(ffd_format format)
         return &ffd_off_target;
     case FFD_FORMAT_VTK: /* of volumes: not from other formats */
     case FFD_FORMAT_SU2:
+    case FFD_FORMAT_VTU:
+    case FFD_FORMAT_VTP:
+    case FFD_FORMAT_VTS:
     case FFD_FORMAT_AUTO:
         break;
     }

@@ -6,7 +6,6 @@
 #include "base/fail.h"
 #include "base/text/text_scan.h"
 #include <math.h>
-#include <string.h>
 
 /* Takes the next word of the file, in this line or a later one. Returns false, with an empty word, at its
    end. */
@@ -26,18 +25,6 @@ static inline ffd_status ffd_next_number(text_scan *scan, const char *name, doub
         return ffd_fail_line(error, FFD_E_INVALID, name, scan->line, "\"%s\" is not a finite number",
                              ffd_text_shown(word).text);
     return FFD_OK;
-}
-
-/* Returns where a text begins, or NULL. */
-static inline const char *ffd_find_text(const char *first, const char *last, const char *text)
-{
-    const size_t length = strlen(text);
-    for (; (size_t)(last - first) >= length; first++) {
-        first = memchr(first, text[0], (size_t)(last - first) - length + 1);
-        if (!first || memcmp(first, text, length) == 0)
-            return first;
-    }
-    return NULL;
 }
 
 #endif

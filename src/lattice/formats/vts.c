@@ -3,12 +3,12 @@
 #include "base/memory/memory.h"
 #include "base/text/base64.h"
 #include "base/text/buffer.h"
+#include "base/text/xml_scan.h"
 #include "io/deflate/inflate.h"
 #include "lattice/formats/grid_arrays.h"
 #include "lattice/formats/number_text.h"
 #include "lattice/formats/readers.h"
 #include "lattice/formats/written_text.h"
-#include "lattice/formats/xml_scan.h"
 #include <inttypes.h>
 #include <string.h>
 
@@ -429,7 +429,8 @@ ffd_status ffd_lattice_read_vts(const file_input *file, const char *name, const 
                                 lattice_spec **spec, ffd_error *error)
 {
     const char *const first = (const char *)file->data;
-    vts_reader r = {.name = name, .wish = wish, .scan = {first, first + file->size, name}, .error = error};
+    vts_reader r = {
+        .name = name, .wish = wish, .scan = {first, first + file->size, name, false}, .error = error};
     ffd_status status;
     *spec = NULL;
     TRY_END(check_start(&r));

@@ -1,5 +1,4 @@
-#include "lattice/formats/xml_scan.h"
-#include "lattice/formats/number_text.h"
+#include "base/text/xml_scan.h"
 #include <string.h>
 
 static bool is_space(char c)
@@ -66,7 +65,7 @@ ffd_status ffd_xml_next(xml_scan *scan, xml_tag *tag, bool *found, ffd_error *er
         tag->name.last++;
     tag->attributes = (text_word){tag->name.last, end};
     scan->at = end + 1;
-    return memchr(tag->attributes.first, '&', (size_t)(end - tag->attributes.first))
+    return !scan->takes_entities && memchr(tag->attributes.first, '&', (size_t)(end - tag->attributes.first))
                ? refuse(scan, "it has entities", error)
                : FFD_OK;
 }
