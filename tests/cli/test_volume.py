@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Volume meshes: VTK's legacy files and SU2, with readers of their own here: what deform changes in them, what the other
 commands say of them, and what is refused."""
+import base64
 import re
+import struct
 
 import volume_files as volume
 from harness import (INVALID, NO, UNSUPPORTED, USAGE, carried, case, check, equal, float32, lattice, main, near)
@@ -137,6 +139,76 @@ def a_flat_mesh_stays_flat(run):
     run.ffd("deform", "m.su2", "o.su2", "-l", "l.json")
 
 
+def same_outside(name, before, after):
+    """All arrays but the points and normals are the same, and so is what stands between them."""
+    a, b = volume.xml_arrays(before), volume.xml_arrays(after)
+    equal(list(a), list(b), name)
+    for array, parts in a.items():
+        for (values, _), (others, _) in zip(parts, b[array], strict=True):
+            check(array in ("Points", "n &amp; n") or values == others, f"{name}: {array} changed")
+    bare = [re.sub(rb'(RangeM..|offset)="[^"]*"|>[^<]*</DataArray>', b"", data.split(b"<AppendedData")[0])
+            for data in (before, after)]
+    equal(bare[0], bare[1], f"{name}: the tags")
+
+
+@case
+def points_of_vtk_in_xml_get_the_bits_of_an_obj(run):
+    """In each encoding, byte order, and width of headers."""
+    run.write("l.json", lattice(moves=BUMP))
+    for make in (volume.vtu, volume.vtp, volume.vts):
+        points = volume.grid_points((4, 3, 3)) if make is volume.vts else volume.POINTS
+        lines = {} if make is volume.vts else {"lines": 1}
+        for code, kind in (("f", "float"), ("d", "double")):
+            expected = rounded(carried(run, rounded(points, kind), "l.json"), kind)
+            for i, encoding in enumerate(volume.ENCODINGS):
+                options = {"order": "<>"[i % 2], "word": "IQ"[i // 2 % 2]}
+                name = f"{make.__name__} {code} {encoding} {options}"
+                before = make(encoding=encoding, code=code, **options)
+                after = deformed(run, "m." + make.__name__, before, "--normals", "keep", **lines)
+                equal(rounded(volume.xml_points(after), kind), expected, name)
+                same_outside(name, before, after)
+                if encoding == "ascii":
+                    continue
+                if "zlib" not in encoding:
+                    check(len(before) - 60 < len(after) < len(before) + 60, f"{name}: the size of data stays")
+                (_, tag), = volume.xml_arrays(after)["Points"]
+                lengths = [sum(x * x for x in p)**0.5 for p in expected]
+                near([float(tag["RangeMin"]), float(tag["RangeMax"])], [min(lengths), max(lengths)], 1e-6, name)
+
+
+@case
+def pieces_and_normals_of_vtk_in_xml(run):
+    run.write("l.json", lattice(moves=BUMP))
+    run.write("m.vtk", volume.vtk(kind="double"))
+    run.ffd("deform", "m.vtk", "o.vtk", "-l", "l.json", "-q")
+    count = len(volume.POINTS)
+    points, normals = (volume.vtk_vectors(run.read("o.vtk"), word, "d", count)[0] for word in (b"POINTS", b"NORMALS"))
+    for encoding in volume.ENCODINGS:
+        before = volume.vtu(volume.POINTS * 2, encoding, "d", pieces=2)
+        after = deformed(run, "m.vtu", before, err='m.vtu: this array of three components stays as it is: "velocity"')
+        equal(volume.xml_points(after), points * 2, encoding)
+        equal(volume.xml_points(after, "n &amp; n"), normals * 2, encoding)
+        same_outside(encoding, before, after)
+        run.ffd("deform", "m.vtu", "w.vtu", "-l", "l.json", "-q", "--force", "--weight", "property:tags")
+        equal(volume.xml_points(run.read("w.vtu"))[1::2], (volume.POINTS * 2)[1::2], "weights of 0")
+        equal(volume.xml_points(run.read("w.vtu"))[::2], (points * 2)[::2], "weights of 1")
+    equal(run.ffd("info", "m.vtu", "--json").json["topology"]["components"], 2, "pieces number their points anew")
+
+
+@case
+def blocks_that_do_not_change_stay(run):
+    """Of data that are compressed in blocks: only those with points that move are compressed anew."""
+    run.write("l.json", lattice(low=(-3, -3, -3), high=(0.3, 3, 3), moves=[{"at": [[0, 1], "all", "all"], "by": [0.5, 0, 0]}]))
+    points = sorted(volume.grid_points((40, 4, 4)))
+    before = volume.vts(points, "raw zlib", "d", size=(40, 4, 4), block=1024)
+    run.write("m.vts", before)
+    run.ffd("deform", "m.vts", "o.vts", "-l", "l.json", "-q")
+    after = run.read("o.vts")
+    check(before != after, "some move")
+    tail = before[before.index(b"_"):].index(b"\n</AppendedData>")
+    equal(after[after.index(b"\n</AppendedData>") - tail // 2:], before[before.index(b"\n</AppendedData>") - tail // 2:], "the end")
+
+
 @case
 def groups_are_markers_and_zones(run):
     run.write("l.json", lattice(moves=BUMP))
@@ -163,13 +235,14 @@ def commands_see_the_outer_faces(run):
     run.write("m.obj", "".join("v %r %r %r\n" % tuple(p) for p in volume.POINTS)
               + "".join("f " + " ".join(str(i + 1) for i in face) + "\n" for face in volume.OUTER))
     expected = run.ffd("info", "m.obj", "--json").json
-    for name, data in (("m.vtk", volume.vtk(is_binary=True, kind="double")), ("m.su2", volume.su2())):
+    for name, data in (("m.vtk", volume.vtk(is_binary=True, kind="double")), ("m.su2", volume.su2()),
+                       ("m.vtu", volume.vtu(encoding="raw zlib", code="d"))):
         run.write(name, data)
         found = run.ffd("info", name, "--json").json
         equal({**found["topology"], "area": 0}, {**expected["topology"], "area": 0}, name)
         near([found["topology"]["area"]], [expected["topology"]["area"]], 1e-12)
         equal(found["bounds"], expected["bounds"])
-        equal(found["contents"]["cells"], 3 if name == "m.vtk" else 2)
+        equal(found["contents"]["cells"], 2 if name == "m.su2" else 3)
         equal(found["contents"]["volumes"], 2)
         for path in (name, "m.obj"):
             run.ffd("embed", path, "-l", "l.json", "-o", path + ".npy", "--force")
@@ -229,7 +302,8 @@ def meshes_of_volumes_keep_their_format(run):
     run.write("m.vtk", volume.vtk())
     run.write("m.su2", volume.su2())
     run.write("m.obj", "v 0 0 0\n")
-    for a, b, name, other in (("m.vtk", "n.obj", "VTK", "OBJ"), ("m.su2", "n.vtk", "SU2", "VTK"), ("m.obj", "n.su2", "OBJ", "SU2")):
+    for a, b, name, other in (("m.vtk", "n.obj", "VTK", "OBJ"), ("m.su2", "n.vtk", "SU2", "VTK"), ("m.obj", "n.su2", "OBJ", "SU2"),
+                              ("m.vtk", "n.vtu", "VTK", "VTU")):
         run.ffd("deform", a, b, "-l", "l.json", code=UNSUPPORTED,
                 err=f"{a}: {name} cannot become {other}: meshes of volumes keep their format (meshio converts them)")
     run.write("k.json", lattice(keys=[{"time": 0, "moves": []}, {"time": 1, "moves": BUMP}]))
@@ -241,7 +315,8 @@ def meshes_of_volumes_keep_their_format(run):
 def streams_and_in_place(run):
     """Through pipes, in place and under a capital name the same bytes come out; so in a batch and with threads."""
     run.write("l.json", lattice(moves=BUMP))
-    for name, data in (("m.vtk", volume.vtk(is_binary=True)), ("m.su2", volume.su2())):
+    for name, data in (("m.vtk", volume.vtk(is_binary=True)), ("m.su2", volume.su2()), ("m.vts", volume.vts()),
+                       ("m.vtp", volume.vtp(encoding="base64 zlib")), ("m.vtu", volume.vtu(encoding="raw"))):
         ending = name.split(".")[1]
         run.write(name, data)
         run.ffd("deform", name, "out." + ending, "-l", "l.json", "-q")
@@ -310,6 +385,64 @@ BROKEN_VTK = [
     (HEAD.replace("3.0", "5.1") + "POINTS 1 float\n0 0 0\nCELLS 3 1\nOFFSETS vtktypeint64\n0 1 0\nCONNECTIVITY vtktypeint64\n0\n"
      "CELL_TYPES 2\n1 1\n", INVALID, "the offset 0 of a cell is below the one before it, 1"),
 ]
+def xml(body, grid="UnstructuredGrid", head='byte_order="LittleEndian"'):
+    return f'<VTKFile type="{grid}" {head}>\n<{grid}>\n{body}</{grid}></VTKFile>\n'
+
+
+def piece(points='format="ascii">0 0 0', cells="", count=1, number=0):
+    return (f'<Piece NumberOfPoints="{count}" NumberOfCells="{number}"><Points>'
+            f'<DataArray type="Float32" NumberOfComponents="3" {points}</DataArray></Points>{cells}</Piece>')
+
+
+def cells(points="0", offsets="1", kinds="1"):
+    return "<Cells>" + "".join(f'<DataArray type="Int32" Name="{name}" format="ascii">{values}</DataArray>'
+                               for name, values in (("connectivity", points), ("offsets", offsets), ("types", kinds))) + "</Cells>"
+
+
+ZLIB = 'byte_order="LittleEndian" compressor="vtkZLibDataCompressor"'
+
+
+def base64_of(*numbers):
+    return base64.b64encode(struct.pack(f"<{len(numbers)}I", *numbers)).decode()
+
+
+BROKEN_VTU = [
+    ("OFF\n", INVALID, "does not begin with a tag of XML; it seems to be an OFF file"),
+    ("<svg/>", INVALID, "does not begin with <VTKFile>"),
+    (xml("", "ImageData"), UNSUPPORTED, 'is a "ImageData" of VTK; of this ending is a UnstructuredGrid'),
+    (xml("", head='compressor="vtkLZ4DataCompressor"'), UNSUPPORTED, "is compressed by vtkLZ4DataCompressor"),
+    (xml(""), INVALID, "has no Piece"),
+    (xml(piece())[:-11], INVALID, "ends before </VTKFile>"),
+    (xml("<!-- ") , INVALID, "a comment or an instruction does not end"),
+    (xml('<Piece NumberOfPoints="-1">'), INVALID, ':3: NumberOfPoints is "-1", not a whole number'),
+    (xml('<Piece NumberOfPoints="1"/>'), INVALID, ":3: a piece has no array of its points"),
+    (xml(piece(count=99999999)), INVALID, "a piece has 99999999 points, more than the file can hold"),
+    (xml(piece(count=2)), INVALID, "2 points"),
+    (xml(piece('format="ascii">0 0 x')), INVALID, 'has "x", which is not a number'),
+    (xml(piece('format="odd">0 0 0')), UNSUPPORTED, 'an array has the format "odd"'),
+    (xml(piece().replace("Float32", "Int32")), UNSUPPORTED, "the points are not Float32 or Float64"),
+    (xml(piece().replace('"3"', '"2"')), INVALID, "the points have 2 components, not 3"),
+    (xml(piece('format="binary">' + base64_of(12, 0, 0))), INVALID, "the file ends within the data of an array, or they are not base64"),
+    (xml(piece('format="binary">' + base64_of(8, 0, 0))), INVALID, "an array has 8 bytes, not 12"),
+    (xml(piece('format="binary">****')), INVALID, "the file ends within the data of an array"),
+    (xml(piece('format="appended" offset="0">')), INVALID, "at the offset 0 of the appended data, which are missing"),
+    (xml(piece('format="appended" offset="900">')).replace("</VTKFile>", '<AppendedData encoding="raw">_</AppendedData></VTKFile>'),
+     INVALID, "at the offset 900 of the appended data, which end before"),
+    (xml(piece('format="appended" offset="0">')).replace("</VTKFile>", '<AppendedData encoding="hex">_</AppendedData></VTKFile>'),
+     INVALID, 'the appended data have the encoding "hex"'),
+    (xml(piece('format="binary">' + base64_of(2**31, 1, 1)), head=ZLIB), INVALID, "states 2147483648 compressed blocks"),
+    (xml(piece('format="binary">' + base64_of(1, 12, 0, 8) + base64_of(0, 0)), head=ZLIB), INVALID, "compressed data are broken"),
+    (xml(piece('format="binary">' + base64_of(1, 2**31, 0, 8) + base64_of(0, 0)), head=ZLIB), INVALID, "2147483648 bytes, not 12"),
+    (xml(piece(number=1)), INVALID, "a piece has 1 cells, but not their connectivity, offsets and types"),
+    (xml(piece(cells=cells("1"), number=1)), INVALID, "a cell has the point 1, but its piece has only 1"),
+    (xml(piece(cells=cells("-1"), number=1)), INVALID, "a cell has a point below 0"),
+    (xml(piece(cells=cells("0", "2"), number=1)), INVALID, "an array of cells has 1 numbers, not 2"),
+    (xml(piece(cells=cells("0 0", "2 1", "1 1"), number=2)), INVALID, "the offset 1 of cell 1 is not between 2 and 1"),
+    (xml(piece(cells=cells("0", "1", "3"), number=1)), INVALID, "a line has 1 points, not 2"),
+    (xml(piece(cells=cells("0", "1", "x"), number=1)), INVALID, '"x" is not a whole number'),
+    (xml(piece(cells=cells("0", "1", "42"), number=1)), UNSUPPORTED, "polyhedra are supported with arrays faces and faceoffsets"),
+    (xml(piece(cells=cells("0", "1", "99"), number=1)), UNSUPPORTED, "cells of the type 99 are not supported"),
+]
 BROKEN_SU2 = [
     ("", INVALID, "has no NDIME="),
     ("v 0 0 0\n", INVALID, ":1: a line KEY= VALUE is expected here; it seems to be an OBJ file"),
@@ -333,7 +466,7 @@ BROKEN_SU2 = [
 @case
 def broken_files_are_refused(run):
     run.write("l.json", lattice(moves=BUMP))
-    for name, broken in (("m.vtk", BROKEN_VTK), ("m.su2", BROKEN_SU2)):
+    for name, broken in (("m.vtk", BROKEN_VTK), ("m.su2", BROKEN_SU2), ("m.vtu", BROKEN_VTU)):
         for text, code, said in broken:
             run.write(name, text)
             done = run.ffd("deform", name, "n." + name[2:], "-l", "l.json", code=code)

@@ -1,6 +1,10 @@
 """Files of volume meshes in every encoding, written and read by other code than the program's."""
 
+import base64
+import math
+import re
 import struct
+import zlib
 
 # The corners of a hexahedron, one point above it, and one that no cell has.
 POINTS = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 1.0],
@@ -145,3 +149,156 @@ def su2_points(data, dimensions):
     first = next(i for i, words in enumerate(lines) if words[0].startswith("NPOIN"))
     count = int(" ".join(lines[first]).split("=")[1].split()[0])
     return [[float(x) for x in words[:dimensions]] for words in lines[first + 1:first + 1 + count]]
+
+
+# VTK in XML
+
+XML_TYPES = {"f": "Float32", "d": "Float64", "i": "Int32", "q": "Int64", "B": "UInt8"}
+ENCODINGS = ("ascii", "base64", "raw", "appended base64", "base64 zlib", "raw zlib", "appended base64 zlib")
+
+
+class Xml:
+    """Builds a file in one of the encodings."""
+
+    def __init__(self, grid, encoding="ascii", order="<", word="I", block=64):
+        self.encoding, self.order, self.word, self.block = encoding, order, word, block
+        self.is_packed = encoding.endswith("zlib")
+        self.is_appended = encoding.startswith(("raw", "appended"))
+        self.grid, self.body, self.appended = grid, [], b""
+
+    def encoded(self, data):
+        """Data with their header."""
+        text = (lambda b: b) if self.encoding.startswith("raw") else base64.b64encode
+        word = self.order + "%d" + self.word
+        if not self.is_packed:
+            return text(struct.pack(word % 1, len(data)) + data)
+        blocks = [data[i:i + self.block] for i in range(0, len(data), self.block)]
+        packed = [zlib.compress(b, 1) for b in blocks]
+        rest = len(blocks[-1]) if blocks and len(blocks[-1]) < self.block else 0
+        head = [len(blocks), self.block, rest, *map(len, packed)]
+        return text(struct.pack(word % len(head), *head)) + text(b"".join(packed))
+
+    def array(self, name, code, values, width=1, extra=""):
+        tag = f'<DataArray type="{XML_TYPES[code]}" Name="{name}" NumberOfComponents="{width}"{extra}'
+        if self.encoding == "ascii":
+            self.body.append(tag + ' format="ascii">\n' + " ".join(repr(x) for x in values) + "\n</DataArray>\n")
+            return self
+        data = self.encoded(struct.pack(f"{self.order}{len(values)}{code}", *values))
+        if self.is_appended:
+            self.body.append(tag + f' format="appended" offset="{len(self.appended)}"/>\n')
+            self.appended += data
+        else:
+            self.body.append(tag + ' format="binary">\n  ' + data.decode() + "\n</DataArray>\n")
+        return self
+
+    def text(self, text):
+        self.body.append(text + "\n")
+        return self
+
+    def finished(self):
+        packed = ' compressor="vtkZLibDataCompressor"' if self.is_packed else ""
+        head = (f'<?xml version="1.0"?>\n<VTKFile type="{self.grid}" version="1.0" byte_order='
+                f'"{"LittleEndian" if self.order == "<" else "BigEndian"}" header_type='
+                f'"{"UInt32" if self.word == "I" else "UInt64"}"{packed}>\n<{self.grid}>\n')
+        data = head.encode() + "".join(self.body).encode() + f"</{self.grid}>\n".encode()
+        if self.is_appended:
+            kind = "raw" if self.encoding.startswith("raw") else "base64"
+            data += f'<AppendedData encoding="{kind}">\n _'.encode() + self.appended + b"\n</AppendedData>\n"
+        return data + b"</VTKFile>\n"
+
+
+def ranges(points):
+    lengths = [math.sqrt(sum(x * x for x in p)) for p in points]
+    return f' RangeMin="{min(lengths)!r}" RangeMax="{max(lengths)!r}"'
+
+
+def data_of_points(made, code, normals):
+    made.text('<PointData Scalars="w" Normals="n &amp; n">').array("w", "d", WEIGHTS)
+    made.array("n &amp; n", code, flat(normals or NORMALS), 3).array("velocity", "d", flat(NORMALS), 3)
+    return made.array("tags", "B", [255, 0] * (len(WEIGHTS) // 2)).text("</PointData>")
+
+
+def vtu(points=None, encoding="ascii", code="f", normals=None, pieces=1, **options):
+    """The mesh of vtk(), once for each piece; its range and a comment too."""
+    points = POINTS if points is None else points
+    made = Xml("UnstructuredGrid", encoding, **options).text("<!-- by a test > -->")
+    for piece in range(pieces):
+        part = points[piece * len(points) // pieces:(piece + 1) * len(points) // pieces]
+        made.text(f'<Piece NumberOfPoints="{len(part)}" NumberOfCells="{len(CELLS)}">')
+        data_of_points(made, code, normals)
+        made.text("<CellData>").array("region", "i", [1, 2, 3]).text("</CellData>")
+        made.text("<Points>").array("Points", code, flat(part), 3, ranges(part)).text("</Points><Cells>")
+        made.array("connectivity", "q", flat(c for _, c in CELLS))
+        made.array("offsets", "i", [sum(len(c) for _, c in CELLS[:i + 1]) for i in range(len(CELLS))])
+        made.array("types", "B", [k for k, _ in CELLS]).text("</Cells></Piece>")
+    return made.finished()
+
+
+def vtp(points=None, encoding="ascii", code="f", normals=None, **options):
+    points = POINTS if points is None else points
+    lists = (("Verts", [[0], [1, 2]]), ("Lines", [[0, 1], [1, 2, 3]]), ("Strips", [[0, 1, 9, 2]]), ("Polys", OUTER))
+    made = Xml("PolyData", encoding, **options)
+    made.text(f'<Piece NumberOfPoints="{len(points)}" '
+              + " ".join(f'NumberOf{name}="{len(cells)}"' for name, cells in lists) + ">")
+    data_of_points(made, code, normals).text("<Points>").array("Points", code, flat(points), 3, ranges(points)).text("</Points>")
+    for name, cells in lists:
+        made.text(f"<{name}>").array("connectivity", "i", flat(cells))
+        made.array("offsets", "i", [sum(map(len, cells[:i + 1])) for i in range(len(cells))]).text(f"</{name}>")
+    return made.text("</Piece>").finished()
+
+
+def vts(points=None, encoding="ascii", code="f", size=(4, 3, 3), **options):
+    points = grid_points(size) if points is None else points
+    extent = " ".join(f"0 {n - 1}" for n in size)
+    made = Xml("StructuredGrid", encoding, **options).text(f'<Piece Extent="{extent}"><Points>')
+    return made.array("Points", code, flat(points), 3, ranges(points)).text("</Points></Piece>").finished()
+
+
+def unpacked(data, at, order, word, is_raw, is_packed):
+    """The bytes of an array at a place of the file, and where what stands for them ends."""
+    size = struct.calcsize(word)
+
+    def take(at, count):
+        if is_raw:
+            return data[at:at + count], at + count
+        length = (count + 2) // 3 * 4
+        return base64.b64decode(data[at:at + length])[:count], at + length
+
+    if not is_packed:
+        head, _ = take(at, size)
+        count = struct.unpack(order + word, head)[0]
+        both, end = take(at, size + count)
+        return both[size:], end
+    head, _ = take(at, 3 * size)
+    blocks = struct.unpack(order + "3" + word, head)[0]
+    head, at = take(at, (3 + blocks) * size)
+    sizes = struct.unpack(f"{order}{blocks}{word}", head[3 * size:])
+    packed, end = take(at, sum(sizes))
+    return b"".join(zlib.decompress(packed[sum(sizes[:i]):sum(sizes[:i + 1])]) for i in range(blocks)), end
+
+
+def xml_arrays(data):
+    """All arrays by their names, of each piece: lists of numbers; and the attributes of their tags."""
+    head = data.split(b">", 2)[1].decode() if data.startswith(b"<?xml") else ""
+    order = "<" if "LittleEndian" in head else ">"
+    word = "Q" if "UInt64" in head else "I"
+    is_packed = "vtkZLib" in head
+    mark = re.search(rb'<AppendedData encoding="(\w+)">\s*_', data)
+    found = {}
+    for tag in re.finditer(rb"<DataArray ([^>]*?)/?>", data[:mark.start() if mark else len(data)]):
+        attributes = dict(re.findall(r'(\w+)="([^"]*)"', tag.group(1).decode()))
+        code = next(c for c, name in XML_TYPES.items() if name == attributes["type"])
+        if attributes["format"] == "ascii":
+            values = [float(x) for x in data[tag.end():data.index(b"<", tag.end())].split()]
+        else:
+            at = mark.end() + int(attributes["offset"]) if attributes["format"] == "appended" else tag.end() + 3
+            is_raw = attributes["format"] == "appended" and mark.group(1) == b"raw"
+            packed, _ = unpacked(data, at, order, word, is_raw, is_packed)
+            values = list(struct.unpack(f"{order}{len(packed) // struct.calcsize(code)}{code}", packed))
+        found.setdefault(attributes["Name"], []).append((values, attributes))
+    return found
+
+
+def xml_points(data, name="Points"):
+    values = [x for part, _ in xml_arrays(data)[name] for x in part]
+    return [values[i:i + 3] for i in range(0, len(values), 3)]

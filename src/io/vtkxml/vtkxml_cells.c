@@ -47,6 +47,8 @@ static ffd_status read_arrays(cell_reader *r)
 /* Adds a point of the piece. */
 static ffd_status add_point(cell_reader *r, uint64_t point)
 {
+    if (point == UINT64_MAX)
+        return REFUSE(r, "a cell has a point below 0");
     if (point >= r->piece->points)
         return REFUSE(r,
                       "a cell has the point %" PRIu64 ", but its piece has only %" PRIu64 " (counted from 0)",
