@@ -269,12 +269,7 @@ def sides_that_cells_share_are_inside(run):
     equal([topology[key] for key in ("faces", "boundary_edges", "euler", "isolated_vertices")], [32, 0, 2, 0])
     run.write("g.vtk", volume.vtk_grid(size=(4, 1, 3)))
     equal(run.ffd("info", "g.vtk", "--json").json["topology"]["faces"], 6, "a grid of quads")
-    two = volume.Vtk(False, "UNSTRUCTURED_GRID").line("POINTS 8 double").numbers("d", volume.flat(volume.POINTS[:8]))
-    two.line("CELLS 2 35").numbers("i", [16, 4, 3, 0, 1, 2, 3, 0, 3, 1, 3, 1, 3, 2, 3, 2, 3][:17])
-    cells = [[4, 3, 0, 2, 1, 3, 0, 1, 4, 3, 1, 2, 4, 3, 2, 0, 4], [4, 3, 0, 1, 2, 3, 0, 3, 1, 3, 1, 3, 2, 3, 2, 3, 0]]
-    text = ("# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 double\n0 0 0 1 0 0 0 1 0 0 0 -1 0 0 1\n"
-            "CELLS 2 36\n" + "".join(f"{len(c)} " + " ".join(map(str, c)) + "\n" for c in cells) + "CELL_TYPES 2\n42 42\n")
-    run.write("p.vtk", text)
+    run.write("p.vtk", volume.vtk_polyhedra())
     topology = run.ffd("info", "p.vtk", "--json").json["topology"]
     equal([topology[key] for key in ("faces", "boundary_edges", "euler")], [6, 0, 2], "two polyhedra with one side in common")
 
@@ -437,7 +432,7 @@ BROKEN_VTU = [
     (xml(piece(cells=cells("1"), number=1)), INVALID, "a cell has the point 1, but its piece has only 1"),
     (xml(piece(cells=cells("-1"), number=1)), INVALID, "a cell has a point below 0"),
     (xml(piece(cells=cells("0", "2"), number=1)), INVALID, "an array of cells has 1 numbers, not 2"),
-    (xml(piece(cells=cells("0 0", "2 1", "1 1"), number=2)), INVALID, "the offset 1 of cell 1 is not between 2 and 1"),
+    (xml(piece(cells=cells("0 0", "2 1", "1 1"), number=2)), INVALID, "the offset 2 of cell 0 is not between 0 and 1"),
     (xml(piece(cells=cells("0", "1", "3"), number=1)), INVALID, "a line has 1 points, not 2"),
     (xml(piece(cells=cells("0", "1", "x"), number=1)), INVALID, '"x" is not a whole number'),
     (xml(piece(cells=cells("0", "1", "42"), number=1)), UNSUPPORTED, "polyhedra are supported with arrays faces and faceoffsets"),

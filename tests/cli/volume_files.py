@@ -100,6 +100,14 @@ def vtk_grid(points=None, is_binary=False, kind="float", size=(4, 3, 3)):
     return made.data
 
 
+def vtk_polyhedra():
+    """Two, with one side in common."""
+    cells = [[4, 3, 0, 2, 1, 3, 0, 1, 4, 3, 1, 2, 4, 3, 2, 0, 4], [4, 3, 0, 1, 2, 3, 0, 3, 1, 3, 1, 3, 2, 3, 2, 3, 0]]
+    made = Vtk(False, "UNSTRUCTURED_GRID").line("POINTS 5 double")
+    made.numbers("d", [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, -1, 0, 0, 1]).line("CELLS 2 36")
+    return made.numbers("i", flat([len(c), *c] for c in cells)).line("CELL_TYPES 2").numbers("i", [42, 42]).data
+
+
 def vtk_vectors(data, keyword, code, count):
     """The numbers behind a line that begins with a keyword."""
     at = data.index(keyword)

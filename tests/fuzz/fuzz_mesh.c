@@ -4,6 +4,7 @@
 #include "check_animations.h"
 #include "check_changed.h"
 #include "io/gltf/read/gltf_document.h"
+#include "io/volume/volume_document.h"
 #include "job/chain/chain_load.h"
 #include "job/info.h"
 #include "job/input/source.h"
@@ -193,6 +194,12 @@ static double condition_of(const mesh_part *part)
     return norm_of(part->linear) * norm_of(part->inverse);
 }
 
+/* A flat mesh stays flat. */
+static size_t dimensions_of(const trial *of, const mesh_document *document)
+{
+    return of->format == FFD_FORMAT_SU2 ? ffd_volume_of(document)->dimensions : 3;
+}
+
 static void check_part(const trial *of, const mesh_document *document, size_t part_index,
                        const double *expected)
 {
@@ -208,7 +215,7 @@ static void check_part(const trial *of, const mesh_document *document, size_t pa
         ffd_part_transform(document, part_index, v, 1, placed);
         const double error =
             condition * (POSITION_ERROR * (size * vec_length(p) + offset + 1) + quantum * size);
-        for (size_t a = 0; a < 3; a++)
+        for (size_t a = 0; a < dimensions_of(of, document); a++)
             PROMISE(!(fabs(placed[a] - expected[3 * v + a]) > error),
                     "vertex %zu of part %zu has %c %.17g, not %.17g", v, part_index, "xyz"[a], placed[a],
                     expected[3 * v + a]);

@@ -14,6 +14,7 @@ import struct
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "cli"))
+import volume_files as volume  # noqa: E402 (a neighbour of this folder)
 from gltf_asset import CODES, SIZES, GltfAsset  # noqa: E402 (a neighbour of this folder)
 
 MOST_BYTES = 16384
@@ -346,6 +347,24 @@ STL_BYTES = b"header".ljust(80, b" ") + struct.pack("<I", 6) + b"".join(
     struct.pack("<12fH", 0, 0, 1, *(x for c in TRIANGLES[i:i + 3] for x in CORNERS[c]), i) for i in range(0, 18, 3))
 
 
+def of_volumes():
+    for kind, is_binary in (("text", False), ("bytes", True)):
+        yield "vtk", kind, volume.vtk(is_binary=is_binary)
+        yield "vtk", "offsets-" + kind, volume.vtk(is_binary=is_binary, kind="double", offsets=True)
+        yield "vtk", "polygons-" + kind, volume.vtk_polygons(is_binary=is_binary)
+    yield "vtk", "grid", volume.vtk_grid()
+    yield "vtk", "polyhedra", volume.vtk_polyhedra()
+    yield "su2", "plain", volume.su2(boxes=1)
+    yield "su2", "flat", volume.su2_flat()
+    yield "su2", "zones", volume.su2_zones()
+    for encoding in volume.ENCODINGS:
+        name = encoding.replace(" ", "-")
+        yield "vtu", name, volume.vtu(encoding=encoding)
+        yield "vtp", name, volume.vtp(encoding=encoding, order=">", word="Q")
+        yield "vts", name, volume.vts(encoding=encoding, size=(3, 2, 2))
+    yield "vtu", "pieces", volume.vtu(volume.POINTS * 2, pieces=2)
+
+
 def crafted():
     for make in ASSETS:
         asset = make()
@@ -367,6 +386,7 @@ def crafted():
     yield "stl", "text", STL_TEXT.encode()
     yield "stl", "loose", STL_TEXT.replace("\n", "\ncolor 0.5 0 1\n", 1).replace("endsolid", "end solid").encode() + b"\x1a"
     yield "stl", "bytes", STL_BYTES
+    yield from of_volumes()
 
 
 def of_models(models):
@@ -375,7 +395,7 @@ def of_models(models):
             path = os.path.join(folder, name)
             stem, ending = os.path.splitext(name)
             kind = ending[1:].lower()
-            if kind not in ("obj", "gltf", "glb", "ply", "off", "stl") or os.path.getsize(path) > MOST_BYTES:
+            if kind not in ("obj", "gltf", "glb", "ply", "off", "stl", "vtk", "su2", "vtu", "vtp", "vts") or os.path.getsize(path) > MOST_BYTES:
                 continue
             with open(path, "rb") as file:
                 data = file.read()

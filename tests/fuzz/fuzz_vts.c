@@ -1,0 +1,9 @@
+/* fuzz_vts.c - the fuzz target of VTK files in XML, of structured grids. */
+#include "fuzz_mesh.h"
+#include "fuzz_target.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    fuzz_mesh(FFD_FORMAT_VTS, data, size);
+    return 0;
+}
