@@ -2,6 +2,7 @@
 #include "base/file/path.h"
 #include "base/text/content.h"
 #include "io/gltf/gltf_format.h"
+#include "io/msh/msh_format.h"
 #include "io/obj/obj_format.h"
 #include "io/off/off_format.h"
 #include "io/ply/ply_format.h"
@@ -36,6 +37,8 @@ const mesh_format *ffd_format_table(ffd_format format)
         return &ffd_vtp_format;
     case FFD_FORMAT_VTS:
         return &ffd_vts_format;
+    case FFD_FORMAT_MSH:
+        return &ffd_msh_format;
     case FFD_FORMAT_AUTO:
         break;
     }
@@ -69,7 +72,8 @@ ffd_format ffd_format_from_name(const char *name)
     } known[] = {{".obj", FFD_FORMAT_OBJ}, {".gltf", FFD_FORMAT_GLTF}, {".glb", FFD_FORMAT_GLB},
                  {".vrm", FFD_FORMAT_GLB}, {".ply", FFD_FORMAT_PLY},   {".off", FFD_FORMAT_OFF},
                  {".stl", FFD_FORMAT_STL}, {".vtk", FFD_FORMAT_VTK},   {".su2", FFD_FORMAT_SU2},
-                 {".vtu", FFD_FORMAT_VTU}, {".vtp", FFD_FORMAT_VTP},   {".vts", FFD_FORMAT_VTS}};
+                 {".vtu", FFD_FORMAT_VTU}, {".vtp", FFD_FORMAT_VTP},   {".vts", FFD_FORMAT_VTS},
+                 {".msh", FFD_FORMAT_MSH}};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (ffd_path_has_ending(name, known[i].ending))
             return known[i].format;

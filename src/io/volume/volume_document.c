@@ -19,10 +19,9 @@ volume_document *ffd_volume_make(size_t size, const file_input *input, const ffd
 
 static void free_content(volume_document *d)
 {
-    for (size_t g = 0; g < d->group_count; g++) {
-        ffd_free(d->groups[g].name);
+    for (size_t g = 0; g < d->group_count; g++)
         ffd_free(d->groups[g].vertices);
-    }
+    ffd_intern_free(&d->group_names);
     ffd_free(d->groups);
     ffd_free(d->arrays);
     ffd_free(d->pieces);
@@ -134,19 +133,15 @@ ffd_status ffd_volume_add_array(volume_document *d, text_word name, const number
 ffd_status ffd_volume_group(volume_document *d, const char *name, size_t size, size_t *group,
                             ffd_error *error)
 {
-    for (*group = 0; *group < d->group_count; ++*group) {
-        const char *const known = d->groups[*group].name;
-        if (strlen(known) == size && memcmp(known, name, size) == 0)
-            return FFD_OK;
-    }
+    uint32_t index;
+    if (!ffd_intern(&d->group_names, name, size, &index))
+        return ffd_fail_memory(error);
+    *group = index;
+    if (index < d->group_count)
+        return FFD_OK;
     if (!ffd_grow((void **)&d->groups, &d->group_capacity, d->group_count + 1, sizeof *d->groups))
         return ffd_fail_memory(error);
-    char *const copy = ffd_alloc(size + 1, 1);
-    if (!copy)
-        return ffd_fail_memory(error);
-    memcpy(copy, name, size);
-    copy[size] = 0;
-    d->groups[d->group_count++] = (volume_group){.name = copy};
+    d->groups[d->group_count++] = (volume_group){0};
     return FFD_OK;
 }
 

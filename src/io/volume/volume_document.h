@@ -7,6 +7,7 @@
 #ifndef FFD_IO_VOLUME_VOLUME_DOCUMENT_H
 #define FFD_IO_VOLUME_VOLUME_DOCUMENT_H
 
+#include "base/memory/intern.h"
 #include "io/text/file_document.h"
 #include "io/volume/number_run.h"
 #include "io/volume/volume_cells.h"
@@ -36,9 +37,8 @@ typedef struct volume_array {
     bool of_cells;
 } volume_array;
 
-/* Vertices with a name. */
+/* Vertices with a name, which is that of its number in group_names. */
 typedef struct volume_group {
-    char *name;         /* owned */
     uint32_t *vertices; /* count, owned; some may be named several times */
     size_t count, capacity;
 } volume_group;
@@ -56,6 +56,7 @@ typedef struct volume_document {
     volume_array *arrays;
     size_t array_count, array_capacity;
     volume_group *groups;
+    intern_table group_names;
     size_t group_count, group_capacity;
     number_type point_type, normal_type;
     size_t dimensions; /* numbers of a point: 2 or 3 */

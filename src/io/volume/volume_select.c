@@ -8,6 +8,11 @@
 
 #define LONGEST_NAME 200 /* bytes of a group's name in messages */
 
+static const char *name_of(const volume_document *d, size_t group)
+{
+    return ffd_intern_key(&d->group_names, (uint32_t)group);
+}
+
 static ffd_status mark(mesh_document *document, const mesh_selector *selector, uint8_t *marks,
                        ffd_error *error)
 {
@@ -16,15 +21,14 @@ static ffd_status mark(mesh_document *document, const mesh_selector *selector, u
     bool found = false;
     for (size_t g = 0; g < d->group_count; g++) {
         const volume_group *const group = &d->groups[g];
-        const size_t size = strlen(group->name);
-        if (!ffd_selector_is(selector, group->name, size))
+        if (!ffd_selector_is(selector, name_of(d, g), strlen(name_of(d, g))))
             continue;
         found = true;
         for (size_t i = 0; i < group->count; i++)
             marks[group->vertices[i]] = 1;
     }
     for (size_t g = 0; g < d->group_count && !found; g++)
-        ffd_selector_offer(&nearest, d->groups[g].name, strlen(d->groups[g].name));
+        ffd_selector_offer(&nearest, name_of(d, g), strlen(name_of(d, g)));
     return found ? FFD_OK : ffd_selector_unknown(&nearest, d->file.name, error);
 }
 
@@ -47,7 +51,7 @@ static ffd_status list(const mesh_document *document, mesh_listing *listing, ffd
     const volume_document *const d = ffd_volume_of(document);
     for (size_t g = 0; g < d->group_count; g++) {
         const volume_group *const group = &d->groups[g];
-        TRY(ffd_listing_add(listing, SELECT_GROUP, group->name, strlen(group->name), g, error));
+        TRY(ffd_listing_add(listing, SELECT_GROUP, name_of(d, g), strlen(name_of(d, g)), g, error));
         ffd_listing_draw(listing, 0, group->vertices, group->count);
     }
     return FFD_OK;
@@ -73,7 +77,7 @@ static uint64_t name_owner(const mesh_document *document, uint64_t vertex, uint8
         g++;
     if (g == d->group_count)
         return 0;
-    ffd_name_shown(d->groups[g].name, shown, sizeof shown);
+    ffd_name_shown(name_of(d, g), shown, sizeof shown);
     snprintf(name, capacity, "group:%s", shown);
     for (size_t i = 0; i < d->groups[g].count; i++) {
         uint8_t *const of = &marks[d->groups[g].vertices[i]];
