@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Volume meshes: VTK's legacy files and SU2, with readers of their own here: what deform changes in them, what the other
+"""Volume meshes: VTK's legacy files and those in XML, SU2, Gmsh, with readers of their own here: what deform changes in them, what the other
 commands say of them, and what is refused."""
 import base64
 import re
@@ -210,6 +210,47 @@ def blocks_that_do_not_change_stay(run):
 
 
 @case
+def points_of_gmsh_get_the_bits_of_an_obj(run):
+    """Of both versions, in text and in binary of both byte orders."""
+    run.write("l.json", lattice(moves=BUMP))
+    expected = carried(run, volume.POINTS, "l.json")
+    for make, words in ((volume.msh2, "Q"), (volume.msh4, "QI")):
+        for is_binary, order in ((False, "<"), (True, "<"), (True, ">")):
+            for word in words:
+                options = {"is_binary": is_binary, "order": order, **({"word": word} if len(words) > 1 else {})}
+                before = make(**options)
+                after = deformed(run, "m.msh", before)
+                found, rest = volume.msh_points(after, order, word)
+                equal(found, expected, f"{make.__name__} {options}")
+                equal(rest, volume.msh_points(before, order, word)[1], "every other byte")
+                equal(after, make(expected, **options))
+    for is_binary in (False, True):
+        before = volume.msh4(is_binary=is_binary, parameters=True)
+        after = deformed(run, "m.msh", before,
+                         err="m.msh: the nodes have parameters on curves and surfaces, which stay as they are")
+        equal(after, volume.msh4(expected, is_binary, parameters=True))
+
+
+@case
+def groups_of_gmsh_are_physical_ones(run):
+    run.write("l.json", lattice(moves=BUMP))
+    whole = carried(run, volume.POINTS, "l.json")
+    for data in (volume.msh2(), volume.msh2(is_binary=True), volume.msh4(), volume.msh4(is_binary=True, order=">")):
+        order = ">" if b"$MeshFormat\n4.1 1" in data else "<"
+        run.write("m.msh", data)
+        for group, last in (("the wall", 4), ("inside", 8)):
+            run.ffd("deform", "m.msh", "o.msh", "-l", "l.json", "--force", "-q", "--only", "group:" + group)
+            equal(volume.msh_points(run.read("o.msh"), order)[0], whole[:last] + volume.POINTS[last:], group)
+        contents = run.ffd("info", "m.msh", "--json").json["contents"]
+        equal([contents[key] for key in ("cells", "volumes", "faces", "groups")], [3, 2, 1, 2])
+        equal(run.ffd("info", "m.msh", "--json").json["topology"]["faces"], 9)
+        run.ffd("deform", "m.msh", "n.msh", "-l", "l.json", "--only", "group:the", code=USAGE)
+    run.write("m.msh", volume.msh2(tags=list(range(100, 0, -10))))
+    run.ffd("deform", "m.msh", "o.msh", "-l", "l.json", "--force", "-q", "--only", "group:the wall")
+    equal(volume.msh_points(run.read("o.msh"))[0], whole[:4] + volume.POINTS[4:], "tags in any order")
+
+
+@case
 def groups_are_markers_and_zones(run):
     run.write("l.json", lattice(moves=BUMP))
     whole = carried(run, volume.POINTS, "l.json")
@@ -236,7 +277,7 @@ def commands_see_the_outer_faces(run):
               + "".join("f " + " ".join(str(i + 1) for i in face) + "\n" for face in volume.OUTER))
     expected = run.ffd("info", "m.obj", "--json").json
     for name, data in (("m.vtk", volume.vtk(is_binary=True, kind="double")), ("m.su2", volume.su2()),
-                       ("m.vtu", volume.vtu(encoding="raw zlib", code="d"))):
+                       ("m.vtu", volume.vtu(encoding="raw zlib", code="d")), ("m.msh", volume.msh4(is_binary=True))):
         run.write(name, data)
         found = run.ffd("info", name, "--json").json
         equal({**found["topology"], "area": 0}, {**expected["topology"], "area": 0}, name)
@@ -298,7 +339,7 @@ def meshes_of_volumes_keep_their_format(run):
     run.write("m.su2", volume.su2())
     run.write("m.obj", "v 0 0 0\n")
     for a, b, name, other in (("m.vtk", "n.obj", "VTK", "OBJ"), ("m.su2", "n.vtk", "SU2", "VTK"), ("m.obj", "n.su2", "OBJ", "SU2"),
-                              ("m.vtk", "n.vtu", "VTK", "VTU")):
+                              ("m.vtk", "n.vtu", "VTK", "VTU"), ("m.vtk", "n.msh", "VTK", "Gmsh")):
         run.ffd("deform", a, b, "-l", "l.json", code=UNSUPPORTED,
                 err=f"{a}: {name} cannot become {other}: meshes of volumes keep their format (meshio converts them)")
     run.write("k.json", lattice(keys=[{"time": 0, "moves": []}, {"time": 1, "moves": BUMP}]))
@@ -311,7 +352,8 @@ def streams_and_in_place(run):
     """Through pipes, in place and under a capital name the same bytes come out; so in a batch and with threads."""
     run.write("l.json", lattice(moves=BUMP))
     for name, data in (("m.vtk", volume.vtk(is_binary=True)), ("m.su2", volume.su2()), ("m.vts", volume.vts()),
-                       ("m.vtp", volume.vtp(encoding="base64 zlib")), ("m.vtu", volume.vtu(encoding="raw"))):
+                       ("m.vtp", volume.vtp(encoding="base64 zlib")), ("m.vtu", volume.vtu(encoding="raw")),
+                       ("m.msh", volume.msh4(is_binary=True))):
         ending = name.split(".")[1]
         run.write(name, data)
         run.ffd("deform", name, "out." + ending, "-l", "l.json", "-q")
@@ -438,6 +480,45 @@ BROKEN_VTU = [
     (xml(piece(cells=cells("0", "1", "42"), number=1)), UNSUPPORTED, "polyhedra are supported with arrays faces and faceoffsets"),
     (xml(piece(cells=cells("0", "1", "99"), number=1)), UNSUPPORTED, "cells of the type 99 are not supported"),
 ]
+def msh(nodes="$Nodes\n1\n1 0 0 0\n$EndNodes\n", rest="", head="2.2 0 8"):
+    return f"$MeshFormat\n{head}\n$EndMeshFormat\n{nodes}{rest}"
+
+
+def elements(line, count=1):
+    return f"$Elements\n{count}\n{line}\n$EndElements\n"
+
+
+NEW = "$Nodes\n1 1 1 1\n0 1 0 1\n1\n0 0 0\n$EndNodes\n"
+BROKEN_MSH = [
+    ("", INVALID, "has no $Nodes"),
+    ("OFF\n", INVALID, ':1: "OFF" is in the place of the beginning of a section, such as $Nodes; it seems to be an OFF file'),
+    ("$Nodes\n", INVALID, ":1: the first section is not $MeshFormat"),
+    ("$MeshFormat\n", INVALID, "the file ends where a version is expected"),
+    (msh(head="1 0 8"), UNSUPPORTED, 'the version "1" is not supported: only 2.2 and 4.1 are'),
+    (msh(head="4 0 8"), UNSUPPORTED, 'the version "4" is not supported'),
+    (msh(head="2.2 0 2"), UNSUPPORTED, "numbers of 2 bytes are not supported"),
+    ("$MeshFormat\n2.2 1 8\nabcd", INVALID, "the number behind the format is not 1 in either byte order"),
+    (msh(""), INVALID, "has no $Nodes"),
+    (msh("$Comments\n"), INVALID, ":5: the section $Comments has no $EndComments"),
+    (msh("$Nodes\nx\n"), INVALID, ':5: "x" is not the number of nodes'),
+    (msh("$Nodes\n999999\n"), INVALID, "the number of nodes is 999999, more than the file can hold"),
+    (msh("$Nodes\n2\n1 0 0 0\n$EndNodes\n"), INVALID, "2 points"),
+    (msh("$Nodes\n2\n1 0 0 0\n$EndNodes\n$Comments\na b c d e f\n"), INVALID, ":7: point 1 (counted from 0) needs 3 numbers"),
+    (msh("$Nodes\n2\n1 0 0 0\n1 0 0 0\n$EndNodes\n"), INVALID, "the node 1 is there twice"),
+    (msh("$Nodes\n1\n1 0 0 0\n2 0 0 0\n$EndNodes\n"), INVALID, ':7: "2" is in the place of the end of the section $Nodes'),
+    (msh("$Nodes\n1\n-1 0 0 0\n$EndNodes\n"), INVALID, '"-1" is not the number of a node'),
+    (msh(rest="$Nodes\n1\n1 0 0 0\n$EndNodes\n"), INVALID, "there are nodes twice"),
+    (msh("", elements("1 15 2 0 1 1")), INVALID, "the elements are there before the nodes"),
+    (msh(rest=elements("1 15 2 0 1 2")), INVALID, ":10: an element has the node 2, which is not there"),
+    (msh(rest=elements("1 999 2 0 1 1")), UNSUPPORTED, ":10: elements of the type 999 are not supported"),
+    (msh(rest=elements("1 15 2 0 1 1", 2)), INVALID, "is not the number of an element"),
+    (msh(rest="$PhysicalNames\n1\n2 1 wall\n$EndPhysicalNames\n"), INVALID, "a physical group has no name in quotes"),
+    (msh(NEW.replace("0 1 0 1", "4 1 0 1"), head="4.1 0 8"), INVALID, "the dimension of an entity is 4"),
+    (msh(NEW.replace("1 1 1 1", "0 1 1 1"), head="4.1 0 8"), INVALID, "1 nodes are stated, but the entities have 0"),
+    (msh(NEW.replace("0 1 0 1", "0 1 0 2"), head="4.1 0 8"), INVALID, "the entities have more nodes than the 1 that are stated"),
+    (msh(NEW, "$Elements\n1 1 1 1\n0 1 15 2\n1 1\n2 1\n$EndElements\n", "4.1 0 8"), INVALID, "more elements than are stated"),
+    (msh(NEW, "$Elements\n0 1 1 1\n$EndElements\n", "4.1 0 8"), INVALID, "1 elements that are stated are not there"),
+]
 BROKEN_SU2 = [
     ("", INVALID, "has no NDIME="),
     ("v 0 0 0\n", INVALID, ":1: a line KEY= VALUE is expected here; it seems to be an OBJ file"),
@@ -461,7 +542,7 @@ BROKEN_SU2 = [
 @case
 def broken_files_are_refused(run):
     run.write("l.json", lattice(moves=BUMP))
-    for name, broken in (("m.vtk", BROKEN_VTK), ("m.su2", BROKEN_SU2), ("m.vtu", BROKEN_VTU)):
+    for name, broken in (("m.vtk", BROKEN_VTK), ("m.su2", BROKEN_SU2), ("m.vtu", BROKEN_VTU), ("m.msh", BROKEN_MSH)):
         for text, code, said in broken:
             run.write(name, text)
             done = run.ffd("deform", name, "n." + name[2:], "-l", "l.json", code=code)

@@ -310,3 +310,116 @@ def xml_arrays(data):
 def xml_points(data, name="Points"):
     values = [x for part, _ in xml_arrays(data)[name] for x in part]
     return [values[i:i + 3] for i in range(0, len(values), 3)]
+
+
+# Gmsh
+
+GMSH = {HEXAHEDRON: 5, PYRAMID: 7, QUAD: 3}
+NAMES = '$PhysicalNames\n2\n2 7 "the wall"\n3 1 "inside"\n$EndPhysicalNames\n'
+# The physical groups of CELLS.
+PHYSICAL = [1, 0, 7]
+
+
+class Msh:
+    """Builds a file of one of the versions, in text or in binary."""
+
+    def __init__(self, version, is_binary, order="<", word="Q"):
+        self.is_binary, self.order, self.word = is_binary, order, word
+        size = struct.calcsize(word)
+        self.data = f"$MeshFormat\n{version} {int(is_binary)} {size}\n".encode()
+        if is_binary:
+            self.data += struct.pack(order + "i", 1) + b"\n"
+        self.data += b"$EndMeshFormat\n"
+
+    def text(self, text):
+        self.data += text.encode()
+        return self
+
+    def put(self, codes, *values):
+        """i: int, n: number of things or tag, d: coordinate."""
+        if self.is_binary:
+            self.data += struct.pack(self.order + codes.replace("n", self.word), *values)
+        else:
+            self.data += (" ".join(repr(x) for x in values) + "\n").encode()
+        return self
+
+
+def msh2(points=None, is_binary=False, order="<", tags=None):
+    points = POINTS if points is None else points
+    tags = tags or [3 * i + 2 for i in range(len(points))]
+    made = Msh("2.2", is_binary, order).text(NAMES + f"$Nodes\n{len(points)}\n")
+    for tag, point in zip(tags, points):
+        made.put("i3d", tag, *point)
+    made.text(("\n" if is_binary else "") + f"$EndNodes\n$Elements\n{len(CELLS)}\n")
+    for i, (kind, cell) in enumerate(CELLS):
+        nodes = [tags[p] for p in cell]
+        if is_binary:
+            made.put(f"3i{3 + len(nodes)}i", GMSH[kind], 1, 2, i + 1, PHYSICAL[i], 1, *nodes)
+        else:
+            made.put("", i + 1, GMSH[kind], 2, PHYSICAL[i], 1, *nodes)
+    return made.text(("\n" if is_binary else "") + "$EndElements\n$NodeData\n1\n\"t\"\n0\n0\n$EndNodeData\n").data
+
+
+def msh4(points=None, is_binary=False, order="<", word="Q", parameters=False):
+    """The first four nodes are on a surface, the others in a volume."""
+    points = POINTS if points is None else points
+    count = len(points)
+    made = Msh("4.1", is_binary, order, word).text(NAMES + "$Entities\n")
+    made.put("4n", 1, 0, 1, 2).put("i3dn", 5, 0.0, 0.0, 0.0, 0)
+    made.put("i6dnini", 2, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 1, 7, 1, -5)
+    made.put("i6dnini", 1, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1, 1, 1, 2).put("i6dnn", 2, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 0, 0)
+    made.text(("\n" if is_binary else "") + "$EndEntities\n$Nodes\n").put("4n", 2, count, 1, count)
+    for dimension, first, last in ((2, 0, 4), (3, 4, count)):
+        made.put("3in", dimension, dimension - 1, int(parameters and dimension == 2), last - first)
+        for i in range(first, last):
+            made.put("n", i + 1)
+        for i in range(first, last):
+            extra = [0.25, 0.75] if parameters and dimension == 2 else []
+            made.put(f"{3 + len(extra)}d", *points[i], *extra)
+    made.text(("\n" if is_binary else "") + "$EndNodes\n$Elements\n").put("4n", 3, 3, 1, 3)
+    for i, (kind, cell) in enumerate(CELLS):
+        made.put("3in", 2 if kind == QUAD else 3, {QUAD: 2, HEXAHEDRON: 1, PYRAMID: 2}[kind], GMSH[kind], 1)
+        made.put(f"{1 + len(cell)}n", i + 1, *[p + 1 for p in cell])
+    return made.text(("\n" if is_binary else "") + "$EndElements\n").data
+
+
+def msh_points(data, order="<", word="Q"):
+    """Coordinates, and the bytes of the file without them."""
+    version, is_binary = data.split(b"\n")[1].split()[:2]
+    at = data.index(b"$Nodes\n") + 7
+    points, rest = [], []
+    if is_binary == b"0":
+        lines = data[at:data.index(b"$EndNodes")].decode().split("\n")
+        if version == b"2.2":
+            return [[float(x) for x in line.split()[1:4]] for line in lines[1:-1]], None
+        lines = lines[1:]
+        while len(lines) > 1:
+            count = int(lines[0].split()[3])
+            points += [[float(x) for x in line.split()[:3]] for line in lines[1 + count:1 + 2 * count]]
+            lines = lines[1 + 2 * count:]
+        return points, None
+    start = 0
+
+    def take(count):
+        nonlocal at, start
+        rest.append(data[start:at])
+        points.append(list(struct.unpack_from(order + "3d", data, at)))
+        at = start = at + 24
+        at += 8 * (count - 3)
+
+    if version == b"2.2":
+        end = data.index(b"\n", at)
+        count, at = int(data[at:end]), end + 1
+        for _ in range(count):
+            at += 4
+            take(3)
+    else:
+        size = struct.calcsize(order + word)
+        blocks, at = struct.unpack_from(order + word, data, at)[0], at + 4 * size
+        for _ in range(blocks):
+            dimension, _, has_parameters = struct.unpack_from(order + "3i", data, at)
+            count = struct.unpack_from(order + word, data, at + 12)[0]
+            at += 12 + size + count * size
+            for _ in range(count):
+                take(3 + has_parameters * dimension)
+    return points, b"".join(rest) + data[start:]

@@ -362,6 +362,10 @@ def of_volumes():
         yield "vtu", name, volume.vtu(encoding=encoding)
         yield "vtp", name, volume.vtp(encoding=encoding, order=">", word="Q")
         yield "vts", name, volume.vts(encoding=encoding, size=(3, 2, 2))
+    for kind, is_binary in (("text", False), ("bytes", True)):
+        yield "msh", "old-" + kind, volume.msh2(is_binary=is_binary)
+        yield "msh", "new-" + kind, volume.msh4(is_binary=is_binary, parameters=True)
+    yield "msh", "tags", volume.msh2(tags=list(range(100, 0, -10)))
     yield "vtu", "pieces", volume.vtu(volume.POINTS * 2, pieces=2)
 
 
@@ -395,7 +399,7 @@ def of_models(models):
             path = os.path.join(folder, name)
             stem, ending = os.path.splitext(name)
             kind = ending[1:].lower()
-            if kind not in ("obj", "gltf", "glb", "ply", "off", "stl", "vtk", "su2", "vtu", "vtp", "vts") or os.path.getsize(path) > MOST_BYTES:
+            if kind not in ("obj", "gltf", "glb", "ply", "off", "stl", "vtk", "su2", "vtu", "vtp", "vts", "msh") or os.path.getsize(path) > MOST_BYTES:
                 continue
             with open(path, "rb") as file:
                 data = file.read()
