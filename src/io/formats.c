@@ -49,7 +49,8 @@ const mesh_format *ffd_format_table(ffd_format format)
 static void mention_content(const mesh_format *format, const file_input *input, ffd_error *error)
 {
     const content_kind *const kind = ffd_content_kind(input->data, input->size);
-    if (kind && ffd_format_table(kind->format) != format)
+    const bool is_own_xml = kind && format->is_xml && strcmp(kind->name, CONTENT_XML) == 0;
+    if (kind && !is_own_xml && ffd_format_table(kind->format) != format)
         ffd_content_mention(kind, error);
 }
 

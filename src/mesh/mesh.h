@@ -119,8 +119,8 @@ typedef struct mesh_faces {
     uint32_t *vertices;
     size_t lines, points; /* numbers of primitives other than faces */
     /* Number of vertices in no face because an earlier vertex at the same position represents them (formats
-       that list a vertex for every corner), or because they are inside of volumes or between corners; topology
-       does not count them. */
+       that list a vertex for every corner), or because they are inside of volumes or between corners;
+       topology does not count them. */
     size_t repeated;
 } mesh_faces;
 
@@ -327,6 +327,7 @@ typedef struct mesh_format {
     ffd_format format;
     const char *name;          /* "OBJ" */
     double largest_coordinate; /* of the format's number type */
+    bool is_xml;               /* its files are XML */
     bool keeps_format;         /* its meshes cannot become those of another format */
     mesh_open_function *open;
     mesh_close_function *close;

@@ -449,6 +449,7 @@ BROKEN_VTU = [
     (xml("", "ImageData"), UNSUPPORTED, 'is a "ImageData" of VTK; of this ending is a UnstructuredGrid'),
     (xml("", head='compressor="vtkLZ4DataCompressor"'), UNSUPPORTED, "is compressed by vtkLZ4DataCompressor"),
     (xml(""), INVALID, "has no Piece"),
+    ('<?xml version="1.0"?>' + xml(""), INVALID, "m.vtu: has no Piece"),
     (xml(piece())[:-11], INVALID, "ends before </VTKFile>"),
     (xml("<!-- ") , INVALID, "a comment or an instruction does not end"),
     (xml('<Piece NumberOfPoints="-1">'), INVALID, ':3: NumberOfPoints is "-1", not a whole number'),
@@ -502,7 +503,7 @@ BROKEN_MSH = [
     (msh("$Comments\n"), INVALID, ":5: the section $Comments has no $EndComments"),
     (msh("$Nodes\nx\n"), INVALID, ':5: "x" is not the number of nodes'),
     (msh("$Nodes\n999999\n"), INVALID, "the number of nodes is 999999, more than the file can hold"),
-    (msh("$Nodes\n2\n1 0 0 0\n$EndNodes\n"), INVALID, "2 points"),
+    (msh("$Nodes\n2\n1 0 0 0\n$EndNodes\n"), INVALID, ":7: point 1 (counted from 0) needs 3 numbers"),
     (msh("$Nodes\n2\n1 0 0 0\n$EndNodes\n$Comments\na b c d e f\n"), INVALID, ":7: point 1 (counted from 0) needs 3 numbers"),
     (msh("$Nodes\n2\n1 0 0 0\n1 0 0 0\n$EndNodes\n"), INVALID, "the node 1 is there twice"),
     (msh("$Nodes\n1\n1 0 0 0\n2 0 0 0\n$EndNodes\n"), INVALID, ':7: "2" is in the place of the end of the section $Nodes'),
@@ -546,7 +547,7 @@ def broken_files_are_refused(run):
         for text, code, said in broken:
             run.write(name, text)
             done = run.ffd("deform", name, "n." + name[2:], "-l", "l.json", code=code)
-            check(said in done.err[0], f"{text!r}: {done.err[0]!r} lacks {said!r}")
+            check(said in done.err[0] and ("XML file" not in done.err[0] or name != "m.vtu"), f"{text!r}: {done.err[0]!r} lacks {said!r}")
             run.ffd("info", name, code=code)
 
 

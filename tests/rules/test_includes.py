@@ -63,7 +63,7 @@ LAYERS = {
     "io/volume": {"base", "base/memory", "base/system", "base/text", "base/vector", "io/text", "mesh"},
     "io/vtk": {"base/memory", "base/system", "io/volume", "mesh"},
     "io/vtkxml": {"base/memory", "base/system", "base/text", "io/deflate", "io/volume", "mesh"},
-    "io/msh": {"base", "base/memory", "base/system", "base/text", "io/volume", "mesh"},
+    "io/msh": {"base/memory", "base/system", "io/volume", "mesh"},
     "io/su2": {"base", "base/memory", "base/system", "base/text", "io/volume", "mesh"},
     "io/stl": {"base", "base/memory", "base/system", "base/text", "base/vector", "io/text", "mesh"},
     "io": {

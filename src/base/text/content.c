@@ -56,7 +56,10 @@ static const struct {
     const char *first;
     content_kind kind;
 } first_words[] = {
-    {"<?xml*", {"an XML file", FFD_FORMAT_AUTO, false, false}},
+    {"<?xml*", {CONTENT_XML, FFD_FORMAT_AUTO, false, false}},
+    {"<vtkfile", {CONTENT_XML, FFD_FORMAT_AUTO, false, false}},
+    {"$meshformat", {"a mesh of Gmsh", FFD_FORMAT_MSH, false, false}},
+    {"ndime=*", {"a mesh of SU2", FFD_FORMAT_SU2, false, false}},
     {"{*", {json, FFD_FORMAT_GLTF, false, false}},
     {"[*", {json, FFD_FORMAT_GLTF, false, false}},
     {"<svg*", {"an SVG image", FFD_FORMAT_AUTO, false, false}},

@@ -7,6 +7,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* The name of the kind of any XML. */
+#define CONTENT_XML "an XML file"
+
 typedef struct content_kind {
     const char *name;  /* "a gzip file" */
     ffd_format format; /* FFD_FORMAT_AUTO: not a mesh format */

@@ -59,10 +59,13 @@ ffd_status ffd_msh_count(msh_reader *r, const char *what, size_t least, uint64_t
 /* Skips coordinates. */
 ffd_status ffd_msh_skip(msh_reader *r, size_t count);
 
-/* Take the content of the sections. */
+/* Takes the content of $Nodes; is_parametric: of $ParametricNodes. */
 ffd_status ffd_msh_nodes(msh_reader *r, bool is_parametric);
+/* Takes the content of $Elements. */
 ffd_status ffd_msh_elements(msh_reader *r);
+/* Takes the content of $PhysicalNames. */
 ffd_status ffd_msh_names(msh_reader *r);
+/* Takes the content of $Entities. */
 ffd_status ffd_msh_entities(msh_reader *r);
 
 /* Returns the first row of an entity, by its dimension and tag; or that behind them, if it is not there. */

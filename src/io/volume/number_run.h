@@ -30,6 +30,7 @@ typedef struct run_walk {
     text_scan scan;
 } run_walk;
 
+/* Begins a walk at the first tuple of a text. */
 void ffd_run_begin(const number_run *run, run_walk *walk);
 /* Takes the words of the next tuple. Returns how many were found: fewer than its width where its line, or
    the text, ends. */

@@ -17,6 +17,7 @@ typedef struct volume_cells {
     size_t volumes; /* cells of three dimensions */
 } volume_cells;
 
+/* Frees the cells and empties the struct. */
 void ffd_cells_free(volume_cells *cells);
 
 /* Appends a word to the cell that is next to end. Errors: FFD_E_MEMORY. */
@@ -33,8 +34,9 @@ static inline const uint32_t *ffd_cell_words(const volume_cells *cells, size_t c
     return cells->words + first;
 }
 
-/* Calls for each point of a cell, also those that are named several times. */
+/* Receives a point of a cell. */
 typedef void cell_point_visitor(void *context, uint32_t point);
+/* Visits each point of a cell, also those that are named several times. */
 void ffd_cell_visit(const volume_cells *cells, size_t cell, cell_point_visitor *visit, void *context);
 
 /* Adds the cells of a grid of so many points along each axis, whose first point is `first`. Errors:

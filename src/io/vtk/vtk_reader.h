@@ -55,6 +55,7 @@ static inline size_t vtk_line(const vtk_reader *r)
 ffd_status ffd_vtk_word(vtk_reader *r, const char *what, text_word *word);
 /* Takes the next word as a number of things, of which none takes less than a bit of the file. */
 ffd_status ffd_vtk_count(vtk_reader *r, const char *what, uint64_t *count);
+/* Takes the next word as the type of an array. Errors: FFD_E_UNSUPPORTED for one that is not known. */
 ffd_status ffd_vtk_type(vtk_reader *r, const vtk_type **type);
 /* Returns where binary data begin: behind the line. */
 const char *ffd_vtk_binary(const vtk_reader *r);

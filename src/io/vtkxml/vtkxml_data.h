@@ -21,6 +21,7 @@ typedef struct vtkxml_data {
    FFD_E_MEMORY, FFD_E_LIMIT (budget of the document). */
 ffd_status ffd_vtkxml_decode(const vtkxml_document *document, const vtkxml_array *array, uint64_t size,
                              vtkxml_data *data, ffd_error *error);
+/* Frees the data and empties the struct. */
 void ffd_vtkxml_data_free(vtkxml_data *data);
 /* Appends what stands for changed bytes of the same size. Blocks that did not change stay as they are.
    Errors: FFD_E_MEMORY, those of ffd_deflate. */

@@ -150,7 +150,7 @@ static void close_grid(mesh_document *document)
 }
 
 #define CALLS                                                                                                \
-    .largest_coordinate = DBL_MAX, .keeps_format = true, .close = close_grid,                                \
+    .largest_coordinate = DBL_MAX, .is_xml = true, .keeps_format = true, .close = close_grid,                \
     .describe = ffd_volume_describe, .compare = ffd_volume_compare, .read = ffd_file_document_read,          \
     .faces = ffd_volume_faces, .mixed_faces = ffd_volume_mixed_faces, .model = ffd_volume_model,             \
     .begin_results = ffd_volume_begin_results, .write = ffd_volume_write, .save = ffd_vtkxml_save,           \
