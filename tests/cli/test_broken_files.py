@@ -9,6 +9,7 @@ import struct
 import subprocess
 import sys
 
+import volume_files as volume
 from broken_gltf_cases import TRIANGLES, USHORT, Model
 from harness import (CUBE, FFD, INVALID, IO, LIMIT, OK, SANITIZED, UNSUPPORTED, case, check, equal, glb, gltf_json, lattice, main)
 from messages import anything
@@ -42,6 +43,15 @@ def small_files():
     yield "m.off", OFF.encode()
     yield "m.stl", STL.encode()
     yield "b.stl", STL_BYTES
+    yield "m.vtk", volume.vtk()
+    yield "b.vtk", volume.vtk(is_binary=True, offsets=True)
+    yield "m.su2", volume.su2(boxes=1)
+    yield "m.vtu", volume.vtu()
+    yield "b.vtu", volume.vtu(encoding="raw zlib")
+    yield "m.vtp", volume.vtp(encoding="base64")
+    yield "m.vts", volume.vts(encoding="appended base64")
+    yield "m.msh", volume.msh2()
+    yield "b.msh", volume.msh4(is_binary=True)
 
 
 def deform(run, name, code, *words, **options):
@@ -88,7 +98,7 @@ def what_is_no_file(run):
     os.mkfifo(run.path("pipe"))
     run.folder_of("folder")
     for what in ("folder", "pipe", "/dev/zero", "/dev/full"):
-        for ending in (".obj", ".glb", ".gltf", ".ply", ".off", ".stl", ".json"):
+        for ending in (".obj", ".glb", ".gltf", ".ply", ".off", ".stl", ".vtk", ".su2", ".vtu", ".msh", ".json"):
             name = "x" + ending
             os.symlink(what if what.startswith("/") else run.path(what), run.path(name))
             if ending == ".json":

@@ -9,6 +9,7 @@ import os
 import subprocess
 import sys
 
+import volume_files as volume
 from harness import CUBE, IO, PNG, SECONDS, case, check, equal, lattice, main
 
 NAMESPACES = (["unshare", "-m"], ["unshare", "-rm"])
@@ -16,6 +17,7 @@ SPACE = "No space left on device"
 NO_WRITING = "Read-only file system"
 SKIPPED = 77
 FORMATS = ("obj", "ply", "off", "stl", "glb", "gltf")
+VOLUMES = ("vtk", "su2", "vtu", "vts", "msh")
 
 not_mounted = set()
 
@@ -96,6 +98,12 @@ def start(run):
     run.write("k.json", lattice(keys=[{"time": n, "moves": [{"by": [0.1 * n, 0.2, 0.3]}]} for n in range(2)]))
     for ending in FORMATS[1:]:
         run.ffd("deform", "a.obj", f"a.{ending}", "-l", "l.json", "-q")
+    places = [[n % 97 / 97, n % 89 / 89, n % 83 / 83] for n in range(count)]
+    run.write("a.vtk", volume.vtk_polygons(places, is_binary=True))
+    run.write("a.su2", volume.su2(places))
+    run.write("a.vtu", volume.vtu(volume.POINTS * 300, "base64", pieces=300))
+    run.write("a.vts", volume.vts(places, "raw zlib", size=(30, 10, 10)))
+    run.write("a.msh", volume.msh4(places))
 
 
 def commands():
@@ -105,6 +113,8 @@ def commands():
         yield files, ["deform", f"a.{ending}", f"disk/b.{ending}", "-l", "l.json"]
         if ending not in ("obj", "gltf"): # a conversion
             yield files, ["deform", "a.obj", f"disk/b.{ending}", "-l", "l.json", "-q"]
+    for ending in VOLUMES:
+        yield [f"disk/b.{ending}"], ["deform", f"a.{ending}", f"disk/b.{ending}", "-l", "l.json", "-q"]
     yield ["disk/b.obj", "disk/b.d"], ["deform", "a.obj", "disk/b.obj", "-l", "l.json", "--depfile", "disk/b.d"]
     yield ["disk/a.glb"], ["animate", "a.obj", "disk/a.glb", "-l", "k.json", "-q"]
     yield ["disk/a.gltf", "disk/a.bin"], ["animate", "a.gltf", "disk/a.gltf", "-l", "k.json", "-q"]

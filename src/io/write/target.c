@@ -16,7 +16,7 @@ const model_target *ffd_model_target(ffd_format format)
         return &ffd_stl_target;
     case FFD_FORMAT_OFF:
         return &ffd_off_target;
-    case FFD_FORMAT_VTK: /* of volumes: not from other formats */
+    case FFD_FORMAT_VTK: /* volume meshes come from no other format */
     case FFD_FORMAT_SU2:
     case FFD_FORMAT_VTU:
     case FFD_FORMAT_VTP:
