@@ -31,7 +31,7 @@ static inline const uint32_t *ffd_cell_words(const volume_cells *cells, size_t c
 {
     const size_t first = cell ? cells->ends[cell - 1] : 0;
     *count = cells->ends[cell] - first;
-    return cells->words + first;
+    return first ? cells->words + first : cells->words; /* NULL without words */
 }
 
 /* Receives a point of a cell. */

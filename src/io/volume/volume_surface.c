@@ -79,7 +79,7 @@ static uint32_t *find_slot(const surface *s, const uint32_t *corners, size_t cou
 static void add_face(void *context, const uint32_t *corners, size_t count)
 {
     surface *const s = context;
-    if (s->status)
+    if (s->status || count == 0)
         return;
     if (!ffd_grow((void **)&s->ends, &s->face_capacity, s->face_count + 1, sizeof *s->ends) ||
         !ffd_grow((void **)&s->shared, &s->shared_capacity, s->face_count + 1, sizeof *s->shared) ||
@@ -164,8 +164,6 @@ static ffd_status fill_table(surface *s)
         size_t count;
         const uint32_t *const corners = face_of(s, f, &count);
         TRY(ffd_deadline_check_at(f, s->error));
-        if (count == 0)
-            continue;
         uint32_t *const slot = find_slot(s, corners, count);
         if (*slot == NO_FACE)
             *slot = (uint32_t)f;
@@ -212,7 +210,7 @@ ffd_status ffd_surface_visit(const volume_cells *cells, const memory_budget *bud
     for (size_t f = 0; f < s.face_count; f++) {
         size_t count;
         const uint32_t *const corners = face_of(&s, f, &count);
-        if (!s.shared[f] && count > 0)
+        if (!s.shared[f])
             visit(context, corners, count);
     }
     for (size_t c = 0; c < cells->count; c++) {

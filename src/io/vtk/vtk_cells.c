@@ -28,7 +28,7 @@ static ffd_status take_wholes(vtk_reader *r, number_type type, uint64_t count, v
 /* Takes the next of them. */
 static ffd_status next_whole(vtk_reader *r, vtk_wholes *wholes, uint64_t *value)
 {
-    text_word word;
+    text_word word = {"", ""};
     if (wholes->count == 0)
         return VTK_REFUSE(r, "the cells have more points than their list");
     wholes->count--;
