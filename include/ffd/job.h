@@ -243,8 +243,8 @@ typedef struct ffd_weight_source {
        - "attribute:NAME": a SCALAR attribute of a glTF, floats or normalized integers.
        - "color:r" (g, b, a): COLOR_0 of a glTF as stored, the colours of an OBJ or PLY.
        - "joint:NAME": the weight of the joints of that name in the skin of a glTF, divided by the sum of all.
-       - "property:NAME": a property of the vertices of a PLY, or an array of the points of a VTK file: float or
-         double; uchar, ushort as fractions. */
+       - "property:NAME": a property of the vertices of a PLY, or an array of the points of a VTK file: float
+       or double; uchar, ushort as fractions. */
     const char *source;
     ffd_bytes bytes; /* the content of FILE.npy */
 } ffd_weight_source;

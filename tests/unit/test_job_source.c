@@ -162,7 +162,8 @@ static void broken_jobs_are_refused(void **state)
         {OPTIONS("\"snap\": true"), "snap needs a value"},
         {OPTIONS("\"falloff\": 1"), "falloff needs outside = extend"},
         {"{\"in\": \"a.xyz\", \"lattice\": \"l\", \"out\": \"b\"}",
-         "a.xyz: the ending \".xyz\" is not that of a mesh format (obj, gltf, glb, vrm, ply, off, stl, vtk, su2, vtu, vtp, vts or msh)"},
+         "a.xyz: the ending \".xyz\" is not that of a mesh format (obj, gltf, glb, vrm, ply, off, stl, vtk, "
+         "su2, vtu, vtp, vts or msh)"},
     };
     const batch_frame frame = {.name = "m", .folder = ""};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

@@ -1,5 +1,5 @@
 /* vtkxml_document.h - a VTK file in XML as a mesh document: its pieces, one after the other. Declares
-   vtkxml_document.c, vtkxml_tags.c, vtkxml_cells.c, vtkxml_save.c, vtkxml_weights.c. */
+   vtkxml_tags.c, vtkxml_cells.c, vtkxml_save.c, vtkxml_weights.c. */
 #ifndef FFD_IO_VTKXML_VTKXML_DOCUMENT_H
 #define FFD_IO_VTKXML_VTKXML_DOCUMENT_H
 

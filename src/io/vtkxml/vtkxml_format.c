@@ -1,7 +1,6 @@
-#include "io/vtkxml/vtkxml_document.h"
+#include "io/vtkxml/vtkxml_format.h"
 #include "base/memory/memory.h"
 #include "io/vtkxml/vtkxml_data.h"
-#include "io/vtkxml/vtkxml_format.h"
 #include <float.h>
 #include <inttypes.h>
 
