@@ -438,7 +438,13 @@ typedef enum ffd_format {
     FFD_FORMAT_GLB,
     FFD_FORMAT_PLY,
     FFD_FORMAT_OFF,
-    FFD_FORMAT_STL
+    FFD_FORMAT_STL,
+    FFD_FORMAT_VTK,
+    FFD_FORMAT_SU2,
+    FFD_FORMAT_VTU,
+    FFD_FORMAT_VTP,
+    FFD_FORMAT_VTS,
+    FFD_FORMAT_MSH
 } ffd_format;
 ffd_format ffd_format_from_name(const char *name);
 ffd_status ffd_format_check_name(const char *name, ffd_error *error);
