@@ -146,5 +146,15 @@ deform models/spot.obj scan.obj -l scan.json
 "$ffd" fit --pairs landmarks.csv --cover scan.obj --size 4,4,4 -o align.json --quiet
 deform scan.obj aligned.obj -l align.json
 draw scan scan.obj aligned.obj $pair --camera -1,0.3,-2 --size 260x220
+python3 "$data/make_wing.py" >wing.obj
+for one in wing-folds wing; do
+    deform wing.obj moved-$one.obj -l lattices/$one.json
+    draw $one wing.obj moved-$one.obj $pair --camera 0.35,0.25,-1.2 --size 300x220
+done
+for one in "0 1.063 1.364 54.8" "1 1.258 0.94 -44.3" "2 0.825 0.843 -32.9"; do
+    set -- $one
+    deform models/keg_decorated.obj keg.obj -l sweep.json --set HEIGHT="$2" --set GIRTH="$3" --set DEGREES="$4"
+    draw "training-$1" models/keg_decorated.obj keg.obj $pair $face --size 150x180
+done
 draw scan-model models/spot.obj --color plain --camera -1,0.3,-2 --size 140x220
 python3 "$data/make_greville.py" "$ffd" "$out/greville.svg"

@@ -117,6 +117,45 @@ class Pages(unittest.TestCase):
             done = subprocess.run([sys.executable, "../page.py"], cwd=os.path.join(folder, "data"), capture_output=True, text=True, check=False)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
+    def test_the_tutorial_runs(self):
+        text = "\n".join(read(os.path.join(support.SOURCE, page)) for page in ("README.md", "data/tutorial.md"))
+        with tempfile.TemporaryDirectory() as folder:
+            data = os.path.join(folder, "data")
+            shutil.copytree(support.DATA, data)
+            for name in ("wing.json", "wing-folds.json"):
+                os.rename(os.path.join(data, "lattices", name), os.path.join(data, "lattices", "shown-" + name))
+            for name, content in re.findall(r"^```json (\S+)\n(.*?)^```$", text, re.M | re.S):
+                with open(os.path.join(data, name), "w", encoding="utf-8") as file:
+                    file.write(content)
+            commands = re.findall(r"^```sh python\n(.*?)^```$", text, re.M | re.S)
+            script, = re.findall(r"^```python\n(.*?)^```$", read(os.path.join(support.SOURCE, "data/tutorial.md")), re.M | re.S)
+            paths = os.pathsep.join([os.path.dirname(sys.executable), os.environ["PATH"]])
+            printed = ""
+            for command in (["sh", "-eu", "-c", "".join(commands)], [sys.executable, "-c", script]):
+                done = subprocess.run(command, cwd=data, env=os.environ | {"PATH": paths}, capture_output=True, text=True, check=False)
+                self.assertEqual((done.returncode, done.stderr), (0, ""), command)
+                printed += done.stdout
+            # Another scipy ends elsewhere by its tolerance.
+            stated = re.findall(r"^wing.*?\.json: ([\d.]+) forward .*folds: (\w+), least det (\S+)$", text, re.M)
+            found = re.findall(r"^wing.*?\.json: ([\d.]+) forward .*folds: (\w+), least det (\S+)$", printed, re.M)
+            self.assertEqual([verdict for _, verdict, _ in found], ["some", "none"])
+            for (forward, verdict, least), (more, other, det) in zip(stated, found, strict=True):
+                self.assertEqual(verdict, other)
+                self.assertLess(abs(float(forward) - float(more)), 0.002)
+                self.assertLess(abs(float(least) - float(det)), 0.02)
+            for name in ("wing.json", "wing-folds.json"):
+                made, shown = (ffd.Lattice.load(os.path.join(data, path)) for path in (name, "lattices/shown-" + name))
+                self.assertLess(np.abs(made.deformed - shown.deformed).max(), 2e-3)
+            variants = np.load(os.path.join(data, "variants.npy"), mmap_mode="r")
+            self.assertEqual((variants.shape, variants.dtype), ((10_000, 1159, 3), np.dtype(np.float32)))
+            training = np.load(os.path.join(data, "training.npz"))
+            low, high = training["parameters"].min(axis=0), training["parameters"].max(axis=0)
+            self.assertTrue((low < [0.701, 0.701, -59.9]).all() and (high > [1.299, 1.399, 59.9]).all())
+            for row in (0, 1, 9_999):
+                lattice = ffd.Lattice.load(os.path.join(data, "sweep.json"), dict(zip(("HEIGHT", "GIRTH", "DEGREES"), training["parameters"][row])))
+                moved, _ = ffd.positions_file(os.path.join(data, "models/keg_decorated.obj"), lattice)
+                self.assertLess(np.abs(moved - variants[row]).max(), 1e-6)
+
     def example(self, name):
         with tempfile.TemporaryDirectory() as folder:
             done = subprocess.run([sys.executable, os.path.join(EXAMPLES, name)], cwd=folder, capture_output=True, text=True, check=False)

@@ -287,7 +287,7 @@ def lattices_turned_for_z_up(place):
 
     names = [name for name in sorted(os.listdir(os.path.join(place.source, "data/lattices"))) if name.endswith(".json")]
     # A cylinder, a matrix and offsets are turned by hand.
-    lattices = {name: sample_lattice(place, name) for name in names if name not in ("bend-cylinder.json", "overlap.json", "snout.json")}
+    lattices = {name: sample_lattice(place, name) for name in names if name not in ("bend-cylinder.json", "overlap.json", "snout.json", "wing.json", "wing-folds.json")}
     lattices["all-members.json"] = ALL_MEMBERS
     lattices["box.json"] = {**ALL_MEMBERS, "units": "box"}
     rest = place.points(place.model("spot.obj"))

@@ -7,7 +7,7 @@
 
 The build and the C example are run by tests/install/test_packages.py, in the source that a release is packed into.
 Blocks are fenced: ```sh (commands of the tutorial), ```sh build (those of the build), ```json NAME, ```csv NAME, ```prm NAME, ```ninja NAME,
-```make NAME and ```c NAME (files). ```sh package and ```sh library are run by tests of tests/install,
+```make NAME and ```c NAME (files). ```sh package and ```sh library are run by tests of tests/install, ```sh python and ```python by tests/python,
 ```sh slurm, parallel and snakemake by those of tests/cluster, ```bat and ```powershell (data/windows.md) by tests/windows.
 Commands that stand indented are compared with a list: a new one must find its test here."""
 import os
@@ -62,7 +62,7 @@ def run(script, folder, environment):
 
 def check_indented(text):
     names = {name for language, name, content in blocks(text) if language == "sh"}
-    if names - {"", "build", "package", "library", "slurm", "parallel", "snakemake"}:
+    if names - {"", "build", "package", "library", "python", "slurm", "parallel", "snakemake"}:
         sys.exit(f"the pages have blocks of commands that no test runs: {names}")
     outside = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
     found = [line.strip() for line in outside.splitlines() if re.match(r"^    (sh|cc|ffd|meson|python3) ", line)]
