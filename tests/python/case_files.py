@@ -247,6 +247,29 @@ class Files(unittest.TestCase):
             self.assertEqual(ffd.check_bytes(data, TWIST, name=name).displacement.max,
                              ffd.check_file(os.path.join(models, name), TWIST).displacement.max)
 
+    def test_volume_meshes_in_bytes(self):
+        corpus, lattice = os.path.join(support.SOURCE, "tests", "fuzz", "corpus"), ffd.Lattice.box((-2, -2, -2), (3, 3, 3))
+        lattice = lattice.moved(lattice.rest + [0.5, 0, 0])
+        for path in ("su2/plain", "vtk/text", "vtk/bytes", "vtu/ascii", "vtu/raw-zlib", "vtp/base64", "vts/raw", "msh/old-bytes", "msh/new-text"):
+            name = "a." + path.split("/")[0]
+            with open(os.path.join(corpus, path), "rb") as file:
+                data = file.read()
+            with open(name, "wb") as file:
+                file.write(data)
+            made = ffd.deform_bytes(data, lattice, name=name)
+            self.assertGreater(made.result.moved, 0, path)
+            self.assertNotEqual(made.data, data, path)
+            ffd.deform_file(name, "b" + name, lattice)
+            with open("b" + name, "rb") as file:
+                self.assertEqual(made.data, file.read(), path)
+            os.remove(name)
+            os.remove("b" + name)
+            still, _ = ffd.positions_bytes(data, ffd.Lattice.box((9, 9, 9), (10, 10, 10)), name="a", input_format=path.split("/")[0])
+            moved, _ = ffd.positions_bytes(data, lattice, name=name)
+            self.assertTrue(np.allclose(moved - still, [0.5, 0, 0], atol=1e-7), path)
+        with self.assertRaisesRegex(ffd.UnsupportedError, "meshio"):
+            ffd.deform_bytes(data, lattice, name="a.msh", output="a.obj")
+
     def test_bytes_name_other_bytes(self):
         obj = b"mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
         given, asked = {"a.mtl": bytearray(b"newmtl a\n")}, []
