@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Runs others.py, on lattices in the formats of VTK, NumPy, SciPy and meshio, in a fresh environment.
+"""Runs others.py, on lattices in the formats of VTK, NumPy, SciPy and meshio, and volumes.py, on volume meshes of VTK and meshio, in a
+fresh environment.
 
     test_others.py SOURCE [CASE...]       CASE: as unittest names it, "others.Others.test_plain_grids_of_vtk"; the program in FFD
 
@@ -22,7 +23,7 @@ def main():
         python, _ = make_environment(os.path.join(folder, "venv"), lists)
         environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
         environment |= {"PYTHONDONTWRITEBYTECODE": "1", "PYTHONPATH": HERE, "TMPDIR": folder}
-        code = run_cases(python, chosen or ["others"], folder, environment)
+        code = run_cases(python, chosen or ["others", "volumes"], folder, environment)
     sys.exit(1 if code else 0)
 
 
