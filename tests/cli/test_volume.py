@@ -310,9 +310,10 @@ def sides_that_cells_share_are_inside(run):
     equal([topology[key] for key in ("faces", "boundary_edges", "euler", "isolated_vertices")], [32, 0, 2, 0])
     run.write("g.vtk", volume.vtk_grid(size=(4, 1, 3)))
     equal(run.ffd("info", "g.vtk", "--json").json["topology"]["faces"], 6, "a grid of quads")
-    run.write("p.vtk", volume.vtk_polyhedra())
-    topology = run.ffd("info", "p.vtk", "--json").json["topology"]
-    equal([topology[key] for key in ("faces", "boundary_edges", "euler")], [6, 0, 2], "two polyhedra with one side in common")
+    for name, data in (("p.vtk", volume.vtk_polyhedra()), ("p.vtu", volume.vtu_polyhedra(False)), ("q.vtu", volume.vtu_polyhedra(True))):
+        run.write(name, data)
+        topology = run.ffd("info", name, "--json").json["topology"]
+        equal([topology[key] for key in ("faces", "boundary_edges", "euler")], [6, 0, 2], name + ": two polyhedra with one side in common")
 
 
 @case
@@ -436,6 +437,14 @@ def cells(points="0", offsets="1", kinds="1"):
                                for name, values in (("connectivity", points), ("offsets", offsets), ("types", kinds))) + "</Cells>"
 
 
+def listed(cells="4 8", faces="0 1 2 3 0 4 5 6", ends="3 6 9 12 15 18 21", corner="0"):
+    """Polyhedra with a list of faces, broken."""
+    text = volume.vtu_polyhedra(True).decode()
+    for name, values in (("polyhedron_offsets", cells), ("polyhedron_to_faces", faces), ("face_offsets", ends)):
+        text = re.sub(rf'(Name="{name}" format="ascii">)[^<]*', rf"\g<1>{values}", text)
+    return re.sub(r'(Name="face_connectivity" format="ascii">)0', rf"\g<1>{corner}", text)
+
+
 ZLIB = 'byte_order="LittleEndian" compressor="vtkZLibDataCompressor"'
 
 
@@ -478,9 +487,20 @@ BROKEN_VTU = [
     (xml(piece(cells=cells("0 0", "2 1", "1 1"), number=2)), INVALID, "the offset 2 of cell 0 is not between 0 and 1"),
     (xml(piece(cells=cells("0", "1", "3"), number=1)), INVALID, "a line has 1 points, not 2"),
     (xml(piece(cells=cells("0", "1", "x"), number=1)), INVALID, '"x" is not a whole number'),
-    (xml(piece(cells=cells("0", "1", "42"), number=1)), UNSUPPORTED, "polyhedra are supported with arrays faces and faceoffsets"),
+    (xml(piece(cells=cells("0", "1", "42"), number=1)), INVALID,
+     "polyhedron 0 has neither faces and faceoffsets nor face_connectivity, face_offsets, polyhedron_to_faces and polyhedron_offsets"),
     (xml(piece(cells=cells("0", "1", "99"), number=1)), UNSUPPORTED, "cells of the type 99 are not supported"),
+    (listed(faces="0 1 2 3 0 4 5 7"), INVALID, "polyhedron 1 has a face that is not there"),
+    (listed("-1 8"), INVALID, "the faces of polyhedron 0 are not there"),
+    (listed("4 9"), INVALID, "the faces of polyhedron 1 are not there"),
+    (listed("4 4"), INVALID, "the faces of polyhedron 1 are not there"),
+    (listed("4 15", "0 1 2 3" + " 0" * 11), INVALID, "polyhedron 1 has a face that two others have"),
+    (listed(ends="3 6 9 12 15 18 22"), INVALID, "the points of face 6 are not there"),
+    (listed(ends="3 2 9 12 15 18 21"), INVALID, "the points of face 1 are not there"),
+    (listed(corner="5"), INVALID, "a cell has the point 5, but its piece has only 5"),
 ]
+
+
 def msh(nodes="$Nodes\n1\n1 0 0 0\n$EndNodes\n", rest="", head="2.2 0 8"):
     return f"$MeshFormat\n{head}\n$EndMeshFormat\n{nodes}{rest}"
 

@@ -100,12 +100,34 @@ def vtk_grid(points=None, is_binary=False, kind="float", size=(4, 3, 3)):
     return made.data
 
 
+# Two polyhedra, with one side in common.
+POLYHEDRA = [[[0, 2, 1], [0, 1, 4], [1, 2, 4], [2, 0, 4]], [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]]]
+CORNERS_OF_POLYHEDRA = [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, -1, 0, 0, 1]
+
+
+def stream_of(faces):
+    """How many faces; of each how many points, and these."""
+    return [len(faces), *flat([len(face), *face] for face in faces)]
+
+
 def vtk_polyhedra():
-    """Two, with one side in common."""
-    cells = [[4, 3, 0, 2, 1, 3, 0, 1, 4, 3, 1, 2, 4, 3, 2, 0, 4], [4, 3, 0, 1, 2, 3, 0, 3, 1, 3, 1, 3, 2, 3, 2, 3, 0]]
     made = Vtk(False, "UNSTRUCTURED_GRID").line("POINTS 5 double")
-    made.numbers("d", [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, -1, 0, 0, 1]).line("CELLS 2 36")
-    return made.numbers("i", flat([len(c), *c] for c in cells)).line("CELL_TYPES 2").numbers("i", [42, 42]).data
+    made.numbers("d", CORNERS_OF_POLYHEDRA).line("CELLS 2 36")
+    return made.numbers("i", flat([17, *stream_of(faces)] for faces in POLYHEDRA)).line("CELL_TYPES 2").numbers("i", [42, 42]).data
+
+
+def vtu_polyhedra(is_listed):
+    """is_listed: the faces are in a list, in which the common side stands once, as VTK writes them since 9.4."""
+    listed = POLYHEDRA[0] + POLYHEDRA[1][1:]
+    faces = ([("face_connectivity", flat(listed)), ("face_offsets", range(3, 3 * len(listed) + 1, 3)),
+              ("polyhedron_to_faces", [0, 1, 2, 3, 0, 4, 5, 6]), ("polyhedron_offsets", [4, 8])]
+             if is_listed else [("faces", flat(map(stream_of, POLYHEDRA))), ("faceoffsets", [17, 34])])
+    arrays = "".join(f'<DataArray type="Int64" Name="{name}" format="ascii">{" ".join(map(str, values))}</DataArray>\n'
+                     for name, values in [("connectivity", [0, 1, 2, 4, 0, 1, 2, 3]), ("offsets", [4, 8]), ("types", [42, 42]), *faces])
+    points = " ".join(map(str, CORNERS_OF_POLYHEDRA))
+    return ('<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian">\n<UnstructuredGrid><Piece NumberOfPoints="5" NumberOfCells="2">'
+            f'<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">{points}</DataArray></Points>\n<Cells>\n{arrays}</Cells>'
+            "</Piece></UnstructuredGrid></VTKFile>\n").encode()
 
 
 def vtk_vectors(data, keyword, code, count):

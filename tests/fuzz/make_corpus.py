@@ -366,6 +366,8 @@ def of_volumes():
         yield "msh", "old-" + kind, volume.msh2(is_binary=is_binary)
         yield "msh", "new-" + kind, volume.msh4(is_binary=is_binary, parameters=True)
     yield "msh", "tags", volume.msh2(tags=list(range(100, 0, -10)))
+    yield "vtu", "polyhedra", volume.vtu_polyhedra(False)
+    yield "vtu", "listed-faces", volume.vtu_polyhedra(True)
     yield "vtu", "pieces", volume.vtu(volume.POINTS * 2, pieces=2)
 
 

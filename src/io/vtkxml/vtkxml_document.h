@@ -32,9 +32,24 @@ typedef enum vtkxml_list {
     VTKXML_LISTS
 } vtkxml_list;
 
+/* The arrays of cells. Faces of polyhedra are in one of two forms: each with its points, cell by cell; or in
+   a list, of which each cell names some (since VTK 9.4). "Ends" count from the first cell or face. */
+typedef enum vtkxml_cell_array {
+    VTKXML_CONNECTIVITY,
+    VTKXML_ENDS,
+    VTKXML_KINDS,
+    VTKXML_FACES, /* of a polyhedron: how many; of each face how many points, and these */
+    VTKXML_FACES_ENDS,
+    VTKXML_LISTED_FACES, /* the points of all faces */
+    VTKXML_LISTED_FACES_ENDS,
+    VTKXML_CELL_FACES, /* the faces of all polyhedra */
+    VTKXML_CELL_FACES_ENDS,
+    VTKXML_CELL_ARRAYS
+} vtkxml_cell_array;
+
 typedef struct vtkxml_cells {
     uint64_t count;
-    vtkxml_array connectivity, offsets, types, faces, face_offsets;
+    vtkxml_array arrays[VTKXML_CELL_ARRAYS];
 } vtkxml_cells;
 
 typedef struct vtkxml_piece {

@@ -159,12 +159,14 @@ static void note_encoding(vtkxml_document *d, const vtkxml_array *array)
 /* The array of cells of this name; NULL: it is of another one. */
 static vtkxml_array *cell_array(vtkxml_cells *cells, text_word name)
 {
-    return ffd_text_is(name, "connectivity")  ? &cells->connectivity
-           : ffd_text_is(name, "offsets")     ? &cells->offsets
-           : ffd_text_is(name, "types")       ? &cells->types
-           : ffd_text_is(name, "faces")       ? &cells->faces
-           : ffd_text_is(name, "faceoffsets") ? &cells->face_offsets
-                                              : NULL;
+    static const char *const names[VTKXML_CELL_ARRAYS] = {
+        "connectivity",      "offsets",           "types",        "faces",
+        "faceoffsets",       "face_connectivity", "face_offsets", "polyhedron_to_faces",
+        "polyhedron_offsets"};
+    for (int a = 0; a < VTKXML_CELL_ARRAYS; a++)
+        if (ffd_text_is(name, names[a]))
+            return &cells->arrays[a];
+    return NULL;
 }
 
 /* Adds an array of points or cells. */
