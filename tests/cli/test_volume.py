@@ -6,7 +6,7 @@ import re
 import struct
 
 import volume_files as volume
-from harness import (INVALID, NO, UNSUPPORTED, USAGE, carried, case, check, equal, float32, lattice, main, near)
+from harness import (INVALID, LIMIT, NO, UNSUPPORTED, USAGE, carried, case, check, equal, float32, lattice, main, near)
 
 BUMP = [{"at": [[1, 2], [1, 2], [1, 2]], "by": [0.5, 0.25, -0.125]}]
 STAYS = re.compile("stays? as (it is|they are)")
@@ -558,6 +558,17 @@ BROKEN_SU2 = [
     ("NDIME= 3\nNPOIN= 1\n0 0 0\nNPOIN= 1\n0 0 0\n", INVALID, ":5: there are points twice in a zone"),
     ("NDIME= 3\nNDIME= 2\n", UNSUPPORTED, ":2: zones of two and of three dimensions"),
 ]
+
+
+@case
+def memory_for_groups_is_bounded(run):
+    """An entity of many groups with many elements: 260 KB that ask for 1.6 GB."""
+    many = 20000
+    groups = " ".join(str(i + 1) for i in range(many))
+    points = "".join(f"{i + 1} 1\n" for i in range(many))
+    run.write("m.msh", f"$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n1 0 0 0\n1 0 0 0 {many} {groups}\n$EndEntities\n"
+                       f"$Nodes\n1 1 1 1\n0 1 0 1\n1\n0 0 0\n$EndNodes\n$Elements\n1 {many} 1 {many}\n0 1 15 {many}\n{points}$EndElements\n")
+    run.ffd("info", "m.msh", code=LIMIT, err=re.compile(r"m.msh: needs more than the \d+ MB of memory allowed"))
 
 
 @case

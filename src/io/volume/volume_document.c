@@ -10,6 +10,7 @@ volume_document *ffd_volume_make(size_t size, const file_input *input, const ffd
 {
     volume_document *const d = ffd_file_document_make(size, input, source, error);
     if (d) {
+        d->file.base.budget = ffd_budget_for_file(input->size, true, source->memory); /* while it is read */
         d->dimensions = 3;
         d->point_type = d->normal_type = NUMBER_DOUBLE;
         atomic_init(&d->flattened, 0);
@@ -148,6 +149,8 @@ ffd_status ffd_volume_group(volume_document *d, const char *name, size_t size, s
 ffd_status ffd_volume_group_add(volume_document *d, size_t group, uint32_t vertex, ffd_error *error)
 {
     volume_group *const g = &d->groups[group];
+    /* A short file may name the same vertices in any number of groups. */
+    TRY(ffd_budget_check(&d->file.base.budget, ++d->grouped, 2 * sizeof *g->vertices, error));
     if (!ffd_grow((void **)&g->vertices, &g->capacity, g->count + 1, sizeof *g->vertices))
         return ffd_fail_memory(error);
     g->vertices[g->count++] = vertex;

@@ -58,6 +58,7 @@ typedef struct volume_document {
     volume_group *groups;
     intern_table group_names;
     size_t group_count, group_capacity;
+    uint64_t grouped; /* vertices of all groups */
     number_type point_type, normal_type;
     size_t dimensions; /* numbers of a point: 2 or 3 */
     /* In two dimensions: displacements out of the plane that are left out. */
@@ -97,7 +98,7 @@ ffd_status ffd_volume_add_array(volume_document *document, text_word name, const
 /* Finds the group of a name, or adds it. Errors: FFD_E_MEMORY. */
 ffd_status ffd_volume_group(volume_document *document, const char *name, size_t size, size_t *group,
                             ffd_error *error);
-/* Adds a vertex to a group. Errors: FFD_E_MEMORY. */
+/* Adds a vertex to a group. Errors: FFD_E_LIMIT for more than the budget has, FFD_E_MEMORY. */
 ffd_status ffd_volume_group_add(volume_document *document, size_t group, uint32_t vertex, ffd_error *error);
 /* Names the file and a line in an error of volume_cells.h. Returns the status. */
 ffd_status ffd_volume_at_line(const volume_document *document, size_t line, ffd_status status,

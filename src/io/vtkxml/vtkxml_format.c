@@ -109,7 +109,6 @@ static ffd_status open_grid(file_input *input, const ffd_source *source, vtkxml_
     if (!d)
         return FFD_E_MEMORY;
     d->grid = grid;
-    d->volume.file.base.budget = ffd_budget_for_file(input->size, true, source->memory);
     ffd_status status;
     TRY_END(ffd_vtkxml_tags(d, error));
     TRY_END(read_points(d, error));
