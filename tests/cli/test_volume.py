@@ -13,7 +13,7 @@ STAYS = re.compile("stays? as (it is|they are)")
 
 
 def words(data):
-    return re.split(rb"(\s+)", data)
+    return re.split(rb"(%[^\r\n]*|\s+)", data)
 
 
 def same_but_numbers(name, before, after):
@@ -331,6 +331,20 @@ def every_kind_of_cell_has_its_sides(run):
         topology = run.ffd("info", "k.vtk", "--json").json["topology"]
         equal([topology[key] for key in ("faces", "boundary_edges", "non_manifold_edges", "euler")],
               [base + 1 + (not is_pointed), 0, 0, 2], f"kind {number}")
+
+
+@case
+def voxels_and_pixels_go_crosswise(run):
+    """Their points are in rows, not round their faces: a box of 1 x 2 x 3 as one voxel, and its shell of pixels."""
+    points = "".join(f"{x} {2 * y} {3 * z}\n" for z in (0, 1) for y in (0, 1) for x in (0, 1))
+    pixels = ["0 2 1 3", "4 5 6 7", "0 1 4 5", "2 6 3 7", "0 4 2 6", "1 3 5 7"]
+    run.write("l.json", lattice(moves=[]))
+    for cells, kinds in ((["0 1 2 3 4 5 6 7"], "11"), (pixels, "8")):
+        rows = [f"{len(cell.split())} {cell}\n" for cell in cells]
+        run.write("k.vtk", f"# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n{points}"
+                           f"CELLS {len(rows)} {sum(len(row.split()) for row in rows)}\n{''.join(rows)}CELL_TYPES {len(rows)}\n{(kinds + chr(10)) * len(rows)}")
+        entry = run.ffd("check", "k.vtk", "-l", "l.json", "--report", "-", "-q").json["jobs"][0]
+        equal([entry["volume"]["before"], entry["area"]["before"]], [6, 22], f"kind {kinds}")
 
 
 @case

@@ -154,7 +154,7 @@ def su2(points=None, end="\n", boxes=0):
     lines = ["% a mesh", "NDIME= 3", f"NELEM= {len(CELLS) - 1}   % cells"]
     lines += [" ".join(map(str, [kind, *cell, i])) for i, (kind, cell) in enumerate(CELLS[:2])]
     lines += [f"NPOIN = {len(points)} {len(points)}", "% the points"]
-    lines += ["\t" + " ".join(repr(x) for x in p) + (f"  {i}" if i % 2 == 0 else " % here") for i, p in enumerate(points)]
+    lines += ["\t" + " ".join(repr(x) for x in p) + (f"  {i}" if i % 2 == 0 else "% here") for i, p in enumerate(points)]
     lines += ["NMARK= 2", "MARKER_TAG= wall", "MARKER_ELEMS= 1", "9 0 1 2 3", "MARKER_TAG= far", "MARKER_ELEMS= 2", "5 4 5 8",
               "5 5 6 8"]
     lines += [f"FFD_NBOX= {boxes}", "FFD_TAG= box", "FFD_CORNER_POINTS= 8", *["0 0 0"] * 8] if boxes else []
