@@ -151,7 +151,7 @@ SU2_FLAT = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.5, 1.5]]
 def su2(points=None, end="\n", boxes=0):
     """In three dimensions, with a comment here and there."""
     points = POINTS if points is None else points
-    lines = ["% a mesh", "NDIME= 3", f"NELEM= {len(CELLS) - 1}   % cells"]
+    lines = ["% a mesh", "NDIME= 3", f"NELEM= {len(CELLS) - 1}% cells"]
     lines += [" ".join(map(str, [kind, *cell, i])) for i, (kind, cell) in enumerate(CELLS[:2])]
     lines += [f"NPOIN = {len(points)} {len(points)}", "% the points"]
     lines += ["\t" + " ".join(repr(x) for x in p) + (f"  {i}" if i % 2 == 0 else "% here") for i, p in enumerate(points)]
