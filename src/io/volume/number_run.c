@@ -1,6 +1,7 @@
 #include "io/volume/number_run.h"
 #include "base/memory/memory.h"
 #include "base/system/deadline.h"
+#include "base/text/code_scan.h"
 #include "io/text/vectors.h"
 #include <string.h>
 
@@ -42,11 +43,24 @@ static bool take_word(run_walk *walk, text_word *word)
     return true;
 }
 
+/* Takes the words between two parentheses. */
+static size_t take_bracketed(run_walk *walk, text_word words[RUN_WIDTH_MAX])
+{
+    size_t found = 0;
+    if (!ffd_code_mark(&walk->scan, '('))
+        return 0;
+    while (found < walk->run->width && ffd_code_word(&walk->scan, &words[found]))
+        found++;
+    return found == walk->run->width && !ffd_code_mark(&walk->scan, ')') ? found - 1 : found;
+}
+
 size_t ffd_run_words(run_walk *walk, text_word words[RUN_WIDTH_MAX])
 {
     const number_run *const run = walk->run;
     size_t found = 0;
     text_word word;
+    if (run->is_bracketed)
+        return take_bracketed(walk, words);
     if (run->has_lines && !find_line(walk))
         return 0;
     for (size_t i = 0; i < run->before; i++)
@@ -80,7 +94,8 @@ static ffd_status refuse(const number_run *run, const run_walk *walk, const char
                              ffd_text_shown(*word).text);
     if (walk->scan.at < walk->scan.last)
         return ffd_fail_line(error, FFD_E_INVALID, file, walk->scan.line,
-                             "%s %zu (counted from 0) needs %zu numbers", what, tuple, run->width);
+                             "%s %zu (counted from 0) needs %zu numbers%s", what, tuple, run->width,
+                             run->is_bracketed ? " in parentheses" : "");
     return ffd_fail_line(error, FFD_E_INVALID, file, walk->scan.line, "the file ends after %zu of %zu %ss",
                          tuple, run->count, what);
 }

@@ -19,6 +19,7 @@ typedef struct number_run {
     size_t stride;        /* in binary: bytes from one tuple to the next */
     bool has_lines;       /* in text: each tuple has a line of its own, whose other words are skipped */
     char comment;         /* begins comments, which are skipped; 0: there are none. Only with has_lines */
+    bool is_bracketed;    /* in text: each tuple is in parentheses, with comments as those of C */
     /* A text is read from first to last at most. In binary all tuples lie in between. */
     const char *first, *last;
     size_t line; /* that of first */
@@ -32,8 +33,8 @@ typedef struct run_walk {
 
 /* Begins a walk at the first tuple of a text. */
 void ffd_run_begin(const number_run *run, run_walk *walk);
-/* Takes the words of the next tuple. Returns how many were found: fewer than its width where its line, or
-   the text, ends. */
+/* Takes the words of the next tuple. Returns how many were found: fewer than its width where its line, its
+   parentheses or the text end, and where a parenthesis is missing. */
 size_t ffd_run_words(run_walk *walk, text_word words[RUN_WIDTH_MAX]);
 
 /* Checks that the tuples fit into the bytes of the run, before memory is taken for them. what: names one in

@@ -1,7 +1,8 @@
 /* volume_compare.c - compares two volume meshes of one format.
 
    They are the same mesh if their points and normals are equal within the tolerances, their cells join the
-   same points in the same order, and all other bytes of the files are the same. */
+   same points in the same order, and all other bytes of the files are the same. Cells in further files count
+   where both meshes have them. */
 #include "io/volume/volume_document.h"
 #include "mesh/difference.h"
 #include <inttypes.h>
@@ -63,9 +64,11 @@ static bool is_same_cell(const comparer *c, size_t cell)
            (count_a == 0 || memcmp(a, b, count_a * sizeof *a) == 0);
 }
 
-/* Returns whether all cells are the same. */
+/* Returns whether all cells that both have are the same. */
 static bool compare_cells(comparer *c)
 {
+    if (c->a->lacks_cells || c->b->lacks_cells)
+        return true;
     const size_t count = c->a->cells.count;
     bool same = count == c->b->cells.count;
     if (!same)

@@ -35,7 +35,7 @@ ffd_status ffd_volume_describe(const mesh_document *document, json_text *json, f
         {"normals", d->file.part.normal_count},
         {"cells", d->cells.count},
         {"volumes", d->cells.volumes},
-        {"faces", count_dimension(&d->cells, 2)},
+        {"faces", count_dimension(&d->cells, 2) + d->listed_faces},
         {"lines", count_dimension(&d->cells, 1)},
         {"points", count_dimension(&d->cells, 0)},
         {"groups", d->group_count},

@@ -28,6 +28,8 @@ static void free_content(volume_document *d)
     ffd_free(d->pieces);
     ffd_free(d->spans);
     ffd_free(d->selected);
+    ffd_free(d->outer.ends);
+    ffd_free(d->outer.corners);
     ffd_cells_free(&d->cells);
 }
 
@@ -50,12 +52,15 @@ static int compare_spans(const void *a, const void *b)
     return x->first < y->first ? -1 : x->first > y->first;
 }
 
-/* The memory for cells exists already. */
+/* The memory for cells and outer faces exists already. */
 static void take_cells(volume_document *d)
 {
     memory_budget *const budget = &d->file.base.budget;
     budget->taken += (uint64_t)d->cells.word_capacity * sizeof *d->cells.words;
     budget->taken += (uint64_t)d->cells.end_capacity * sizeof *d->cells.ends;
+    budget->taken += (uint64_t)d->outer.count * sizeof *d->outer.ends;
+    if (d->outer.count)
+        budget->taken += (uint64_t)d->outer.ends[d->outer.count - 1] * sizeof *d->outer.corners;
 }
 
 mesh_document *ffd_volume_ready(volume_document *d, bool text, const ffd_source *source)

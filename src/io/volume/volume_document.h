@@ -43,6 +43,13 @@ typedef struct volume_group {
     size_t count, capacity;
 } volume_group;
 
+/* The outer faces of the cells, where the file lists them. All zeros: none. */
+typedef struct volume_outer {
+    size_t *ends; /* count, owned: where the corners of each face end */
+    uint32_t *corners;
+    size_t count;
+} volume_outer;
+
 typedef struct volume_document {
     file_document file;
     const char *encoding; /* "ascii", "binary", .. */
@@ -53,12 +60,17 @@ typedef struct volume_document {
     volume_span *spans; /* in the order of the file, once it is open */
     size_t span_count, span_capacity;
     volume_cells cells;
+    bool has_outer; /* the outer faces are these; false: those of the cells that no two of them share */
+    volume_outer outer;
+    size_t listed_faces; /* that the file lists and that are no cells */
+    bool lacks_cells;    /* cells are in further files, which are not there */
     volume_array *arrays;
     size_t array_count, array_capacity;
     volume_group *groups;
     intern_table group_names;
     size_t group_count, group_capacity;
     uint64_t grouped; /* vertices of all groups */
+    const char *lacks_groups; /* why some are not known, for the message that refuses a name; NULL */
     number_type point_type, normal_type;
     size_t dimensions; /* numbers of a point: 2 or 3 */
     /* In two dimensions: displacements out of the plane that are left out. */

@@ -7,6 +7,24 @@
 #include "mesh/face_filler.h"
 #include "mesh/mixed_faces.h"
 
+static ffd_status visit_outer(const volume_outer *outer, surface_visitor *visit, void *context,
+                              ffd_error *error)
+{
+    for (size_t f = 0; f < outer->count; f++) {
+        const size_t first = f ? outer->ends[f - 1] : 0;
+        TRY(ffd_deadline_check_at(f, error));
+        visit(context, outer->corners + first, outer->ends[f] - first);
+    }
+    return FFD_OK;
+}
+
+static ffd_status visit_faces(const volume_document *d, surface_visitor *visit, void *context,
+                              ffd_error *error)
+{
+    return d->has_outer ? visit_outer(&d->outer, visit, context, error)
+                        : ffd_surface_visit(&d->cells, &d->file.base.budget, visit, context, error);
+}
+
 /* Numbers of cells of no and one dimension. */
 static void count_cells(const volume_document *d, mesh_faces *faces)
 {
@@ -38,9 +56,13 @@ static void mark_point(void *context, uint32_t point)
     marks[point] |= 2;
 }
 
-/* Vertices inside of cells, and between their corners, are in no face; they are not isolated either. */
+/* Vertices inside of cells, and between their corners, are in no face; they are not isolated either. Where
+   only the outer faces of cells are known, all others are inside. */
 static void mark_all(const volume_document *d, uint8_t *marks)
 {
+    if (d->has_outer && d->lacks_cells)
+        for (size_t v = 0; v < d->file.part.vertex_count; v++)
+            marks[v] |= 2;
     for (size_t c = 0; c < d->cells.count; c++)
         if (ffd_cell_kind(d->cells.kinds[c])->dimension >= 2)
             ffd_cell_visit(&d->cells, c, mark_point, marks);
@@ -66,7 +88,7 @@ static ffd_status fill_faces(const volume_document *d, face_counter *counter, me
     TRY(ffd_mesh_faces_make(document, faces, counter->corners, error));
     ffd_vectors_read(d->file.positions, 0, faces->vertex_count, faces->positions);
     face_filler filler = {.faces = faces, .corners = counter->corners};
-    const ffd_status status = ffd_surface_visit(&d->cells, &document->budget, fill_face, &filler, error);
+    const ffd_status status = visit_faces(d, fill_face, &filler, error);
     if (status) {
         ffd_mesh_faces_free(faces);
         return status;
@@ -83,7 +105,7 @@ ffd_status ffd_volume_faces(const mesh_document *document, mesh_state state, mes
     (void)state;
     if (!counter.marks)
         return ffd_fail_memory(error);
-    TRY_END(ffd_surface_visit(&d->cells, &document->budget, count_face, &counter, error));
+    TRY_END(visit_faces(d, count_face, &counter, error));
     TRY_END(fill_faces(d, &counter, faces, error));
 end:
     ffd_free(counter.marks);
@@ -111,7 +133,7 @@ ffd_status ffd_volume_mixed_faces(const mesh_document *document, mesh_state stat
     ffd_status status;
     (void)state;
     *faces = (mesh_faces){.vertex_count = marks->vertices};
-    TRY_END(ffd_surface_visit(&d->cells, &document->budget, add_mixed, &mixed, error));
+    TRY_END(visit_faces(d, add_mixed, &mixed, error));
     TRY_END(ffd_face_lists_narrow(document, &mixed.list, 1, faces, error));
     ffd_file_document_fill_positions(&d->file, faces);
 end:
@@ -185,7 +207,7 @@ ffd_status ffd_volume_model(const mesh_document *document, mesh_state state, mes
     TRY_END(ffd_file_document_model(&d->file, 0, model, error));
     filler.has_normals = model->normal_count > 0;
     TRY_END(ffd_model_begin_run(model, NULL, NULL, NULL, error));
-    TRY_END(ffd_surface_visit(&d->cells, &document->budget, add_model_face, &filler, error));
+    TRY_END(visit_faces(d, add_model_face, &filler, error));
     TRY_END(filler.status);
     TRY_END(add_lines(d, &filler));
     TRY_END(ffd_model_finish(model, error));

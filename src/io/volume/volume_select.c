@@ -13,6 +13,15 @@ static const char *name_of(const volume_document *d, size_t group)
     return ffd_intern_key(&d->group_names, (uint32_t)group);
 }
 
+static ffd_status refuse(const volume_document *d, const selector_nearest *nearest, ffd_error *error)
+{
+    const ffd_status status = ffd_selector_unknown(nearest, d->file.name, error);
+    if (!d->lacks_groups || !error)
+        return status;
+    const ffd_error own = *error;
+    return ffd_fail_file(error, status, d->file.name, "%s (%s)", own.message, d->lacks_groups);
+}
+
 static ffd_status mark(mesh_document *document, const mesh_selector *selector, uint8_t *marks,
                        ffd_error *error)
 {
@@ -29,7 +38,7 @@ static ffd_status mark(mesh_document *document, const mesh_selector *selector, u
     }
     for (size_t g = 0; g < d->group_count && !found; g++)
         ffd_selector_offer(&nearest, name_of(d, g), strlen(name_of(d, g)));
-    return found ? FFD_OK : ffd_selector_unknown(&nearest, d->file.name, error);
+    return found ? FFD_OK : refuse(d, &nearest, error);
 }
 
 static ffd_status select_groups(mesh_document *document, const mesh_selector *selectors, size_t count,
