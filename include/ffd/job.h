@@ -37,15 +37,16 @@ typedef enum ffd_format {
     FFD_FORMAT_VTU,
     FFD_FORMAT_VTP,
     FFD_FORMAT_VTS,
-    FFD_FORMAT_MSH /* Gmsh */
+    FFD_FORMAT_MSH, /* Gmsh */
+    FFD_FORMAT_FOAM /* OpenFOAM: the file points, with faces, owner and others beside it */
 } ffd_format;
 
 /* Returns the format of a file name by its ending (or of a bare ending, "obj"), in upper or lower case;
-   FFD_FORMAT_AUTO if the ending is unknown. Thread-safe. */
+   FFD_FORMAT_FOAM of a file called "points" or "points.gz"; FFD_FORMAT_AUTO of all others. Thread-safe. */
 FFD_API ffd_format ffd_format_from_name(const char *name);
-/* The endings that it knows, in words. */
-#define FFD_FORMAT_NAMES "obj, gltf, glb, vrm, ply, off, stl, vtk, su2, vtu, vtp, vts or msh"
-/* Checks that it knows the ending of a file name. Thread-safe. Errors: FFD_E_ARGUMENT (the message has the
+/* The endings that it knows, and foam, in words. */
+#define FFD_FORMAT_NAMES "obj, gltf, glb, vrm, ply, off, stl, vtk, su2, vtu, vtp, vts, msh or foam"
+/* Checks that it knows the format of a file name. Thread-safe. Errors: FFD_E_ARGUMENT (the message has the
    ending, and FFD_FORMAT_NAMES; of "-": that the format must be given). */
 FFD_API ffd_status ffd_format_check_name(const char *name, ffd_error *error);
 

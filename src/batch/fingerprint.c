@@ -181,15 +181,15 @@ static ffd_status list_output(const ffd_source *output, bool has_copies, path_li
     ffd_format format;
     mesh_document *document;
     TRY(ffd_source_format(output, &format, error));
-    if (!ffd_format_table(format)->sidecars) {
+    const mesh_sidecar_calls *const sidecars = ffd_format_table(format)->sidecars;
+    if (!sidecars || !sidecars->count) {
         TRY(ffd_paths_add(files, output->path, error));
         return has_copies ? find_copies(output->path, ffd_format_table(format), images, error) : FFD_OK;
     }
     TRY(ffd_source_open(output, 1, &document, error));
     ffd_status status;
     TRY_END(ffd_source_files(output, document, files, error));
-    if (document->format->sidecars)
-        TRY_END(document->format->sidecars->list_images(document, images, error));
+    TRY_END(sidecars->list_images(document, images, error));
 end:
     ffd_source_close(&document);
     return status;

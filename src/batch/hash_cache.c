@@ -227,7 +227,7 @@ static ffd_status scan_bytes(hash_cache *cache, const char *path, const file_sta
     forget_scan(scan);
     TRY(load_and_hash(cache, path, stamp, &bytes, error));
     ffd_status status = FFD_OK;
-    if (table->sidecars)
+    if (table->sidecars && table->sidecars->count)
         scan->sidecars = table->sidecars->count(&bytes, from, to);
     /* A GLB that is made of a .gltf holds its images. */
     const bool copies = from != FFD_FORMAT_GLTF || to != FFD_FORMAT_GLB;

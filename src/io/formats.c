@@ -1,6 +1,8 @@
 #include "io/formats.h"
 #include "base/file/path.h"
 #include "base/text/content.h"
+#include "io/foam/foam_format.h"
+#include "io/format_names.h"
 #include "io/gltf/gltf_format.h"
 #include "io/msh/msh_format.h"
 #include "io/obj/obj_format.h"
@@ -39,6 +41,8 @@ const mesh_format *ffd_format_table(ffd_format format)
         return &ffd_vts_format;
     case FFD_FORMAT_MSH:
         return &ffd_msh_format;
+    case FFD_FORMAT_FOAM:
+        return &ffd_foam_format;
     case FFD_FORMAT_AUTO:
         break;
     }
@@ -65,6 +69,11 @@ ffd_status ffd_format_open(const mesh_format *format, file_input *input, const f
     return FFD_OK;
 }
 
+static bool is_foam(const char *name)
+{
+    return strcmp(name, FOAM_NAME) == 0 || strcmp(name, FOAM_PACKED) == 0;
+}
+
 ffd_format ffd_format_from_name(const char *name)
 {
     static const struct {
@@ -78,5 +87,5 @@ ffd_format ffd_format_from_name(const char *name)
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (ffd_path_has_ending(name, known[i].ending))
             return known[i].format;
-    return FFD_FORMAT_AUTO;
+    return is_foam(ffd_path_name(name)) ? FFD_FORMAT_FOAM : FFD_FORMAT_AUTO;
 }

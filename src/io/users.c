@@ -31,7 +31,7 @@ ffd_status ffd_users_list(const char *folder, path_list *pairs, ffd_error *error
     TRY_END(ffd_folder_list(folder, &names, error));
     for (size_t i = 0; i < names.count; i++) {
         const mesh_format *const format = ffd_format_table(ffd_format_from_name(names.paths[i]));
-        if (!format || !format->sidecars)
+        if (!format || !format->sidecars || !format->sidecars->count)
             continue;
         char *const path =
             strcmp(folder, ".") == 0 ? ffd_text_copy(names.paths[i]) : ffd_path_join(folder, names.paths[i]);

@@ -97,6 +97,8 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
         return ffd_format_refuse_name(desc->output, error);
     if (desc->sink)
         return FFD_OK;
+    if (!ffd_output_is_stream(desc->output))
+        TRY(ffd_format_check_output(options->format, desc->output, error));
     TRY(refuse_inputs(desc, error));
     return desc->make_folders ? ffd_output_check_with_folder(desc->output, options->force, error)
                               : ffd_output_check(desc->output, options->force, error);
@@ -261,7 +263,7 @@ static ffd_status dry_run_conversion(deform_job *job, const mesh_save_options *o
     const mesh_format *const to = ffd_format_table(options->format);
     sidecar_names names = {.options = options, .log = &job->log};
     ffd_format from;
-    if (!to->sidecars || ffd_output_is_stream(options->path) || options->to_sink)
+    if (!to->sidecars || !to->sidecars->count || ffd_output_is_stream(options->path) || options->to_sink)
         return FFD_OK;
     TRY(ffd_source_format(&job->desc->input, &from, error));
     const size_t count = to->sidecars->count(NULL, from, options->format);

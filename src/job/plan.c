@@ -7,6 +7,7 @@
 #include "base/file/place.h"
 #include "base/memory/file_table.h"
 #include "base/memory/memory.h"
+#include "io/format_names.h"
 #include "io/formats.h"
 #include "job/input/deform_desc.h"
 #include "job/input/source.h"
@@ -255,7 +256,7 @@ ffd_status ffd_output_path(const char *folder, const char *input, const char *en
                            ffd_error *error)
 {
     const char *const name = ffd_path_name(input);
-    char *const named = ending ? ffd_path_with_ending(name, ending) : ffd_text_copy(name);
+    char *const named = ending ? ffd_format_rename(name, ending) : ffd_text_copy(name);
     *path = named ? ffd_path_join(folder, named) : NULL;
     ffd_free(named);
     return *path ? FFD_OK : ffd_fail_memory(error);

@@ -54,13 +54,16 @@ static ffd_status list_by_bytes(const mesh_format *format, const ffd_source *sou
 }
 
 /* What an output is to the input, if it would replace a file of it; NULL: nothing. */
-static const char *role_of(const mesh_names *names, const char *output)
+static const char *role_of(const mesh_format *format, const mesh_names *names, const char *output)
 {
+    const bool has_buffers = format->sidecars && format->sidecars->count;
     if (holds(&names->resources, output))
         return "an image or a material library of the input";
     if (holds(&names->linked, output))
         return "a file that is named by the input";
-    return holds(&names->named, output) ? "a buffer of the input" : NULL;
+    if (!holds(&names->named, output))
+        return NULL;
+    return has_buffers ? "a buffer of the input" : "a file of the input";
 }
 
 /* Asks for the output first: usually it does not exist, which is a quick answer. */
@@ -113,7 +116,7 @@ ffd_status ffd_job_check_mesh_files(const char *output, const ffd_source *source
     if (may)
         TRY_END(document && table->sidecars ? list_by_document(document, &names, error)
                                             : list_by_bytes(table, source, &names, error));
-    const char *const role = role_of(&names, output);
+    const char *const role = role_of(table, &names, output);
     if (role)
         TRY_END(ffd_fail_file(error, FFD_E_EXISTS, output, "is %s %s and is not overwritten", role,
                               source->path));

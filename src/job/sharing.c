@@ -70,7 +70,8 @@ void ffd_sharing_begin(job_sharing *sharing, const ffd_deform_desc *desc, const 
 {
     *sharing = (job_sharing){.document = document, .input = desc->input.path};
     *used = NULL;
-    if (!ffd_format_table(to)->sidecars || ffd_output_is_stream(output) || desc->sink)
+    const mesh_sidecar_calls *const sidecars = ffd_format_table(to)->sidecars;
+    if (!sidecars || !sidecars->count || ffd_output_is_stream(output) || desc->sink)
         return;
     sharing->known = desc->output_set ? &desc->output_set->users : &sharing->own;
     sharing->sharing = (mesh_sharing){find, sharing, sharing->known->is_complete};

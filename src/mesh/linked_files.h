@@ -43,11 +43,12 @@ static inline ffd_status ffd_mesh_list_linked(const mesh_document *document, pat
 
 /* The files that a mesh consists of. */
 struct mesh_sidecar_calls {
-    /* Adds the further files that open has read: the buffers of a .gltf. A file that is referenced twice is
-       added twice. */
+    /* Adds the further files that open has read: the buffers of a .gltf, the faces of OpenFOAM. A file that
+       is referenced twice is added twice. */
     mesh_list_files_function *list;
     /* Adds the referenced images in the folder of the file or below, whether they exist or not. */
     mesh_list_files_function *list_images;
+    /* NULL: none are written with an output. */
     mesh_count_sidecars_function *count;
     mesh_name_sidecar_function *name;
 };

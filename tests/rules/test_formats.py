@@ -8,8 +8,9 @@ import tree
 
 HEADER, ENDINGS, SETTINGS = "include/ffd/job.h", "src/io/formats.c", "src/job/input/settings.c"
 MANUAL, REFERENCE = "src/cli/pages/ffd.1.in", "data/reference.md"
-# Further endings of formats.
+# Further endings of formats, and the format that has none: its file is called points.
 OTHER_ENDINGS = {"vrm": "glb"}
+WITHOUT_ENDING = {"foam"}
 
 
 def quoted(text, begin, end):
@@ -27,8 +28,8 @@ def main():
     endings = set(meshes) | set(OTHER_ENDINGS)
     lists = {
         f"{HEADER}: FFD_FORMAT_NAMES": set(re.findall(r"\w+", named)) - {"or"},
-        f"{ENDINGS}: the endings": {ending[1:] for ending in quoted(tree.read(ENDINGS), "known[] =", "}};")},
-        f"{MANUAL}: the endings": set(re.findall(r"^\.Pa \.(\w+)", tree.read(MANUAL), re.M)),
+        f"{ENDINGS}: the endings": {ending[1:] for ending in quoted(tree.read(ENDINGS), "known[] =", "}};")} | WITHOUT_ENDING,
+        f"{MANUAL}: the endings": set(re.findall(r"^\.Pa \.(\w+)", tree.read(MANUAL), re.M)) | WITHOUT_ENDING,
     }
     findings = [f"{place}: {word} is {'missing' if word in endings else 'no format'}"
                 for place, words in lists.items() for word in sorted(words ^ endings)]

@@ -63,11 +63,12 @@ LAYERS = {
     "io/volume": {"base", "base/memory", "base/system", "base/text", "base/vector", "io/text", "mesh"},
     "io/vtk": {"base/memory", "base/system", "io/volume", "mesh"},
     "io/vtkxml": {"base/memory", "base/system", "base/text", "io/deflate", "io/volume", "mesh"},
+    "io/foam": {"base", "base/file", "base/memory", "base/system", "base/text", "io/volume", "mesh"},
     "io/msh": {"base/memory", "base/system", "io/volume", "mesh"},
     "io/su2": {"base", "base/memory", "base/system", "base/text", "io/volume", "mesh"},
     "io/stl": {"base", "base/memory", "base/system", "base/text", "base/vector", "io/text", "mesh"},
     "io": {
-        "base", "base/file", "base/memory", "base/text", "io/gltf", "io/msh", "io/obj", "io/off", "io/ply", "io/stl", "io/su2", "io/vtk",
+        "base", "base/file", "base/memory", "base/text", "io/foam", "io/gltf", "io/msh", "io/obj", "io/off", "io/ply", "io/stl", "io/su2", "io/vtk",
         "io/vtkxml",        "mesh",
     },
     "io/write": {

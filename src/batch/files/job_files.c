@@ -17,7 +17,7 @@ job_kind ffd_job_kind(const batch_job *job)
     kind.source = ffd_format_table(kind.from);
     kind.format = ffd_format_table(kind.to);
     kind.is_kept = kind.format && kind.format == kind.source;
-    kind.has_sidecars = kind.format && kind.format->sidecars;
+    kind.has_sidecars = kind.format && kind.format->sidecars && kind.format->sidecars->count;
     return kind;
 }
 

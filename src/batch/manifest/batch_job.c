@@ -360,7 +360,7 @@ static const char *ending_of(const job_maker *maker)
 static char *name_output(const job_maker *maker, const char *output)
 {
     const char *const ending = ending_of(maker);
-    char *const named = ending ? ffd_path_with_ending(output, ending) : NULL;
+    char *const named = ending ? ffd_format_rename(output, ending) : NULL;
     const bool changes = named && ffd_format_from_name(named) != FFD_FORMAT_AUTO &&
                          ffd_format_from_name(output) != FFD_FORMAT_AUTO &&
                          !ffd_path_has_ending(output, ffd_path_ending(named));
@@ -462,6 +462,10 @@ static bool check_settings(const job_maker *maker)
         TRY_END(ffd_format_refuse_name(desc->input.path, &error));
     if (lacks_format(desc->output_format, desc->output))
         TRY_END(ffd_format_refuse_name(desc->output, &error));
+    if (desc->output)
+        TRY_END(ffd_format_check_output(desc->output_format ? desc->output_format
+                                                            : ffd_format_from_name(desc->output),
+                                        desc->output, &error));
     return true;
 end:
     ffd_error_format(&error, what, sizeof what);

@@ -2,6 +2,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/spelling.h"
+#include "io/format_names.h"
 #include "json/json_parse.h"
 #include "json/json_setting.h"
 #include <inttypes.h>
@@ -96,10 +97,13 @@ static void add_lattices(job_description *job, const job_commons *commons)
 
 char *ffd_output_name(const job_commons *commons, const char *input, uint64_t ordinal)
 {
-    char *const named = commons->ending ? ffd_path_with_ending(input, commons->ending) : ffd_text_copy(input);
+    char *const named = commons->ending ? ffd_format_rename(input, commons->ending) : ffd_text_copy(input);
     char *const stem = named ? ffd_path_stem(named) : NULL;
     byte_buffer text = {.failed = !stem};
-    if (stem && ordinal)
+    /* The name of a mesh of OpenFOAM stays: a folder has the number. */
+    if (stem && ordinal && ffd_format_from_name(named) == FFD_FORMAT_FOAM)
+        ffd_buffer_format(&text, "%s-%" PRIu64 "/%s", stem, ordinal, ffd_path_name(named));
+    else if (stem && ordinal)
         ffd_buffer_format(&text, "%s-%" PRIu64 "%s", stem, ordinal, ffd_path_ending(named));
     else if (stem)
         ffd_buffer_text(&text, ffd_path_name(named));

@@ -22,6 +22,7 @@ const model_target *ffd_model_target(ffd_format format)
     case FFD_FORMAT_VTP:
     case FFD_FORMAT_VTS:
     case FFD_FORMAT_MSH:
+    case FFD_FORMAT_FOAM:
     case FFD_FORMAT_AUTO:
         break;
     }

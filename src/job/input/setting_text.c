@@ -1,6 +1,7 @@
 /* setting_text.c - reads settings from texts as users write them (public: ffd/settings.h). */
 #include "base/arithmetic.h"
 #include "base/fail.h"
+#include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/spelling.h"
 #include "base/text/size.h"
@@ -131,7 +132,11 @@ static ffd_status read_format(const reading *r)
 {
     char name[32];
     snprintf(name, sizeof name, "x.%s", r->text[0] == '.' ? r->text + 1 : r->text);
-    const ffd_format format = strlen(r->text) < 16 ? ffd_format_from_name(name) : FFD_FORMAT_AUTO;
+    /* No ending of a file's name says it. */
+    const bool is_foam = ffd_path_has_ending(name, ".foam");
+    const ffd_format format = is_foam                ? FFD_FORMAT_FOAM
+                              : strlen(r->text) < 16 ? ffd_format_from_name(name)
+                                                     : FFD_FORMAT_AUTO;
     if (format == FFD_FORMAT_AUTO)
         return refuse(r, ": ", "\"%s\" is not one of " FFD_FORMAT_NAMES, r->text);
     *(ffd_format *)(void *)r->at = format;

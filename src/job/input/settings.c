@@ -13,8 +13,8 @@ static const char *const space_words[] = {"scene", "mesh", NULL};
 static const char *const rig_words[] = {"keep", "follow", NULL};
 static const char *const resources_words[] = {"copy", "reference", "refresh", NULL};
 static const char *const isa_words[] = {"auto", "scalar", "sse2", "avx2", "avx512", "neon", NULL};
-static const char *const format_words[] = {"auto", "obj", "gltf", "glb", "ply", "off", "stl",
-                                           "vtk",  "su2", "vtu",  "vtp", "vts", "msh", NULL};
+static const char *const format_words[] = {"auto", "obj", "gltf", "glb", "ply", "off",  "stl", "vtk",
+                                           "su2",  "vtu", "vtp",  "vts", "msh", "foam", NULL};
 
 static const char *const seam_words[] = {"none", "C0", "C1", "C2", NULL};
 static const char *const gate_words[] = {"folds", "outside", "multiple", "singular", "invalid", "tear",
