@@ -17,7 +17,7 @@ import time
 import stage
 
 SECONDS = 60
-FORMATS = {"obj", "gltf", "glb", "vrm", "ply", "off", "stl", "vtk", "su2", "vtu", "vtp", "vts", "msh"}
+FORMATS = {"obj", "gltf", "glb", "vrm", "ply", "off", "stl", "vtk", "su2", "vtu", "vtp", "vts", "msh", "foam"}
 MESHES = {"cow.obj", "ROBOT.GLB", "a vase.ply", "folder/"}
 # Typed -> what is offered for the last word; a folder's name may end in a slash or not.
 CASES = [

@@ -27,6 +27,8 @@ static void put_value(const pages_value *value)
         printf("_ffd_list '%s'", value->words);
     else if (*value->words)
         printf("_ffd_words '%s'", value->words);
+    else if (value->whole)
+        printf("_ffd_files '@(%s)' %s", value->endings, value->whole);
     else if (*value->endings)
         printf("_filedir '@(%s)'", value->endings);
     else

@@ -6,13 +6,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Names for kinds of files, with their endings, as "a, b or c". */
+/* Names for kinds of files, with their endings, as "a, b or c", and the name of those without one. */
 static const struct {
-    const char *name, *endings;
+    const char *name, *endings, *whole;
 } kinds[] = {
-    {"MESH", FFD_FORMAT_NAMES}, {"LATTICE", "json"}, {"REPORT", "json"},
-    {"MANIFEST", "jsonl"},      {"TABLE", "csv"},
+    {"MESH", FFD_FORMAT_NAMES, "points"}, {"LATTICE", "json", NULL}, {"REPORT", "json", NULL},
+    {"MANIFEST", "jsonl", NULL},          {"TABLE", "csv", NULL},
 };
+/* The format of files without an ending. */
+static const char whole_format[] = "foam";
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
 static void append(char text[200], const char *separator, const char *more, size_t length)
@@ -31,12 +33,12 @@ static bool is(const char *part, size_t length, const char *name)
     return strlen(name) == length && memcmp(part, name, length) == 0;
 }
 
-/* Appends each word of "a, b or c". */
-static void append_list(char text[200], const char *separator, const char *list)
+/* Appends each word of "a, b or c" but this one. */
+static void append_list(char text[200], const char *separator, const char *list, const char *without)
 {
     while (*list) {
         const size_t length = strcspn(list, ", ");
-        if (length > 0 && !is(list, length, "or"))
+        if (length > 0 && !is(list, length, "or") && !is(list, length, without))
             append(text, separator, list, length);
         list += length > 0 ? length : 1;
     }
@@ -55,7 +57,7 @@ static void take(pages_value *value, const char *part, size_t length)
 {
     static const char file[] = "FILE";
     if (is(part, length, "FORMAT"))
-        append_list(value->words, " ", FFD_FORMAT_NAMES);
+        append_list(value->words, " ", FFD_FORMAT_NAMES, "");
     else if (is_word(part, length))
         append(value->words, " ", part, length);
     else if (is(part, length, "DIR"))
@@ -68,7 +70,8 @@ static void take(pages_value *value, const char *part, size_t length)
     for (int i = 0; i < KINDS; i++)
         if (is(part, length, kinds[i].name)) {
             value->files = true;
-            append_list(value->endings, "|", kinds[i].endings);
+            append_list(value->endings, "|", kinds[i].endings, whole_format);
+            value->whole = kinds[i].whole;
         }
 }
 

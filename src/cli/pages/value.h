@@ -9,6 +9,7 @@
 typedef struct pages_value {
     char words[200];   /* separated by spaces; "": none */
     char endings[200]; /* of files, without dots, separated by |; "": any */
+    const char *whole; /* files of this name too; NULL: none */
     bool files, folders;
     bool list; /* a list: any number of the words, separated by commas */
 } pages_value;

@@ -36,6 +36,8 @@ static void put_value(const pages_value *value, const char *what)
         printf("_ffd_list %s", value->words);
     else if (*value->words)
         printf("(%s)", value->words);
+    else if (value->whole)
+        printf("_files -g \"(*.(#i)(%s)|%s)(-.)\"", value->endings, value->whole);
     else if (*value->endings)
         printf("_files -g \"*.(#i)(%s)(-.)\"", value->endings);
     else
