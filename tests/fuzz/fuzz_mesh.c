@@ -323,6 +323,8 @@ static void run(trial *of, const uint8_t *data, size_t size)
 void fuzz_mesh(ffd_format format, const uint8_t *data, size_t size)
 {
     trial of = {.format = format, .input = "m", .output = "out/m"};
+    if (format == FFD_FORMAT_FOAM)
+        of.output = "o"; /* beside the faces */
     const uint8_t *const end = format == FFD_FORMAT_GLTF && size > 0 ? memchr(data, 0, size) : NULL;
     prepare_files();
     if (end) {

@@ -14,7 +14,8 @@ import struct
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "cli"))
-import volume_files as volume  # noqa: E402 (a neighbour of this folder)
+import foam_files as foam  # noqa: E402 (a neighbour of this folder)
+import volume_files as volume  # noqa: E402
 from gltf_asset import CODES, SIZES, GltfAsset  # noqa: E402 (a neighbour of this folder)
 
 MOST_BYTES = 16384
@@ -369,6 +370,10 @@ def of_volumes():
     yield "vtu", "polyhedra", volume.vtu_polyhedra(False)
     yield "vtu", "listed-faces", volume.vtu_polyhedra(True)
     yield "vtu", "pieces", volume.vtu(volume.POINTS * 2, pieces=2)
+    for name, made in foam.ENCODINGS.items():
+        yield "foam", name.replace(" ", "-"), foam.joined(made.files())
+    yield "foam", "points", foam.Foam().points()
+    yield "foam", "one-place", foam.Foam().header("vectorField", "points") + b"9{(0 0.5 1)}\n"
 
 
 def crafted():

@@ -2,7 +2,7 @@
 # Fuzzes lattice files, manifests, reports, clips, a reader of meshes or of images with clang's libFuzzer under the address and undefined-behaviour
 # sanitizers.
 #     sh tests/fuzz/run.sh [-t TARGET] [-n RUNS] SECONDS [FOLDER]
-# TARGET: lattice (default), table, weights, pairs, manifest, report, clip, obj, gltf, glb, ply, off, stl, vtk, su2, vtu, vtp, vts, msh, png, jpeg, webp. With -n it ends after so many runs, the same ones every
+# TARGET: lattice (default), table, weights, pairs, manifest, report, clip, obj, gltf, glb, ply, off, stl, vtk, su2, vtu, vtp, vts, msh, foam, png, jpeg, webp. With -n it ends after so many runs, the same ones every
 # time as far as the machine allows, or after the seconds. Builds in FOLDER (default .build-test/fuzz). What is found new
 # goes to FOLDER/TARGET/corpus, which the next run goes on with; inputs that end in a finding go to
 # FOLDER/TARGET/findings. Meshes start from the small ones of the folder FFD_MODELS too, where that is set. Ends
@@ -10,7 +10,7 @@
 set -eu
 
 usage() {
-    echo "usage: sh tests/fuzz/run.sh [-t lattice|table|weights|pairs|manifest|report|clip|obj|gltf|glb|ply|off|stl|vtk|su2|vtu|vtp|vts|msh|png|jpeg|webp] [-n RUNS] SECONDS [FOLDER]" >&2
+    echo "usage: sh tests/fuzz/run.sh [-t lattice|table|weights|pairs|manifest|report|clip|obj|gltf|glb|ply|off|stl|vtk|su2|vtu|vtp|vts|msh|foam|png|jpeg|webp] [-n RUNS] SECONDS [FOLDER]" >&2
     exit 2
 }
 
@@ -35,7 +35,7 @@ work=${2-$root/.build-test/fuzz}
 case $target in
 lattice | table | weights | pairs | manifest | report | clip | png | jpeg | webp) length=8192 dictionary=$target.dict ;;
 gltf | glb) length=16384 dictionary=gltf.dict ;;
-obj | ply | off | stl | vtk | su2 | msh) length=8192 dictionary=$target.dict ;;
+obj | ply | off | stl | vtk | su2 | msh | foam) length=8192 dictionary=$target.dict ;;
 vtu | vtp | vts) length=8192 dictionary=vtkxml.dict ;;
 *) usage ;;
 esac
@@ -52,7 +52,7 @@ ninja -C "$work" "tests/fuzz/fuzz_$target"
 mkdir -p "$work/$target/corpus" "$work/$target/findings"
 seeds=
 case $target in
-obj | gltf | glb | ply | off | stl | vtk | su2 | vtu | vtp | vts | msh) has_models=${FFD_MODELS-} ;;
+obj | gltf | glb | ply | off | stl | vtk | su2 | vtu | vtp | vts | msh | foam) has_models=${FFD_MODELS-} ;;
 *) has_models= ;;
 esac
 if [ -n "$has_models" ]; then
