@@ -9,6 +9,7 @@ import struct
 import subprocess
 import sys
 
+import foam_files as foam
 import volume_files as volume
 from broken_gltf_cases import TRIANGLES, USHORT, Model
 from harness import (CUBE, FFD, INVALID, IO, LIMIT, OK, SANITIZED, UNSUPPORTED, case, check, equal, glb, gltf_json, lattice, main)
@@ -52,11 +53,15 @@ def small_files():
     yield "m.vts", volume.vts(encoding="appended base64")
     yield "m.msh", volume.msh2()
     yield "b.msh", volume.msh4(is_binary=True)
+    yield "points", foam.Foam().points()
+    yield "b/points", foam.Foam(True).points()
 
 
 def deform(run, name, code, *words, **options):
     """Either the output is there, or the program said why in one line that names a file."""
-    output = "out" + os.path.splitext(name)[1]
+    output = "out/points" if name.endswith("points") else "out" + os.path.splitext(name)[1]
+    if "/" in output:
+        os.makedirs(run.path("out"), exist_ok=True)
     run.remove(output)
     done = run.ffd("deform", name, output, "-l", "l.json", "-q", *words, code=code, **options)
     check(run.exists(output) == (done.code == OK), f"{name}: exit {done.code}, but {run.names()}")
@@ -91,6 +96,22 @@ def buffers_truncated_at_every_byte(run):
 
 
 @case
+def files_beside_the_points_truncated_at_every_byte(run):
+    start(run)
+    for made in (foam.Foam(), foam.Foam(True)):
+        for name, content in made.files().items():
+            run.write(name, content)
+        for name, content in made.files().items():
+            end = content.index(b"object")
+            step = max(1, (len(content) - end) // (20 if SANITIZED else 60))
+            for size in [0, 1, 200, *range(end, len(content), step)] if name != "points" else []:
+                run.write(name, content[:size])
+                done = deform(run, "points", (OK, *REFUSALS))
+                check(done.code == OK or done.err[0].startswith(name), f"{name}, {size} bytes: {done.err}")
+            run.write(name, content)
+
+
+@case
 def what_is_no_file(run):
     """Folders, pipes that nobody writes to, devices, sockets: exit 3 at once, wherever a file is named."""
     start(run)
@@ -98,8 +119,9 @@ def what_is_no_file(run):
     os.mkfifo(run.path("pipe"))
     run.folder_of("folder")
     for what in ("folder", "pipe", "/dev/zero", "/dev/full"):
-        for ending in (".obj", ".glb", ".gltf", ".ply", ".off", ".stl", ".vtk", ".su2", ".vtu", ".msh", ".json"):
+        for ending in (".obj", ".glb", ".gltf", ".ply", ".off", ".stl", ".vtk", ".su2", ".vtu", ".msh", "/points", ".json"):
             name = "x" + ending
+            os.makedirs(run.path(os.path.dirname(name)), exist_ok=True)
             os.symlink(what if what.startswith("/") else run.path(what), run.path(name))
             if ending == ".json":
                 run.ffd("deform", "a.obj", "out.obj", "-l", name, code=IO)
@@ -290,7 +312,9 @@ def memory_stays_near_the_size_of_the_file(run):
         size = os.path.getsize(run.path(name))
         if name == "shown.glb":
             size += 12 * SHOWN[0] * SHOWN[1]
-        output = "out" + os.path.splitext(name)[1]
+        output = "out/points" if name.endswith("points") else "out" + os.path.splitext(name)[1]
+    if "/" in output:
+        os.makedirs(run.path("out"), exist_ok=True)
         for words in (("deform", name, output, "-l", "l.json", "-q", "--force"), ("info", name),
                       ("check", name, "-l", "l.json", "-q")):
             if SANITIZED:  # its memory cannot be told from the program's

@@ -9,6 +9,7 @@ import os
 import subprocess
 import sys
 
+import foam_files as foam
 import volume_files as volume
 from harness import CUBE, IO, PNG, SECONDS, case, check, equal, lattice, main
 
@@ -104,6 +105,8 @@ def start(run):
     run.write("a.vtu", volume.vtu(volume.POINTS * 300, "base64", pieces=300))
     run.write("a.vts", volume.vts(places, "raw zlib", size=(30, 10, 10)))
     run.write("a.msh", volume.msh4(places))
+    run.write("a/points", foam.Foam(True).points(places))
+    run.write("a/faces", foam.Foam(True).faces())
 
 
 def commands():
@@ -115,6 +118,7 @@ def commands():
             yield files, ["deform", "a.obj", f"disk/b.{ending}", "-l", "l.json", "-q"]
     for ending in VOLUMES:
         yield [f"disk/b.{ending}"], ["deform", f"a.{ending}", f"disk/b.{ending}", "-l", "l.json", "-q"]
+    yield ["disk/points"], ["deform", "a/points", "disk/points", "-l", "l.json", "-q"]
     yield ["disk/b.obj", "disk/b.d"], ["deform", "a.obj", "disk/b.obj", "-l", "l.json", "--depfile", "disk/b.d"]
     yield ["disk/a.glb"], ["animate", "a.obj", "disk/a.glb", "-l", "k.json", "-q"]
     yield ["disk/a.gltf", "disk/a.bin"], ["animate", "a.gltf", "disk/a.gltf", "-l", "k.json", "-q"]

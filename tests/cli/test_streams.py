@@ -103,7 +103,7 @@ def other_outputs_go_behind_what_a_stream_holds(run):
         run.ffd("deform", "a.obj", f"/dev/fd/{third.fileno()}", "--output-format", "obj", "-l", "l.json", pass_fds=[third.fileno()])
     equal(run.text("third"), run.text("expected.obj"))
     run.ffd("deform", "a.obj", "/dev/stdout", "-l", "l.json", code=USAGE,
-            err="standard output needs --output-format obj, gltf, glb, vrm, ply, off, stl, vtk, su2, vtu, vtp, vts or msh")
+            err="standard output needs --output-format obj, gltf, glb, vrm, ply, off, stl, vtk, su2, vtu, vtp, vts, msh or foam")
     run.ffd("deform", "a.obj", "-", "--output-format", "obj", "-l", "l.json", "--report", "/dev/stdout", code=USAGE)
     run.ffd("deform", "/dev/stdin", "b.obj", "--input-format", "obj", "-l", "-", code=USAGE)
 
@@ -129,10 +129,10 @@ def a_pipe_of_two_runs(run):
 def formats_are_needed(run):
     start(run)
     run.ffd("deform", "-", "b.obj", "-l", "l.json", stdin=CUBE.encode(), code=USAGE,
-            err="standard input needs --input-format obj, gltf, glb, vrm, ply, off, stl, vtk, su2, vtu, vtp, vts or msh")
-    run.ffd("deform", "a.obj", "-", "-l", "l.json", code=USAGE, err="standard output needs --output-format obj, gltf, glb, vrm, ply, off, stl, vtk, su2, vtu, vtp, vts or msh")
+            err="standard input needs --input-format obj, gltf, glb, vrm, ply, off, stl, vtk, su2, vtu, vtp, vts, msh or foam")
+    run.ffd("deform", "a.obj", "-", "-l", "l.json", code=USAGE, err="standard output needs --output-format obj, gltf, glb, vrm, ply, off, stl, vtk, su2, vtu, vtp, vts, msh or foam")
     run.ffd("embed", "-", "-l", "l.json", "-o", "e.npy", stdin=CUBE.encode(), code=USAGE,
-            err="standard input needs --input-format obj, gltf, glb, vrm, ply, off, stl, vtk, su2, vtu, vtp, vts or msh")
+            err="standard input needs --input-format obj, gltf, glb, vrm, ply, off, stl, vtk, su2, vtu, vtp, vts, msh or foam")
 
 
 @case

@@ -984,7 +984,7 @@ def other_forms_of_splats_are_named(run):
         one_line(done, re.escape(said))
         check(run.exists("out/m.obj"), "the others are done")
         run.remove("in/c" + ending)
-    run.ffd("info", "m.fbx", code=USAGE, err='m.fbx: the ending ".fbx" is not that of a mesh format (obj, gltf, glb, vrm, ply, off, stl, vtk, su2, vtu, vtp, vts or msh)')
+    run.ffd("info", "m.fbx", code=USAGE, err='m.fbx: the ending ".fbx" is not that of a mesh format (obj, gltf, glb, vrm, ply, off, stl, vtk, su2, vtu, vtp, vts, msh or foam, whose file is called points)')
 
 
 @case

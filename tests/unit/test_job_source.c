@@ -163,7 +163,7 @@ static void broken_jobs_are_refused(void **state)
         {OPTIONS("\"falloff\": 1"), "falloff needs outside = extend"},
         {"{\"in\": \"a.xyz\", \"lattice\": \"l\", \"out\": \"b\"}",
          "a.xyz: the ending \".xyz\" is not that of a mesh format (obj, gltf, glb, vrm, ply, off, stl, vtk, "
-         "su2, vtu, vtp, vts or msh)"},
+         "su2, vtu, vtp, vts, msh or foam, whose file is called points)"},
     };
     const batch_frame frame = {.name = "m", .folder = ""};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

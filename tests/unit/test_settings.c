@@ -187,7 +187,7 @@ static void a_number_out_of_its_range_is_refused_with_the_member(void **state)
     } cases[] = {
         {"outside", 3, 0, "3 is not a value of outside"},
         {"input.space", -1, 0, "-1 is not a value of input.space"},
-        {"output_format", 13, 0, "13 is not a value of output_format"},
+        {"output_format", 14, 0, "14 is not a value of output_format"},
         {"falloff", 0, -1, "the falloff -1 is not a length"},
         {"snap", 0, NAN, "the snap nan is not a length"},
         {"timeout", 0, -2, "the timeout -2 is not a time"},
