@@ -105,7 +105,8 @@ typedef void (*ffd_log_function)(void *user, ffd_log_level level, const char *li
    FFD_E_MEMORY. */
 FFD_API ffd_status ffd_restore_output(const char *path, ffd_error *error);
 
-/* Provides a file that a mesh in memory refers to: a buffer, an image, a material library or a map.
+/* Provides a file that a mesh in memory refers to: a buffer, an image, a material library or a map, or one
+   beside the points of OpenFOAM ("faces").
    - name: relative to the mesh, with "/", as in the mesh except that "." and ".." are resolved; it never
      leads out of the mesh's folder.
    - bytes: zeroed before the call; leave it so if the file does not exist. A size without data ends the job

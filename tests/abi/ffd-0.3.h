@@ -444,7 +444,8 @@ typedef enum ffd_format {
     FFD_FORMAT_VTU,
     FFD_FORMAT_VTP,
     FFD_FORMAT_VTS,
-    FFD_FORMAT_MSH
+    FFD_FORMAT_MSH,
+    FFD_FORMAT_FOAM
 } ffd_format;
 ffd_format ffd_format_from_name(const char *name);
 ffd_status ffd_format_check_name(const char *name, ffd_error *error);
