@@ -49,6 +49,53 @@ class Folder(unittest.TestCase):
                 file.write(content)
 
 
+def foam(kind, text):
+    """A file of OpenFOAM."""
+    return f"FoamFile {{ format ascii; class {kind}; }}\n{text}\n".encode()
+
+
+class OpenFoam(Folder):
+    """Points with the files beside them: a tetrahedron."""
+
+    POINTS = foam("vectorField", "4((0 0 0) (1 0 0) (0 1 0) (0 0 1))")
+    BESIDE = {"faces": foam("faceList", "4(3(0 2 1) 3(0 1 3) 3(1 2 3) 3(2 0 3))"), "owner": foam("labelList", "4{0}"),
+              "neighbour": foam("labelList", "0()"),
+              "boundary": foam("polyBoundaryMesh", "1(top { nFaces 1; startFace 2; })")}
+
+    def test_files_beside_the_points_are_asked_for(self):
+        moved = foam("vectorField", "4((0 0 0.5) (1 0 0.5) (0 1 0.5) (0 0 1.5))")
+        made = ffd.deform_bytes(self.POINTS, LIFT, name="points", files=self.BESIDE, set={"lift": 0.5})
+        self.assertEqual((made.data, made.files, made.result.warnings), (moved, {}, []))
+        asked = []
+        ffd.check_bytes(self.POINTS, LIFT, name="points", files=asked.append, set={"lift": 0.5})
+        self.assertIn("faces", asked)
+        facts = ffd.info_bytes(self.POINTS, name="points", files=self.BESIDE, parts=True)
+        self.assertEqual((facts["contents"]["cells"], facts["topology"]["faces"]), (1, 4))
+        self.assertEqual([part["selector"] for part in facts["named_parts"]], ["group:top"])
+        only = ffd.deform_bytes(self.POINTS, LIFT, name="points", files=self.BESIDE.get, set={"lift": 0.5}, only="group:top")
+        self.assertEqual(only.data, moved.replace(b"(0 0 0.5)", b"(0 0 0)"))
+        self.assertTrue(ffd.compare_bytes(made.data, moved, name="points", other_name="points")["equal"])
+
+    def test_without_them_there_are_points_alone(self):
+        alone = ffd.deform_bytes(self.POINTS, LIFT, name="mesh", output="mesh", input_format="foam", output_format="foam", set={"lift": 0.5})
+        self.assertEqual(alone.result.moved, 4)
+        self.assertIn("the file faces is not beside it", alone.result.warnings[0])
+        with self.assertRaisesRegex(LookupError, "faces"):
+            ffd.deform_bytes(self.POINTS, LIFT, name="points", files=fails, set={"lift": 0.5})
+
+    def test_files_in_a_folder_give_the_same(self):
+        os.makedirs("polyMesh")
+        for name, content in {"points": self.POINTS, **self.BESIDE}.items():
+            with open(os.path.join("polyMesh", name), "wb") as file:
+                file.write(content)
+        with open("lift.json", "wb") as file:
+            file.write(LIFT)
+        os.makedirs("out")
+        result = ffd.deform_file("polyMesh/points", "out/points", "lift.json", set={"lift": 0.5})
+        self.assertEqual((result.moved, os.listdir("out")), (4, ["points"]))
+        self.assertEqual(read("out/points"), ffd.deform_bytes(self.POINTS, LIFT, name="points", files=self.BESIDE, set={"lift": 0.5}).data)
+
+
 class Facts(Folder):
     def test_facts_of_bytes_are_those_of_files(self):
         spot, streams = read("spot.obj"), [open("spot.obj", "rb"), io.BytesIO(read("spot.obj"))]

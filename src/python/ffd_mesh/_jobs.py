@@ -58,9 +58,9 @@ def deform_bytes(data: Any, lattices: AnyLattice | Sequence[AnyLattice] | Mappin
     """Like `deform_file`, for a mesh in memory, with the same bytes as result; reads and writes no files.
 
     data: bytes, or an object with a buffer (bytearray, memoryview, array)
-    name: of the mesh; its ending determines the format
+    name: of the mesh; its ending determines the format, "points" is one of OpenFOAM
     output: name of the result; None: the same; another ending converts it
-    files: the files that the mesh refers to (.bin, images, .mtl): a dict of bytes by name, relative to the mesh; or a function
+    files: the files that the mesh refers to (.bin, images, .mtl; faces, owner, .. of OpenFOAM): a dict of bytes by name, relative to the mesh; or a function
       that takes a name and returns bytes, or None if the file is missing. Its exceptions are passed on
     options: those of `deform_file`, except force and resources
     """
