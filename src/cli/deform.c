@@ -32,8 +32,8 @@ const cli_option cli_deform_options[] = {
     {"resources", 0, "copy|reference|refresh",
      "images, materials beside OUT: copied, referred to, copied anew; default copy", cli_set_member,
      AT(job.desc), NULL},
-    {"output-format", 0, "FORMAT", FFD_FORMAT_NAMES "; for -, --out-dir, batch", set_output_format,
-     AT(job.desc), NULL},
+    {"output-format", 0, "FORMAT", FFD_FORMAT_NAMES "; -, --out-dir, batch", set_output_format, AT(job.desc),
+     NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 

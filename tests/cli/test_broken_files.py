@@ -57,11 +57,17 @@ def small_files():
     yield "b/points", foam.Foam(True).points()
 
 
+def output_of(run, name):
+    """The name of an output: one of its ending; that of OpenFOAM in a folder."""
+    if not name.endswith("points"):
+        return "out" + os.path.splitext(name)[1]
+    os.makedirs(run.path("out"), exist_ok=True)
+    return "out/points"
+
+
 def deform(run, name, code, *words, **options):
     """Either the output is there, or the program said why in one line that names a file."""
-    output = "out/points" if name.endswith("points") else "out" + os.path.splitext(name)[1]
-    if "/" in output:
-        os.makedirs(run.path("out"), exist_ok=True)
+    output = output_of(run, name)
     run.remove(output)
     done = run.ffd("deform", name, output, "-l", "l.json", "-q", *words, code=code, **options)
     check(run.exists(output) == (done.code == OK), f"{name}: exit {done.code}, but {run.names()}")
@@ -273,6 +279,8 @@ MANY = 10**4 if SANITIZED else 10**6
 
 # The name, and what makes the file.
 HUNGRY = [
+    *((f"{count}/points", lambda count=count: foam.Foam().header("vectorField", "points") + b"%d{(0 0 0)}" % count)
+      for count in (520000, 4000000000)),
     ("zeros.gltf", lambda: zeros(ZEROS)),
     ("more-zeros.gltf", lambda: zeros(2**62)),
     ("zeros-shown.gltf", lambda: zeros(MANY, nodes=500)),
@@ -312,9 +320,7 @@ def memory_stays_near_the_size_of_the_file(run):
         size = os.path.getsize(run.path(name))
         if name == "shown.glb":
             size += 12 * SHOWN[0] * SHOWN[1]
-        output = "out/points" if name.endswith("points") else "out" + os.path.splitext(name)[1]
-    if "/" in output:
-        os.makedirs(run.path("out"), exist_ok=True)
+        output = output_of(run, name)
         for words in (("deform", name, output, "-l", "l.json", "-q", "--force"), ("info", name),
                       ("check", name, "-l", "l.json", "-q")):
             if SANITIZED:  # its memory cannot be told from the program's
@@ -370,10 +376,10 @@ def a_locale_with_a_decimal_comma(run):
     for name, content in small_files():
         run.write(name, content)
         deform(run, name, OK)
-        expected = run.read("out" + os.path.splitext(name)[1])
+        expected = run.read(output_of(run, name))
         for locale in ("de_DE.UTF-8", "de_DE", "fr_FR.utf8"):
             deform(run, name, OK, env={**os.environ, "LC_ALL": locale})
-            equal(run.read("out" + os.path.splitext(name)[1]), expected, f"{name} under {locale}")
+            equal(run.read(output_of(run, name)), expected, f"{name} under {locale}")
 
 
 main()

@@ -334,10 +334,12 @@ def a_disk_for_reading_only_is_exit_3(run):
         for files, arguments in commands():
             for name in files:
                 run.write(name, "" if name.endswith(".d") else "old")
+        os.makedirs(os.path.join(folder, "new"))
         command("mount", "-o", "remount,bind,ro", folder)
         for _, arguments in commands():
             check_refused(run, with_force(arguments), NO_WRITING)
-            check_refused(run, [word.replace("disk/", "disk/new-") for word in arguments], NO_WRITING)
+            check_refused(run, [word.replace("disk/", "disk/new/" if word == "disk/points" else "disk/new-") for word in arguments],
+                          NO_WRITING)
         check_refused(run, ["deform", "cube.obj", "--out-dir", "disk", "-l", "l.json"], NO_WRITING)
 
 

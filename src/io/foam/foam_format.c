@@ -7,6 +7,8 @@
 
 /* "(0 0 0)" */
 #define LEAST_POINT 7
+/* Memory for a point that has no bytes of its own in the file, also in what a job makes of it. */
+#define POINT_MEMORY 160
 
 /* Gives all points the place of the first one. */
 static void spread(volume_document *d)
@@ -27,7 +29,7 @@ static ffd_status take_points(foam_reader *r, foam_file *f)
     r->d->is_uniform = list == FOAM_SAME;
     /* A few bytes may stand for any number of points. */
     if (r->d->is_uniform)
-        TRY(ffd_budget_check(&r->budget, count, 6 * sizeof(double), r->error));
+        TRY(ffd_budget_check(&r->budget, count, POINT_MEMORY, r->error));
     TRY(ffd_volume_make_points(d, count, foam_line(f), r->error));
     const number_run run = {.type = f->is_binary && !r->d->is_uniform ? f->scalar : NUMBER_DOUBLE,
                             .is_text = !f->is_binary || r->d->is_uniform,
