@@ -18,7 +18,7 @@ import stage
 
 SECONDS = 60
 FORMATS = {"obj", "gltf", "glb", "vrm", "ply", "off", "stl", "vtk", "su2", "vtu", "vtp", "vts", "msh", "foam"}
-MESHES = {"cow.obj", "ROBOT.GLB", "a vase.ply", "folder/"}
+MESHES = {"cow.obj", "ROBOT.GLB", "a vase.ply", "points", "folder/"}
 # Typed -> what is offered for the last word; a folder's name may end in a slash or not.
 CASES = [
     ("ffd lat", {"lattice"}),
@@ -32,6 +32,8 @@ CASES = [
     ("ffd report merge be", {"bend.json"}),
     ("ffd deform ", MESHES),
     ("ffd deform cow", {"cow.obj"}),
+    ("ffd deform folder/", {"folder/points"}),
+    ("ffd deform po", {"points"}),
     ("ffd deform a\\ v", {"a vase.ply"}),
     ("ffd deform cow.obj out.obj -l ", {"bend.json", "folder/"}),
     ("ffd deform --lattice be", {"bend.json"}),
@@ -143,7 +145,7 @@ def main():
         texts = stage.commands(installed.path("bindir", "ffd"))
         work = os.path.join(folder, "work")
         os.makedirs(os.path.join(work, "folder"))
-        for name in ("cow.obj", "ROBOT.GLB", "a vase.ply", "bend.json", "cow.npy", "notes.txt", "folder/twist.json"):
+        for name in ("cow.obj", "ROBOT.GLB", "a vase.ply", "bend.json", "cow.npy", "notes.txt", "mypoints", "points", "folder/points", "folder/twist.json"):
             with open(os.path.join(work, name), "w", encoding="ascii"):
                 pass
         environment = {"PATH": installed.path("bindir") + ":/usr/bin:/bin", "HOME": folder, "TERM": "dumb",

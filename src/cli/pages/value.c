@@ -71,7 +71,7 @@ static void take(pages_value *value, const char *part, size_t length)
         if (is(part, length, kinds[i].name)) {
             value->files = true;
             append_list(value->endings, "|", kinds[i].endings, whole_format);
-            value->whole = kinds[i].whole;
+            value->whole = kinds[i].whole ? kinds[i].whole : value->whole;
         }
 }
 
