@@ -231,6 +231,28 @@ def rows_of_a_table_have_folders(run):
 
 
 @case
+def a_batch_goes_on_where_it_stopped(run):
+    """A job is done as long as the files that it read are the same, those beside the points too, and its output is."""
+    lattices(run)
+    files = foam.Foam().files()
+    write(run, "m", files)
+    write(run, "o", files, "faces")
+    run.write("jobs.jsonl", '{"in": "m/points", "lattice": "l.json", "out": "o/points", "options": {"only": "group:walls"}}\n')
+
+    def skipped():
+        run.ffd("batch", "jobs.jsonl", "-q", "--resume", "--force", "--report", "r.json")
+        return json.loads(run.read("r.json"))["jobs"][0]["status"] == "skipped"
+
+    equal([skipped(), skipped()], [False, True])
+    write(run, "o", files, "owner")  # is no output
+    equal(skipped(), True)
+    write(run, "m", {"boundary": files["boundary"].replace(b"walls", b"roofs").replace(b" roof\n", b" walls\n")})
+    equal([skipped(), skipped()], [False, True])
+    moved = [a != b for a, b in zip(foam.read_points(run.read("o/points"))[0], volume.POINTS, strict=True)]
+    equal({i for i, has_moved in enumerate(moved) if has_moved}, foam.MEMBERS["roof"])
+
+
+@case
 def names_that_are_none(run):
     """Folders, compressed files, ParaView's mark of a case, and files that only have the name."""
     lattices(run)
