@@ -195,6 +195,23 @@ static void make_stl(name_list *files)
     add(files, "head.stl", bytes, sizeof bytes);
 }
 
+#define FOAM(class) "FoamFile { format ascii; class " class "; }\n"
+
+/* A tetrahedron, whose neighbour is missing as it has none. */
+static void make_foam(name_list *files)
+{
+    add_text(files, "points", FOAM("vectorField") "4((0 0 0) (1 0.25 0) (0 2 0.5) (0 0 1))\n");
+    add_text(files, "faces", FOAM("faceList") "4(3(0 2 1) 3(0 1 3) 3(1 2 3) 3(2 0 3))\n");
+    add_text(files, "owner", FOAM("labelList") "4{0}\n");
+    add_text(files, "boundary", FOAM("polyBoundaryMesh") "1(all { nFaces 4; startFace 0; })\n");
+}
+
+/* Points alone, with a warning. */
+static void make_foam_points(name_list *files)
+{
+    add_text(files, "points", FOAM("vectorField") "4((0 0 0) (1 0.25 0) (0 2 0.5) (0 0 1))\n");
+}
+
 /* Writes the input of both kinds of jobs. */
 
 static void put_all(const name_list *files, const char *under)
@@ -344,6 +361,8 @@ static void every_format_gives_the_bytes_of_the_files(void **state)
     compare_jobs(make_ply, "head.ply", 1);
     compare_jobs(make_off, "head.off", 1);
     compare_jobs(make_stl, "head.stl", 1);
+    compare_jobs(make_foam, "points", 1);
+    compare_jobs(make_foam_points, "points", 1);
     (void)state;
 }
 
@@ -881,7 +900,8 @@ static void a_sink_that_fails_ends_the_job(void **state)
 /* For each length of each format the error is that of a job on a file. */
 static void truncated_bytes_fail_as_files_do(void **state)
 {
-    static void (*const make[])(name_list *) = {make_obj, make_gltf, make_glb, make_ply, make_off, make_stl};
+    static void (*const make[])(name_list *) = {make_obj, make_gltf, make_glb, make_ply,
+                                                make_off, make_stl,  make_foam};
     for (size_t m = 0; m < sizeof make / sizeof *make; m++) {
         both b;
         ffd_job_result result = {.struct_size = sizeof result};
