@@ -110,11 +110,12 @@ static ffd_status name_scene(edit_work *work, ffd_error *error)
     return work->scene.name ? FFD_OK : ffd_fail_memory(error);
 }
 
-/* What the page leaves out that that of a view has. */
+/* Flaws of the mesh, and what the page leaves out that that of a view has. */
 static void warn(const edit_work *work)
 {
     const mesh_log *const log = &work->job.log;
     const edit_counts *const counts = &work->counts;
+    ffd_flaws_warn(&work->job.document->flaws, NULL, log);
     if (work->scene.splats[0])
         ffd_log_line(log, FFD_LOG_WARNING,
                      "the page moves Gaussian splats, but does not turn or stretch them");
