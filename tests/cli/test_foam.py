@@ -131,7 +131,7 @@ def patches_and_zones_are_groups(run):
 
 @case
 def missing_files_are_said(run):
-    """The points move all the same; what is missing has a warning of deform, check and embed."""
+    """The points move all the same; what is missing has a warning of every command, and is refused with --strict."""
     lattices(run)
     prepare_outputs(run)
     made = foam.Foam()
@@ -148,7 +148,10 @@ def missing_files_are_said(run):
         run.ffd("deform", mesh, "o/points", "-l", "l.json", "--force", err=f"{mesh}: {said}")
         run.ffd("embed", mesh, "-l", "l.json", "-o", "u.npy", "--force", err=f"{mesh}: {said}")
         run.ffd("check", mesh, "-l", "l.json", data=True, err=f"{mesh}: {said}")
-        topology = run.ffd("info", mesh, "--json").json.get("topology") or {"faces": 0}
+        run.ffd("view", mesh, "-o", "v.png", "--force", err=f"{mesh}: {said}")
+        run.ffd("edit", mesh, "-o", "e.html", "--force", err=f"{mesh}: {said}")
+        run.ffd("deform", mesh, "o/points", "-l", "l.json", "--force", "--strict", code=INVALID, err=f"{mesh}: {said}")
+        topology = run.ffd("info", mesh, "--json", err=f"{mesh}: {said}").json.get("topology") or {"faces": 0}
         equal(topology["faces"], faces, names)
         for name in os.listdir(run.path("m")):
             run.remove(f"m/{name}")
@@ -168,9 +171,9 @@ def points_are_compared_without_their_cells(run):
     files = foam.Foam().files()
     mesh = write(run, "m", files)
     run.ffd("deform", mesh, "still/points", "-l", "still.json")
-    run.ffd("compare", mesh, "still/points")
+    run.ffd("compare", mesh, "still/points", err=f"still/points: {ALONE}")
     run.ffd("deform", mesh, "o/points", "-l", "l.json")
-    check("differs by" in run.ffd("compare", mesh, "o/points", code=NO).text, "points")
+    check("differs by" in run.ffd("compare", mesh, "o/points", code=NO, lines=1).text, "points")
     write(run, "still", files, "faces", "owner", "neighbour")
     run.ffd("compare", mesh, "still/points")
     write(run, "still", {"neighbour": foam.Foam().labels("neighbour", [2])})

@@ -98,20 +98,19 @@ static bool is_packed(const foam_document *d, foam_side side)
     return d->volume.file.path && ffd_folder_has(&d->volume.file.base.folder, name);
 }
 
-ffd_status ffd_foam_warn(const mesh_document *document, const mesh_log *log, ffd_error *error)
+ffd_status ffd_foam_note_missing(foam_reader *r)
 {
-    const foam_document *const d = (const foam_document *)document;
-    const bool *const is_there = d->is_there;
-    (void)error;
+    foam_document *const d = r->d;
+    file_document *const file = &d->volume.file;
     if (!d->volume.lacks_cells)
         return FFD_OK;
-    const foam_side missing = !is_there[FOAM_FACES]   ? FOAM_FACES
-                              : !is_there[FOAM_OWNER] ? FOAM_OWNER
-                                                      : FOAM_NEIGHBOUR;
-    ffd_log_line(log, FFD_LOG_WARNING, "the file %s is not beside it%s: the mesh is taken as %s",
-                 names[missing],
-                 is_packed(d, missing) ? " (only compressed, which is not read: unpack it with gunzip)" : "",
-                 d->volume.has_outer ? "its points and outer faces, without cells"
-                                     : "its points alone, without faces and cells");
-    return FFD_OK;
+    const foam_side missing = !d->is_there[FOAM_FACES]   ? FOAM_FACES
+                              : !d->is_there[FOAM_OWNER] ? FOAM_OWNER
+                                                         : FOAM_NEIGHBOUR;
+    return ffd_flaw_line(
+        &file->base.flaws, file->name, 0, r->error, "the file %s is not beside it%s: the mesh is taken as %s",
+        names[missing],
+        is_packed(d, missing) ? " (only compressed, which is not read: unpack it with gunzip)" : "",
+        d->volume.has_outer ? "its points and outer faces, without cells"
+                            : "its points alone, without faces and cells");
 }

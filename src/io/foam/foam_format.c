@@ -56,6 +56,7 @@ static ffd_status read_sides(foam_reader *r)
     if (is_there[FOAM_FACES])
         TRY(ffd_foam_read_side(r, FOAM_NEIGHBOUR, ffd_foam_take_neighbour));
     TRY(ffd_foam_make_cells(r));
+    TRY(ffd_foam_note_missing(r));
     if (is_there[FOAM_FACES])
         TRY(ffd_foam_read_side(r, FOAM_BOUNDARY, ffd_foam_take_patches));
     if (!is_there[FOAM_FACES])
@@ -150,7 +151,6 @@ const mesh_format ffd_foam_format = {
     .begin_results = ffd_volume_begin_results,
     .write = ffd_volume_write,
     .save = save,
-    .warn = ffd_foam_warn,
     .mark_used = ffd_volume_mark_used,
     .selectors = &ffd_volume_selectors,
     .resources = &resources,

@@ -59,8 +59,9 @@ ffd_status ffd_foam_read_side(foam_reader *r, foam_side side, foam_take_function
 /* The entries of the format's table. */
 mesh_list_files_function ffd_foam_list_files, ffd_foam_list_images;
 mesh_find_named_function ffd_foam_find_named;
-/* Logs which of these files are missing, and what is not known without them. */
-mesh_warn_function ffd_foam_warn;
+/* Notes, as a flaw, which of these files is missing, and what is not known without it; once the cells are
+   made. Errors: FFD_E_INVALID, if flaws are refused. */
+ffd_status ffd_foam_note_missing(foam_reader *r);
 
 /* Takes the corners of all faces. Errors: FFD_E_INVALID, FFD_E_MEMORY. */
 foam_take_function ffd_foam_take_faces;
