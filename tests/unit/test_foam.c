@@ -287,6 +287,8 @@ static void broken_points_are_refused(void **state)
         {"FoamFile{ format binary; arch \"LSB;scalar=128\"; }", FFD_E_UNSUPPORTED, 1,
          "binary numbers of the arch \"LSB;scalar=128\" are not supported: only LSB, with 32 or 64 bits, is"},
         {"FoamFile{ class labelList; }", FFD_E_INVALID, 0, "the class is \"labelList\", not vectorField"},
+        {"FoamFile{ class decomposedBlockData; }", FFD_E_UNSUPPORTED, 0,
+         "the class is \"decomposedBlockData\", not vectorField"},
         {"FoamFile{ }", FFD_E_INVALID, 0, "the class is \"\", not vectorField"},
         {HEAD("vectorField"), FFD_E_INVALID, 6, "the end of the file is not the number of points"},
         {HEAD("vectorField") "x", FFD_E_INVALID, 6, "\"x\" is not the number of points"},

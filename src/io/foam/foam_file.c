@@ -156,6 +156,9 @@ ffd_status ffd_foam_check_class(const foam_file *f, const char *first, const cha
 {
     if (ffd_text_is(f->class, first) || (second && ffd_text_is(f->class, second)))
         return FFD_OK;
-    return ffd_fail_file(f->error, FFD_E_INVALID, f->name, "the class is \"%s\", not %s%s%s",
-                         ffd_text_shown(f->class).text, first, second ? " or " : "", second ? second : "");
+    /* The files of all processors in one. */
+    const bool is_collated = ffd_text_is(f->class, "decomposedBlockData");
+    return ffd_fail_file(f->error, is_collated ? FFD_E_UNSUPPORTED : FFD_E_INVALID, f->name,
+                         "the class is \"%s\", not %s%s%s", ffd_text_shown(f->class).text, first,
+                         second ? " or " : "", second ? second : "");
 }

@@ -27,7 +27,8 @@ static inline size_t foam_line(const foam_file *f)
 /* Begins a file, whose name, bytes and error are set: takes its header. Errors: FFD_E_INVALID;
    FFD_E_UNSUPPORTED for compressed files, other byte orders and sizes. */
 ffd_status ffd_foam_begin(foam_file *f, const void *data, size_t size);
-/* Checks that the class is one of these. second: NULL: there is one. Errors: FFD_E_INVALID. */
+/* Checks that the class is one of these. second: NULL: there is one. Errors: FFD_E_INVALID,
+   FFD_E_UNSUPPORTED for collated files. */
 ffd_status ffd_foam_check_class(const foam_file *f, const char *first, const char *second);
 /* Returns what is next, for messages. */
 text_shown ffd_foam_next(const foam_file *f);

@@ -2,7 +2,6 @@
 #include "base/memory/memory.h"
 #include "io/foam/foam_mesh.h"
 #include <float.h>
-#include <stdio.h>
 #include <string.h>
 
 /* "(0 0 0)" */
