@@ -47,7 +47,7 @@ ffd_status ffd_foam_read_side(foam_reader *r, foam_side side, foam_take_function
         return ffd_fail_memory(r->error);
     ffd_status status;
     TRY_END(load(r->d, names[side], path, &input, r->error));
-    ffd_budget_add_file(&r->budget, input.size, 0);
+    ffd_budget_add_file(&r->d->volume.file.base.budget, input.size, 0);
     r->d->is_there[side] = true;
     TRY_END(take_side(r, path, &input, take));
 end:

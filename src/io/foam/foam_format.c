@@ -28,7 +28,7 @@ static ffd_status take_points(foam_reader *r, foam_file *f)
     r->d->is_uniform = list == FOAM_SAME;
     /* A few bytes may stand for any number of points. */
     if (r->d->is_uniform)
-        TRY(ffd_budget_check(&r->budget, count, POINT_MEMORY, r->error));
+        TRY(ffd_budget_check(&d->file.base.budget, count, POINT_MEMORY, r->error));
     TRY(ffd_volume_make_points(d, count, foam_line(f), r->error));
     const number_run run = {.type = f->is_binary && !r->d->is_uniform ? f->scalar : NUMBER_DOUBLE,
                             .is_text = !f->is_binary || r->d->is_uniform,
@@ -69,22 +69,20 @@ static ffd_status read_sides(foam_reader *r)
                                     : ffd_foam_read_side(r, FOAM_CELL_ZONES, ffd_foam_take_cell_zones);
 }
 
-static ffd_status read_all(foam_reader *r, const file_input *input, const ffd_source *source)
+static ffd_status read_all(foam_reader *r, const file_input *input)
 {
     foam_file file = {.name = r->d->volume.file.name, .error = r->error};
     TRY(ffd_foam_begin(&file, input->data, input->size));
-    r->budget = ffd_budget_for_file(input->size, !file.is_binary, source->memory);
     TRY(take_points(r, &file));
     return read_sides(r);
 }
 
 /* The further files raise the limit of the document; their groups are in memory already. */
-static void add_sides(const foam_reader *r, memory_budget *budget)
+static void add_sides(volume_document *d, uint64_t most)
 {
-    const volume_document *const d = &r->d->volume;
-    budget->most = r->budget.most;
+    d->file.base.budget.most = most;
     for (size_t g = 0; g < d->group_count; g++)
-        budget->taken += (uint64_t)d->groups[g].capacity * sizeof *d->groups[g].vertices;
+        d->file.base.budget.taken += (uint64_t)d->groups[g].capacity * sizeof *d->groups[g].vertices;
 }
 
 static ffd_status open_foam(file_input *input, const ffd_source *source, mesh_document **document,
@@ -94,12 +92,13 @@ static ffd_status open_foam(file_input *input, const ffd_source *source, mesh_do
                      .error = error};
     if (!r.d)
         return FFD_E_MEMORY;
-    const ffd_status status = read_all(&r, input, source);
+    const ffd_status status = read_all(&r, input);
     if (status)
         ffd_volume_free(&r.d->volume);
     else {
+        const uint64_t most = r.d->volume.file.base.budget.most;
         *document = ffd_volume_ready(&r.d->volume, strcmp(r.d->volume.encoding, "ascii") == 0, source);
-        add_sides(&r, &(*document)->budget);
+        add_sides(&r.d->volume, most);
     }
     ffd_free(r.faces.corners.values);
     ffd_free(r.faces.ends);

@@ -35,15 +35,6 @@ static ffd_status begin_group(foam_reader *r, text_word name, group_filler *fill
     return ffd_volume_group(d, name.first, (size_t)(name.last - name.first), &filler->group, r->error);
 }
 
-/* Takes what a list has added from the budget: a short file may name the same vertices again and again. */
-static ffd_status end_group(group_filler *filler)
-{
-    const volume_group *const group = &filler->r->d->volume.groups[filler->group];
-    return filler->status
-               ? filler->status
-               : ffd_budget_take(&filler->r->budget, group->count, sizeof *group->vertices, filler->r->error);
-}
-
 static ffd_status add_face(foam_reader *r, group_filler *filler, size_t face)
 {
     size_t count;
@@ -94,7 +85,7 @@ static ffd_status take_patch(foam_reader *r, foam_file *f, text_word name)
         TRY(ffd_deadline_check_at((size_t)i, r->error));
         TRY(add_face(r, &filler, (size_t)(of.first + i)));
     }
-    return end_group(&filler);
+    return filler.status;
 }
 
 /* Adds what a zone lists: points, faces or cells. */
@@ -145,7 +136,7 @@ static ffd_status take_members(foam_reader *r, foam_file *f, foam_side kind, tex
                                 ffd_text_shown(name).text, members.values[i], most));
         TRY_END(add_member(&filler, kind, members.values[i]));
     }
-    TRY_END(end_group(&filler));
+    TRY_END(filler.status);
 end:
     ffd_free(members.values);
     return status;

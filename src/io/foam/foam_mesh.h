@@ -41,7 +41,6 @@ typedef struct foam_reader {
     foam_labels owner, neighbour;
     uint32_t *stamps; /* of each vertex: the number of the last list that has added it to its group */
     uint32_t stamp;
-    memory_budget budget; /* of the groups */
     ffd_error *error;
 } foam_reader;
 
