@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import enum
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from . import _arrays as arrays
 from . import _library as library
 from ._library import Owned, call, lib
-from ._types import Doubles, Floats, Rows, Triangles
+from ._types import Doubles, Floats, Outside, Rows, Triangles
 
 if TYPE_CHECKING:
     from ._lattice import Lattice
@@ -28,20 +28,29 @@ class Status(enum.IntEnum):
     INVALID = 4
 
 
+class EmbeddingOptions(NamedTuple):
+    """The options of `Lattice.embed` that its result depends on, as they were given."""
+
+    outside: Outside
+    falloff: float
+    snap: float
+
+
 class Embedding:
     """u, v, w and statuses of N points, made by `Lattice.embed`. Immutable, so threads may share it. Can be pickled."""
 
     lattice: Lattice
     points: Floats
     _owned: Owned
+    _options: EmbeddingOptions | None  # None: not known
 
     def __init__(self) -> None:
         raise TypeError("use Lattice.embed")
 
     @classmethod
-    def _of(cls, owned: Owned, lattice: Lattice, points: np.ndarray) -> Embedding:
+    def _of(cls, owned: Owned, lattice: Lattice, points: np.ndarray, options: EmbeddingOptions | None = None) -> Embedding:
         self = cls.__new__(cls)
-        self._owned, self.lattice, self.points = owned, lattice, points
+        self._owned, self.lattice, self.points, self._options = owned, lattice, points, options
         return self
 
     def __len__(self) -> int:
@@ -108,8 +117,15 @@ class Embedding:
         return self
 
     def __reduce__(self) -> Any:
-        return Embedding.from_bytes, (self.to_bytes(), self.lattice, self.points)
+        return _again, (self.to_bytes(), self.lattice, self.points, self._options)
 
     @property
     def _pointer(self) -> ctypes.c_void_p:
         return self._owned.pointer
+
+
+def _again(data: bytes, lattice: Lattice, points: np.ndarray, options: EmbeddingOptions | None) -> Embedding:
+    """Restores a pickled embedding."""
+    embedding = Embedding.from_bytes(data, lattice, points)
+    embedding._options = options
+    return embedding

@@ -16,7 +16,7 @@ from . import _library as library
 from . import _variants as variants
 from ._convert import convert, is_other
 from ._directions import turned_normals, turned_tangents
-from ._embedding import Embedding
+from ._embedding import Embedding, EmbeddingOptions
 from ._errors import InvalidError
 from ._library import Owned, Progress, Run, call, lib
 from ._types import (ControlPoints, Counts, Degrees, Direction, Doubles, Floats, Grid, Half, Indices, Isa, KnotWords, Knots, Numbers, Order, Outside,
@@ -394,7 +394,7 @@ class Lattice:
         desc.falloff, desc.snap = library.real(falloff, "falloff"), library.real(snap, "snap")
         owned = Owned(lib.ffd_embedding_destroy)
         Run(threads, isa, progress)(lib.ffd_embedding_create, ctypes.byref(desc), last=(ctypes.byref(owned.pointer),))
-        return Embedding._of(owned, self, points)
+        return Embedding._of(owned, self, points, EmbeddingOptions(outside, desc.falloff, desc.snap))
 
     @overload
     def deform(self, embedding: Embedding, Q: ControlPoints | None = None, *, offsets: ControlPoints | None = None, weights: Grid | None = None,
