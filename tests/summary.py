@@ -57,6 +57,7 @@ LACKS = {
     "Debian 12": lambda: not is_debian_12(),
     "wine": lambda: not shutil.which("wine64") and not shutil.which("wine64", path="/usr/lib/wine"),
     "wheels": lambda: not is_debian_12() or not os.path.exists(WHEELS),
+    "torch": lambda: not any(succeeds(python, "-c", "import torch, numpy") for python in (sys.executable, "/usr/bin/python3")),
     "NumPy": lambda: not any(succeeds(python, "-c", "import numpy") for python in (sys.executable, "/usr/bin/python3")),
     "blender": lambda: not os.path.exists("/usr/bin/blender") and not has_bpy(),
     "bpy": lambda: not has_bpy(),

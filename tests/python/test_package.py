@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 """Builds the Python package as a wheel, installs it in a fresh environment, and runs the cases (case_*.py) there.
 
-    test_package.py SOURCE BUILD-FOLDER CC CXX [--peers] [CASE...]       CASE: as unittest names it, "case_results.Bits"
+    test_package.py SOURCE BUILD-FOLDER CC CXX [--peers | --torch] [CASE...]       CASE: as unittest names it, "case_results.Bits"
 
 --peers: instead peers.py, with the wheels of peers.txt too, which are in .build-test/peers (FFD_PEERS names another folder); its
 cases, and the speeds with one processor and with two.
+
+--torch: instead case_torch.py, in a Python of the machine that has torch and numpy, to which the content of the wheel is lent. Skipped
+where there is none.
 
 All that it installs are the wheels of requirements.txt, which .ci/setup has fetched to .build-test/wheels (FFD_WHEELS names
 another folder): no index is asked. Without them, or with another Python than they are for, it is skipped. Those of others.txt are
@@ -20,6 +23,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import zipfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SKIPPED = 77
@@ -60,9 +64,9 @@ def flags(build):
     return {"CFLAGS": shlex.join(options["c_args"]), "CXXFLAGS": shlex.join(options["cpp_args"])}
 
 
-def build_wheel(python, source, build, folder, compilers):
-    """The wheel, and the folder of what it was compiled to, which stays beside the build folder for the next time."""
-    kept = os.path.join(os.path.dirname(os.path.abspath(build)), ".build-python")
+def build_wheel(python, source, build, folder, compilers, name):
+    """The wheel, and the folder of what it was compiled to, which stays by this name beside the build folder for the next time."""
+    kept = os.path.join(os.path.dirname(os.path.abspath(build)), name)
     environment = dict(os.environ, PATH=os.path.dirname(python) + os.pathsep + os.environ["PATH"], CC=compilers[0], CXX=compilers[1],
                        **flags(build))
     if os.path.isdir(kept):  # the environment that it was set up with is gone
@@ -123,26 +127,49 @@ def run_peers(python, chosen, folder, environment):
     return code
 
 
+def find_torch():
+    """A Python of this machine that has torch."""
+    for python in (sys.executable, "/usr/bin/python3"):
+        if os.path.exists(python) and subprocess.run([python, "-c", "import torch, numpy"], capture_output=True, check=False).returncode == 0:
+            return python
+    return skip("torch: no Python of this machine has it (Debian: python3-torch)")
+
+
+def run_torch(python, wheel, folder, environment, chosen):
+    """The exit code of the cases of torch."""
+    package = os.path.join(folder, "package")
+    with zipfile.ZipFile(wheel) as file:
+        file.extractall(package)
+    environment = environment | {"PYTHONPATH": os.pathsep.join((environment["PYTHONPATH"], package))}
+    return run_cases(python, chosen or ["case_torch"], folder, environment)
+
+
 def main():
     source, build, cc, cxx, *chosen = sys.argv[1:]
-    peers = chosen[:1] == ["--peers"]
+    peers, beside_torch = chosen[:1] == ["--peers"], chosen[:1] == ["--torch"]
+    chosen = chosen[1:] if peers or beside_torch else chosen
+    other = find_torch() if beside_torch else None
     lists = {"requirements.txt": fetched(source, "FFD_WHEELS", "wheels")}
     others = folder_of(source, "FFD_OTHERS", "others")
-    if not peers and is_fetched(others, "others.txt"):
+    if not peers and not beside_torch and is_fetched(others, "others.txt"):
         lists["others.txt"] = others
     if peers:
         lists["peers.txt"] = fetched(source, "FFD_PEERS", "peers")
     with tempfile.TemporaryDirectory() as folder:
         python, pip = make_environment(os.path.join(folder, "venv"), lists)
-        wheel, kept = build_wheel(python, source, build, os.path.join(folder, "dist"), (cc, cxx))
+        wheel, kept = build_wheel(python, source, build, os.path.join(folder, "dist"), (cc, cxx),
+                                  ".build-python-torch" if beside_torch else ".build-python")
         if "-cp311-abi3-" not in wheel:
             sys.exit(f"{os.path.basename(wheel)} is not for every CPython from 3.11 on")
         run(*pip, wheel)
-        if not peers and not chosen:
+        if not peers and not beside_torch and not chosen:
             check_program(python, kept, folder)
         environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
         environment |= {"FFD_SOURCE": source, "PYTHONDONTWRITEBYTECODE": "1", "PYTHONPATH": HERE, "TMPDIR": folder}
-        code = run_peers(python, chosen[1:], folder, environment) if peers else run_cases(python, chosen, folder, environment)
+        if beside_torch:
+            code = run_torch(other, wheel, folder, environment, chosen)
+        else:
+            code = (run_peers if peers else run_cases)(python, chosen, folder, environment)
     sys.exit(1 if code else 0)
 
 
