@@ -1,11 +1,15 @@
 """Arrays of any shape, stride and type are taken as they are, or refused with a clear exception."""
 
 import contextlib
+import gc
+import threading
 import unittest
+import unittest.mock
 
 import ffd_mesh as ffd
 import numpy as np
 import support
+from ffd_mesh import _library
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
@@ -115,6 +119,57 @@ class Layouts(unittest.TestCase):
         points = np.broadcast_to(np.float32(0.5), (4, 3))
         out = LATTICE.deform(LATTICE.embed(points), Q)
         self.assertTrue((out == out[0]).all())
+
+
+class MovedLattices(unittest.TestCase):
+    """A lattice that `moved` returns is copied when it is first used."""
+
+    def test_a_copy_is_made_once_and_late(self):
+        with unittest.mock.patch.object(_library.lib, "ffd_lattice_copy", wraps=_library.lib.ffd_lattice_copy) as copy:
+            moved = LATTICE.moved(Q)
+            self.assertEqual((moved.size, moved.degree, copy.call_count), (LATTICE.size, LATTICE.degree, 0))
+            self.assertTrue(np.array_equal(moved.deformed, Q) and np.array_equal(moved.deformed, Q))
+            self.assertEqual(copy.call_count, 1)
+            twice = moved.moved(offsets=LATTICE.rest)
+            self.assertEqual(copy.call_count, 1)
+            self.assertTrue(np.array_equal(twice.offsets, LATTICE.rest))
+            self.assertEqual(copy.call_count, 2)
+
+    def test_what_is_given_may_change_at_once(self):
+        for given in (Q.copy(), LATTICE.rest + 0.25, np.asfortranarray(Q), Q[::-1]):
+            kept = np.array(given)
+            moved = LATTICE.moved(given)
+            given[...] = 7
+            self.assertTrue(np.array_equal(moved.deformed, kept))
+
+    def test_the_lattice_it_came_from_may_go_first(self):
+        lattice = support.curved(support.rng("gone"))
+        moved = lattice.moved(offsets=lattice.rest).moved(weights=np.full(lattice.size, 2.0))
+        rest = np.array(lattice.rest)
+        del lattice
+        gc.collect()
+        self.assertTrue(np.array_equal(moved.rest, rest) and np.array_equal(moved.offsets, rest) and (moved.weights == 2).all())
+
+    def test_refusals_do_not_wait(self):
+        wide = ffd.Lattice.box((0, 0, 0), (1e308, 1, 1), size=2)
+        for lattice, given in ((LATTICE, {"Q": np.where(Q == Q[1, 2, 0, 1], np.nan, Q)}), (LATTICE, {"offsets": np.where(Q == Q[1, 2, 0, 1], -np.inf, Q)}),
+                               (wide, {"offsets": wide.rest}), (LATTICE, {"weights": np.zeros(LATTICE.size)})):
+            self.assertRaises(ffd.InvalidError, lattice.moved, **given)
+
+    def test_threads_share_one_copy(self):
+        for number in range(20):
+            moved, found, start = LATTICE.moved(Q + number), [], threading.Barrier(8)
+
+            def use(moved=moved, found=found, start=start):
+                start.wait()
+                found.append(moved.deformed)
+            threads = [threading.Thread(target=use) for _ in range(8)]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            self.assertEqual(len({one.__array_interface__["data"] for one in found}), 1)
+            self.assertTrue(np.array_equal(found[0], Q + number))
 
 
 class Refusals(unittest.TestCase):

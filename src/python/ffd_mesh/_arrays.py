@@ -129,6 +129,14 @@ def doubles(value: Any, what: str, shape: tuple[int, ...]) -> np.ndarray:
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
+def copied(value: Any, what: str, shape: tuple[int, ...]) -> np.ndarray:
+    """Returns a copy of value as float64 of this shape, laid out as value is."""
+    array = numbers(value, what)
+    if array.shape != shape:
+        raise ValueError(f"{what} must have the shape {shape}, not {array.shape}")
+    return np.array(array, dtype=np.float64, order="K")
+
+
 def to_library(array: np.ndarray) -> np.ndarray:
     """Copies (nu, nv, nw, ...) from Python's order, w fastest, to that of the library and of files, u fastest."""
     return np.ascontiguousarray(array.transpose(2, 1, 0, *range(3, array.ndim)))

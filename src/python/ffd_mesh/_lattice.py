@@ -18,6 +18,7 @@ from ._convert import convert, is_other
 from ._directions import turned_normals, turned_tangents
 from ._embedding import Embedding, EmbeddingOptions
 from ._errors import InvalidError
+from ._late_copy import Edit, LateCopy
 from ._library import Owned, Progress, Run, call, lib
 from ._types import (ControlPoints, Counts, Degrees, Direction, Doubles, Floats, Grid, Half, Indices, Isa, KnotWords, Knots, Numbers, Order, Outside,
                      Part, Path, Row, Rows, Shape, Spacing, Sparse, Triangles, Volume)
@@ -35,7 +36,7 @@ class Lattice:
     with any real number type and byte order; they are copied as float64, except points (see `embed`).
     """
 
-    _owned: Owned
+    _owned: Owned | LateCopy
     _parameters: tuple[Parameter, ...]
     _bounds: np.ndarray | None  # it was fitted to
     _is_still: bool  # at a time of its keys
@@ -353,20 +354,17 @@ class Lattice:
 
     def moved(self, Q: ControlPoints | None = None, *, offsets: ControlPoints | None = None, weights: Grid | None = None) -> Lattice:
         """Returns this lattice with other deformed control points Q or offsets from rest, (nu, nv, nw, 3), and deformed weights
-        (nu, nv, nw). None: unchanged. Offsets are used without rounding: a control point with offset 0 moves nothing, exactly."""
+        (nu, nv, nw). None: unchanged. Offsets are used without rounding: a control point with offset 0 moves nothing, exactly.
+        The lattice itself is copied when the result is first used."""
         if Q is not None and offsets is not None:
             raise ValueError("give Q or offsets, not both")
         self._fitted
         if Q is None and offsets is None and weights is None:
             return self
-        copy = self._copy()
-        for function, value, what, more in ((lib.ffd_lattice_set_points, Q, "Q", (3,)),
-                                            (lib.ffd_lattice_set_offsets, offsets, "offsets", (3,)),
-                                            (lib.ffd_lattice_set_weights, weights, "weights", ())):
-            if value is not None:
-                numbers = arrays.to_library(arrays.doubles(value, what, self.size + more))
-                call(function, copy._pointer, None, self._count, arrays.address(numbers))
-        return copy
+        edits = [Edit(function, arrays.copied(value, what, self.size + more))
+                 for function, value, what, more in ((lib.ffd_lattice_set_points, Q, "Q", (3,)), (lib.ffd_lattice_set_offsets, offsets, "offsets", (3,)),
+                                                     (lib.ffd_lattice_set_weights, weights, "weights", ())) if value is not None]
+        return self._copy(edits)
 
     # -- deformation
 
@@ -602,9 +600,9 @@ class Lattice:
         weights = self._weights(volume)
         return np.ones(self.size) if weights is None else weights
 
-    def _copy(self) -> Lattice:
-        copy = Lattice._new(lib.ffd_lattice_copy, self._pointer, parameters=self._parameters)
-        copy._bounds, copy._is_still = self._bounds, self._is_still
+    def _copy(self, edits: Sequence[Edit] = ()) -> Lattice:
+        copy = Lattice.__new__(Lattice)
+        copy.__dict__.update(self.__dict__, _owned=LateCopy(self._owned, self._count, edits))
         return copy
 
     def _weights_for_library(self, weights: Any) -> np.ndarray | None:
