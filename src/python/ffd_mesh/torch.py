@@ -59,7 +59,7 @@ def deform(lattice: Lattice, embedding: Embedding, Q: torch.Tensor, points: torc
         if embedding._options is None:
             raise ValueError("points= needs the options of embed, which Embedding.from_bytes does not know: embed the points, or "
                              "pickle the embedding")
-    moved = _Moved.apply(_Places(lattice, embedding), Q.reshape(-1, *shape), points)
+    moved: torch.Tensor = _Moved.apply(_Places(lattice, embedding), Q.reshape(-1, *shape), points)
     return moved.reshape(*Q.shape[:-4], *moved.shape[1:])
 
 
@@ -77,11 +77,11 @@ def basis(lattice: Lattice, embedding: Embedding, device: Any = None, dtype: tor
     if not (isinstance(dtype, torch.dtype) and dtype.is_floating_point):
         raise TypeError(f"dtype must be a type of floats, not {dtype}")
     found = lattice.basis(embedding, threads=torch.get_num_threads())
-    parts = [torch.from_numpy(part) for part in (found.indptr, found.indices, found.data)]
-    device = parts[0].device if device is None else device
-    # Torch that can check the parts wants to be told whether to.
-    checks = {"check_invariants": False} if hasattr(torch.sparse, "check_sparse_tensor_invariants") else {}
-    return torch.sparse_csr_tensor(*parts[:2], parts[2].to(dtype), size=found.shape, dtype=dtype, device=device, **checks)
+    starts, columns, values = (torch.from_numpy(part) for part in (found.indptr, found.indices, found.data))
+    # Torch that can check these wants to be told whether to.
+    checks: dict[str, Any] = {"check_invariants": False} if hasattr(torch.sparse, "check_sparse_tensor_invariants") else {}
+    return torch.sparse_csr_tensor(starts, columns, values.to(dtype), size=found.shape, dtype=dtype, device=values.device if device is None else device,
+                                   **checks)
 
 
 class _Places:
@@ -120,7 +120,7 @@ class _Function(torch.autograd.Function):  # type: ignore[misc,unused-ignore]
                 output = apart(*inputs)
                 cls.setup_context(ctx, inputs, output)
                 return output
-            cls.forward = staticmethod(both)
+            setattr(cls, "forward", staticmethod(both))
 
     @staticmethod
     def setup_context(ctx: Any, inputs: Any, output: Any) -> None:
@@ -275,10 +275,10 @@ def _checked(tensor: Any, what: str) -> torch.Tensor:
         raise TypeError(f"{what} must be a dense tensor, not {tensor.layout}")
     if tensor.device.type != "cpu":
         raise TypeError(f"{what} is on the device {tensor.device}: deform works on the CPU, products with basis() on any device")
-    tensor = tensor.float() if tensor.dtype in (torch.float16, torch.bfloat16) else tensor
-    if tensor.dtype not in _NUMBERS:
-        raise TypeError(f"{what} must be float32 or float64, not {tensor.dtype}")
-    return tensor
+    floats: torch.Tensor = tensor.float() if tensor.dtype in (torch.float16, torch.bfloat16) else tensor
+    if floats.dtype not in _NUMBERS:
+        raise TypeError(f"{what} must be float32 or float64, not {floats.dtype}")
+    return floats
 
 
 def _array(tensor: Any) -> np.ndarray:
