@@ -25,8 +25,8 @@ static void extract_cubic(const double *const extraction[3], double *points)
     double by_u[3 * 64 + 1], by_v[3 * 64];
     for (size_t row = 0; row < 16; row++)
         combine_points(extraction[0], points + 12 * row, by_u + 12 * row);
-    combine_slabs(extraction[1], 4, 12, 3 * 64, by_u, by_v);
-    combine_slabs(extraction[2], 4, 48, 3 * 64, by_v, points);
+    combine_cubic_slabs(extraction[1], 12, 3 * 64, by_u, by_v);
+    combine_cubic_slabs(extraction[2], 48, 3 * 64, by_v, points);
 }
 
 static void extract(const int degree[3], const double *const extraction[3], double *points)

@@ -338,10 +338,10 @@ static ALWAYS_INLINE void extract_source(const variant_source *source, const dou
                     row[i] = quad_difference(&row[i], &origin);
                 }
             }
-            combine_quads(source->extraction[0], row, by_u + 12 * (4 * k + j));
+            combine_quads(source->extraction[0], row, 3, by_u + 12 * (4 * k + j));
         }
-    combine_slabs(source->extraction[1], 4, 12, 3 * 64, by_u, by_v);
-    combine_slabs(source->extraction[2], 4, 48, 3 * 64, by_v, points);
+    combine_cubic_slabs(source->extraction[1], 12, 3 * 64, by_u, by_v);
+    combine_cubic_slabs(source->extraction[2], 48, 3 * 64, by_v, points);
     points[3 * 64] = 0;
 }
 
