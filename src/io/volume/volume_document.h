@@ -69,7 +69,7 @@ typedef struct volume_document {
     volume_group *groups;
     intern_table group_names;
     size_t group_count, group_capacity;
-    uint64_t grouped; /* vertices of all groups */
+    uint64_t grouped;         /* vertices of all groups */
     const char *lacks_groups; /* why some are not known, for the message that refuses a name; NULL */
     number_type point_type, normal_type;
     size_t dimensions; /* numbers of a point: 2 or 3 */
