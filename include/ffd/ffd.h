@@ -28,6 +28,7 @@
 #include <ffd/animate.h>
 #include <ffd/author.h>
 #include <ffd/batch.h>
+#include <ffd/cells.h>
 #include <ffd/deform.h>
 #include <ffd/embedding.h>
 #include <ffd/error.h>

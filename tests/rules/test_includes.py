@@ -21,6 +21,7 @@ LAYERS = {
     "io/csv": {"base/text", "json"},
     "json": {"base", "base/memory", "base/text"},
     "splat": {"base", "base/vector"},
+    "cells": {"base", "base/memory", "base/vector"},
     "mesh": {"base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "json", "splat"},
     "mesh/morph": {"base", "base/memory", "base/text", "json"},
     "mesh/meshopt": {"base", "base/system", "base/text"},
@@ -96,7 +97,7 @@ LAYERS = {
     "fold/affine": {"base/vector", "lattice"},
     "fold": {"base", "base/memory", "base/system", "base/vector", "embed/frame", "fold/affine", "lattice", "spline"},
     "points": {
-        "base", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/boundary", "lattice",
+        "base", "base/memory", "base/system", "base/text", "base/vector", "cells", "deform", "embed", "embed/boundary", "lattice",
         "mesh", "spline",
     },
     "job/input": {
