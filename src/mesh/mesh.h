@@ -322,6 +322,7 @@ typedef struct mesh_morph_calls mesh_morph_calls;       /* morphs.h */
 typedef struct mesh_rig_calls mesh_rig_calls;           /* rig.h */
 typedef struct mesh_splat_calls mesh_splat_calls;       /* splats.h */
 typedef struct mesh_weight_calls mesh_weight_calls;     /* weights.h */
+typedef struct mesh_cell_calls mesh_cell_calls;         /* cell_list.h */
 
 typedef struct mesh_format {
     ffd_format format;
@@ -361,6 +362,7 @@ typedef struct mesh_format {
     const mesh_rig_calls *rig; /* skeletons and animations */
     const mesh_splat_calls *splats;
     const mesh_weight_calls *weights; /* of vertices, which `--weight` takes */
+    const mesh_cell_calls *cells;     /* of volume meshes */
 } mesh_format;
 
 /* The first member of every format's own document struct. */

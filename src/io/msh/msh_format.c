@@ -158,4 +158,5 @@ const mesh_format ffd_msh_format = {
     .save = ffd_volume_save,
     .mark_used = ffd_volume_mark_used,
     .selectors = &ffd_volume_selectors,
+    .cells = &ffd_volume_cell_calls,
 };

@@ -3,7 +3,7 @@
    of each format begins with it, or is it.
 
    Declares volume_document.c, volume_results.c, volume_faces.c, volume_describe.c, volume_compare.c,
-   volume_select.c, volume_weights.c. */
+   volume_lend.c, volume_select.c, volume_weights.c. */
 #ifndef FFD_IO_VOLUME_VOLUME_DOCUMENT_H
 #define FFD_IO_VOLUME_VOLUME_DOCUMENT_H
 
@@ -129,6 +129,7 @@ mesh_describe_function ffd_volume_describe;
 mesh_compare_function ffd_volume_compare;
 extern const mesh_selector_calls ffd_volume_selectors;
 extern const mesh_weight_calls ffd_volume_weights;
+extern const mesh_cell_calls ffd_volume_cell_calls;
 
 /* Warns of what stays as it is although points have moved: arrays of vectors, and what `kept` names. */
 void ffd_volume_warn_kept(const volume_document *document, const mesh_log *log);

@@ -141,4 +141,5 @@ const mesh_format ffd_vtk_format = {
     .save = ffd_volume_save,
     .mark_used = ffd_volume_mark_used,
     .weights = &ffd_volume_weights,
+    .cells = &ffd_volume_cell_calls,
 };

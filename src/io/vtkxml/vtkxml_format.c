@@ -152,7 +152,7 @@ static void close_grid(mesh_document *document)
     .describe = ffd_volume_describe, .compare = ffd_volume_compare, .read = ffd_file_document_read,          \
     .faces = ffd_volume_faces, .mixed_faces = ffd_volume_mixed_faces, .model = ffd_volume_model,             \
     .begin_results = ffd_volume_begin_results, .write = ffd_volume_write, .save = ffd_vtkxml_save,           \
-    .mark_used = ffd_volume_mark_used, .weights = &ffd_vtkxml_weights
+    .mark_used = ffd_volume_mark_used, .weights = &ffd_vtkxml_weights, .cells = &ffd_volume_cell_calls
 
 const mesh_format ffd_vtu_format = {.format = FFD_FORMAT_VTU, .name = "VTU", .open = open_vtu, CALLS};
 const mesh_format ffd_vtp_format = {.format = FFD_FORMAT_VTP, .name = "VTP", .open = open_vtp, CALLS};
