@@ -20,7 +20,7 @@ static const uint8_t tetra10[] = {9, 8};
 static const uint8_t hexahedron[] = {8,  11, 13, 9,  16, 18, 19, 17, 10, 12,
                                      14, 15, 22, 23, 21, 24, 20, 25, 26};
 static const uint8_t wedge[] = {6, 9, 7, 12, 14, 13, 8, 10, 11, 15, 17, 16};
-static const uint8_t pyramid13[] = {5, 8, 10, 6, 7, 9, 11, 12};
+static const uint8_t pyramid[] = {5, 8, 10, 6, 7, 9, 11, 12, 13};
 
 /* From order 3 on they are Lagrange's, of which only the corners are used. */
 enum { CURVE = 68, TRIANGLES = 69, QUADS = 70, TETRAS = 71, HEXAHEDRA = 72, WEDGES = 73, PYRAMIDS = 74 };
@@ -39,12 +39,12 @@ static const element_type types[] = {
     [11] = {24, 10, tetra10, 8},
     [12] = {29, 27, hexahedron, 8},
     [13] = {32, 18, wedge, 6},
-    [14] = {PYRAMIDS, 14, NULL, 0},
+    [14] = {PYRAMIDS, 14, pyramid, 5},
     [15] = {CELL_VERTEX, 1, NULL, 0},
     [16] = {23, 8, NULL, 0},
     [17] = {25, 20, hexahedron, 8},
     [18] = {26, 15, wedge, 6},
-    [19] = {27, 13, pyramid13, 5},
+    [19] = {27, 13, pyramid, 5},
     [20] = {TRIANGLES, 9, NULL, 0}, [21] = {TRIANGLES, 10, NULL, 0}, [22] = {TRIANGLES, 12, NULL, 0},
     [23] = {TRIANGLES, 15, NULL, 0}, [24] = {TRIANGLES, 15, NULL, 0}, [25] = {TRIANGLES, 21, NULL, 0},
     [26] = {35, 4, NULL, 0}, [27] = {CURVE, 5, NULL, 0}, [28] = {CURVE, 6, NULL, 0},
