@@ -89,7 +89,12 @@ typedef enum ffd_gate {
     FFD_GATE_TEAR = 32,    /* the largest step of a torn edge exceeds tear_most; if tear_most is negative: an
                               edge is torn */
     FFD_GATE_FLIPPED = 64, /* more than flipped_most faces are flipped */
-    FFD_GATE_EDGES = 128   /* a straight edge is farther than edges_most from the deformed surface */
+    FFD_GATE_EDGES = 128,  /* a straight edge is farther than edges_most from the deformed surface */
+    /* Of volume meshes; of others FFD_E_ARGUMENT. INVERTED: more than inverted_most cells are inverted by the
+       deformation or could not be decided. QUALITY: the least scaled Jacobian of the deformed cells is below
+       quality_least, none has one, or a cell could not be decided. */
+    FFD_GATE_INVERTED = 256,
+    FFD_GATE_QUALITY = 512
 } ffd_gate;
 
 /* The importance of a log line. The program `ffd` shows warnings, and with `-v` all lines. */
@@ -288,8 +293,8 @@ typedef struct ffd_deform_desc {
     /* What `ffd embed` made of this mesh and the only lattice with the same snap, to be reused; or nothing.
        Not with blocks. */
     ffd_embedding_source embedding;
-    unsigned fail_on;      /* ffd_gate flags; the next three are the limits of some gates */
-    double tear_most;      /* FFD_GATE_TEAR: world units; negative: no edge may be torn */
+    unsigned fail_on; /* ffd_gate flags; the next three are the limits of some gates, the last members too */
+    double tear_most; /* FFD_GATE_TEAR: world units; negative: no edge may be torn */
     uint64_t flipped_most; /* FFD_GATE_FLIPPED: number of faces */
     double edges_most;     /* FFD_GATE_EDGES: world units */
     bool quality; /* also compute the folds, flipped faces and det F of the result, which takes time and
@@ -394,6 +399,8 @@ typedef struct ffd_deform_desc {
     size_t rigid_count;
     const char *const *uniform;
     size_t uniform_count;
+    uint64_t inverted_most; /* FFD_GATE_INVERTED: number of cells */
+    double quality_least;   /* FFD_GATE_QUALITY: a scaled Jacobian, -1 to 1 */
 } ffd_deform_desc;
 
 /* Sets desc to defaults: all members 0, NULL or false. size: sizeof(ffd_deform_desc) in the caller's

@@ -265,6 +265,29 @@ typedef struct ffd_rigid_figures {
     ffd_rigid_part parts[FFD_RIGID_PARTS];
 } ffd_rigid_figures;
 
+/* A number of cells of the mesh at rest and deformed. */
+typedef struct ffd_count_before_after {
+    uint64_t before, after;
+} ffd_count_before_after;
+/* The cells of three dimensions of a volume mesh, by their Jacobians (ffd/cells.h), with positions as they
+   are in the files. */
+typedef struct ffd_cell_figures {
+    bool is_there;  /* the mesh has such cells, and they were measured; if false, all other members are 0 */
+    uint64_t count; /* of volume cells */
+    ffd_count_before_after inverted; /* cells whose Jacobian is 0 or below somewhere */
+    /* Cells whose Jacobian has one sign everywhere at rest, and not that sign everywhere deformed. A mesh
+       that numbers its cells the other way round is judged by it, too. */
+    uint64_t by_deformation;
+    /* Cells that could not be decided: as they are deformed, or as they were at rest where they are inverted
+       deformed. None of by_deformation. */
+    uint64_t unknown;
+    ffd_before_after scaled_jacobian; /* the least of any cell; NaN: none has one */
+    bool has_worst;
+    uint64_t worst; /* the cell that has it deformed, the first of several: its index from 0 among all cells
+                       of the file, in their order */
+    uint64_t room[4];
+} ffd_cell_figures;
+
 /* The names of the files that a job has written: first the output, as the caller has named it, then the files
    that belong to it (buffers, copied images and material libraries). ffd/job.h has its functions. One thread
    at a time. */
@@ -341,6 +364,7 @@ typedef struct ffd_job_result {
     ffd_weight_figures weight;
     ffd_seam_figures seam;
     ffd_rigid_figures rigid;
+    ffd_cell_figures cells; /* of a volume mesh */
 } ffd_job_result;
 
 #ifdef __cplusplus

@@ -50,8 +50,9 @@ const cli_option cli_job_options[] = {
      "vertices move as far: FILE.npy, attribute:, joint:, property:NAME, color:r; 1-SOURCE", cli_set_member,
      AT(desc), NULL},
     {"fail-on", 0, "GATES",
-     "exit 1 if any: folds,outside,multiple,singular,invalid,tear[=D],flipped[=N],edges=D", cli_set_member,
-     AT(desc), NULL},
+     "exit 1 if any: folds,outside,multiple,singular,invalid,tear[=D],flipped[=N],edges=D; of volume meshes "
+     "inverted[=N],quality=MIN",
+     cli_set_member, AT(desc), NULL},
     {"report", 0, "FILE|-", "JSON report; JSON Lines if the name ends in .jsonl", cli_set_text, AT(report),
      NULL},
     {"report-stable", 0, NULL, "leave the seconds out of the report", cli_set_flag, AT(stable), NULL},

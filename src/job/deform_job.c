@@ -20,6 +20,7 @@
 #include "job/judge/gates.h"
 #include "job/judge/warnings.h"
 #include "job/measure/behind.h"
+#include "job/measure/cells.h"
 #include "job/measure/figures.h"
 #include "job/measure/rig.h"
 #include "job/measure/symmetry.h"
@@ -268,6 +269,7 @@ static ffd_status survey_weights(deform_job *job, figure_arrays *arrays, ffd_err
 static ffd_status prepare(deform_job *job, figure_arrays *arrays, figure_arrays *stored, ffd_error *error)
 {
     TRY(ffd_mesh_check(job->document, error));
+    TRY(ffd_cell_gates_check(job, error));
     if (!job->details)
         TRY(check_unknown(job, error));
     TRY(ffd_mesh_warn(job->document, &job->file_log, error));
@@ -354,6 +356,7 @@ static ffd_status judge(deform_job *job, figure_arrays *arrays, ffd_job_result *
     TRY_END(ffd_deadline_check(error));
     if (ffd_figures_count_flipped(job))
         TRY_END(ffd_figures_faces(job, arrays, result, error));
+    TRY_END(ffd_cell_figures_find(job, result, error));
     if (job->details) /* check late, so that the picture can be drawn all the same */
         TRY_END(check_unknown(job, error));
     TRY_END(ffd_gates_judge(desc, name, &job->totals, result, error));
@@ -446,6 +449,7 @@ static ffd_status warn(const deform_job *job, const ffd_job_result *result, ffd_
     if (!job->check) {
         ffd_folds_warn(result, &job->totals, job->desc->lattices, &job->log);
         ffd_tears_warn(result, job->desc->only_count > 0, &job->log);
+        ffd_cells_warn(result, &job->log);
     }
     return FFD_OK;
 }

@@ -382,6 +382,20 @@ typedef struct ffd_rigid_figures {
     uint64_t count;
     ffd_rigid_part parts[64];
 } ffd_rigid_figures;
+typedef struct ffd_count_before_after {
+    uint64_t before, after;
+} ffd_count_before_after;
+typedef struct ffd_cell_figures {
+    bool is_there;
+    uint64_t count;
+    ffd_count_before_after inverted;
+    uint64_t by_deformation;
+    uint64_t unknown;
+    ffd_before_after scaled_jacobian;
+    bool has_worst;
+    uint64_t worst;
+    uint64_t room[4];
+} ffd_cell_figures;
 typedef struct ffd_output_list ffd_output_list;
 typedef struct ffd_job_result {
     size_t struct_size;
@@ -430,6 +444,7 @@ typedef struct ffd_job_result {
     ffd_weight_figures weight;
     ffd_seam_figures seam;
     ffd_rigid_figures rigid;
+    ffd_cell_figures cells;
 } ffd_job_result;
 typedef enum ffd_format {
     FFD_FORMAT_AUTO = 0,
@@ -465,7 +480,9 @@ typedef enum ffd_gate {
     FFD_GATE_INVALID = 16,
     FFD_GATE_TEAR = 32,
     FFD_GATE_FLIPPED = 64,
-    FFD_GATE_EDGES = 128
+    FFD_GATE_EDGES = 128,
+    FFD_GATE_INVERTED = 256,
+    FFD_GATE_QUALITY = 512
 } ffd_gate;
 typedef enum ffd_log_level { FFD_LOG_WARNING = 0, FFD_LOG_INFO, FFD_LOG_DETAIL } ffd_log_level;
 typedef void (*ffd_log_function)(void *user, ffd_log_level level, const char *line);
@@ -579,6 +596,8 @@ typedef struct ffd_deform_desc {
     size_t rigid_count;
     const char *const *uniform;
     size_t uniform_count;
+    uint64_t inverted_most;
+    double quality_least;
 } ffd_deform_desc;
 void ffd_deform_desc_init(ffd_deform_desc *desc, size_t size);
 ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *desc, ffd_error *error);
@@ -933,16 +952,6 @@ typedef struct ffd_batch_result {
     bool is_complete;
 } ffd_batch_result;
 ffd_status ffd_batch_run(const ffd_batch_desc *desc, ffd_batch_result *result, ffd_error *error);
-int ffd_displacement(const ffd_lattice *lattice, const double uvw[3], double delta[3], double gradient[9]);
-typedef enum ffd_direction_outcome {
-    FFD_DIRECTION_KEPT = 0,
-    FFD_DIRECTION_CARRIED,
-    FFD_DIRECTION_COLLAPSED,
-    FFD_DIRECTION_OUTCOMES
-} ffd_direction_outcome;
-ffd_direction_outcome ffd_deform_normal(const double gradient[9], const double normal[3], double result[3]);
-ffd_direction_outcome ffd_deform_tangent(const double gradient[9], const double tangent[3],
-                                         const double normal[3], double result[3]);
 typedef enum ffd_number { FFD_FLOAT64 = 0, FFD_FLOAT32 } ffd_number;
 typedef struct ffd_span {
     void *data;
@@ -1036,6 +1045,31 @@ ffd_status ffd_tangents_deform(const double *gradients, ffd_span normals, ffd_sp
 ffd_status ffd_lattice_evaluate_many(const ffd_lattice *lattice, ffd_volume volume, const double *uvw,
                                      size_t count, double *xyz, double *jacobians,
                                      const ffd_run_options *options, ffd_error *error);
+typedef struct ffd_cells_desc {
+    size_t struct_size;
+    ffd_span points;
+    const char *kind;
+    const uint32_t *cells;
+    size_t count;
+    const uint64_t *offsets;
+    uint8_t *inverted;
+    uint8_t *unknown;
+    double *jacobian;
+    double *scaled_jacobian;
+} ffd_cells_desc;
+int ffd_cells_kind_points(const char *kind);
+void ffd_cells_desc_init(ffd_cells_desc *desc, size_t size);
+ffd_status ffd_cells_measure(const ffd_cells_desc *desc, const ffd_run_options *options, ffd_error *error);
+int ffd_displacement(const ffd_lattice *lattice, const double uvw[3], double delta[3], double gradient[9]);
+typedef enum ffd_direction_outcome {
+    FFD_DIRECTION_KEPT = 0,
+    FFD_DIRECTION_CARRIED,
+    FFD_DIRECTION_COLLAPSED,
+    FFD_DIRECTION_OUTCOMES
+} ffd_direction_outcome;
+ffd_direction_outcome ffd_deform_normal(const double gradient[9], const double normal[3], double result[3]);
+ffd_direction_outcome ffd_deform_tangent(const double gradient[9], const double tangent[3],
+                                         const double normal[3], double result[3]);
 typedef enum ffd_fit_smoothing { FFD_FIT_AUTO = 0, FFD_FIT_GIVEN, FFD_FIT_WITHIN } ffd_fit_smoothing;
 typedef struct ffd_fit_desc {
     size_t struct_size;

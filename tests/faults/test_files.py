@@ -498,7 +498,7 @@ def artist_10_hints_name_what_is_meant(run):
     for words, why in ((["--outside", "Keep"], '--outside: "Keep" is not one of keep, extend, error (nearest: keep)'),
                        (["--normals", "none"], '--normals: "none" is not one of transform, keep, recompute'),
                        (["--fail-on", "FOLDS"], '--fail-on: unknown gate "FOLDS" (nearest: folds)'),
-                       (["--fail-on", "quick"], '--fail-on: unknown gate "quick" (known: folds, outside, multiple, singular, invalid, tear, flipped, edges)'),
+                       (["--fail-on", "quick"], '--fail-on: unknown gate "quick" (known: folds, outside, multiple, singular, invalid, tear, flipped, edges, inverted, quality)'),
                        (["--only", "part:a"], '--only: unknown kind "part", not node, mesh, material, group or object'),
                        (["--widgets"], "unknown option --widgets (--help lists the known ones)")):
         run.ffd("check", "m.obj", "-l", "l.json", *words, code=USAGE, err=why)

@@ -22,7 +22,7 @@ LAYERS = {
     "json": {"base", "base/memory", "base/text"},
     "splat": {"base", "base/vector"},
     "cells": {"base", "base/memory", "base/vector"},
-    "mesh": {"base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "json", "splat"},
+    "mesh": {"base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "cells", "json", "splat"},
     "mesh/morph": {"base", "base/memory", "base/text", "json"},
     "mesh/meshopt": {"base", "base/system", "base/text"},
     "mesh/resource": {"base", "base/file", "base/memory", "base/system", "base/text", "mesh"},
@@ -115,7 +115,7 @@ LAYERS = {
     },
     "job/judge": {"base", "base/memory", "base/text", "job/chain", "job/figures", "lattice"},
     "job/measure": {
-        "base", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/frame", "io/openmesh",
+        "base", "base/memory", "base/system", "base/text", "base/vector", "cells", "deform", "embed", "embed/frame", "io/openmesh",
         "job/chain", "job/figures", "job/input", "job/pass", "lattice", "mesh",
     },
     "job/animate": {

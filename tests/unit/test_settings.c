@@ -223,6 +223,7 @@ static const char *const texts[][2] = {
     {"embedding", "e.npy"},
     {"fail_on", "tear=2,folds"},
     {"fail_on", "flipped=3,tear=1,edges=4"},
+    {"fail_on", "inverted=7,quality=-0.5,quality=0.25"},
     {"normals", "keep"},
     {"rig", "follow"},
     {"as_morph", "a"},
@@ -261,7 +262,9 @@ static void check_read(const ffd_deform_desc *desc)
     assert_string_equal(desc->set[1].value, "x=y");
     assert_true(desc->snap > 0.2 && desc->snap < 0.3 && desc->snap_relative && desc->timeout > 1);
     assert_true(desc->has_time && desc->time < -0.2);
-    assert_int_equal(desc->fail_on, FFD_GATE_TEAR | FFD_GATE_FOLDS | FFD_GATE_FLIPPED | FFD_GATE_EDGES);
+    assert_int_equal(desc->fail_on, FFD_GATE_TEAR | FFD_GATE_FOLDS | FFD_GATE_FLIPPED | FFD_GATE_EDGES |
+                                        FFD_GATE_INVERTED | FFD_GATE_QUALITY);
+    assert_true(desc->inverted_most == 7 && desc->quality_least > 0.2 && desc->quality_least < 0.3);
     assert_true(desc->tear_most < 1.5 && desc->flipped_most == 3 && desc->edges_most > 3);
     assert_int_equal(desc->seam, FFD_SEAM_C1);
     assert_int_equal(desc->seam_faces, 1U << 1 | 1U << 4);
@@ -347,7 +350,9 @@ static void a_text_that_does_not_fit_is_refused_with_the_member(void **state)
         {"fail_on", "flipped=1.5", "fail_on: \"1.5\" is not a number of the gate flipped"},
         {"fail_on", "folds,tear=2,quick",
          "fail_on: unknown gate \"quick\" (known: folds, outside, multiple, singular, invalid, tear, "
-         "flipped, edges)"},
+         "flipped, edges, inverted, quality)"},
+        {"fail_on", "quality=-1.5", "fail_on: \"-1.5\" is not a scaled Jacobian of the gate quality"},
+        {"fail_on", "inverted=1.5", "fail_on: \"1.5\" is not a number of the gate inverted"},
         {"fail_on", "outsid", "fail_on: unknown gate \"outsid\" (nearest: outside)"},
         {"as_morph", "b", "as_morph is given twice: \"a\" and \"b\""},
         {"set", "A=2", "set: \"A\" is set twice"},

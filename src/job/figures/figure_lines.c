@@ -165,6 +165,21 @@ static void write_edges(const figure_text *text)
                       result->edges.count, result->edges.deviation.max, result->edges.deviation.mean);
 }
 
+static void write_cells(const figure_text *text)
+{
+    const ffd_cell_figures *const cells = &text->result->cells;
+    ffd_buffer_format(text->out, "  cells          %" PRIu64 ": %" PRIu64 " inverted by the deformation",
+                      cells->count, cells->by_deformation);
+    if (cells->unknown)
+        ffd_buffer_format(text->out, ", %" PRIu64 " not decided", cells->unknown);
+    ffd_buffer_format(text->out, " (inverted: %" PRIu64 ", deformed %" PRIu64 ")\n", cells->inverted.before,
+                      cells->inverted.after);
+    if (cells->has_worst)
+        ffd_buffer_format(text->out,
+                          "                 scaled Jacobian at least %g, deformed %g, of cell %" PRIu64 "\n",
+                          cells->scaled_jacobian.before, cells->scaled_jacobian.after, cells->worst);
+}
+
 static void write_rig(const figure_text *text)
 {
     const ffd_rig_figures *const rig = &text->result->rig;
@@ -201,7 +216,8 @@ void ffd_lines_write(figure_lines lines, const figure_text *text)
         [LINES_OF_FOLDS] = write_folds,       [LINES_OF_FLIPPED] = write_flipped,
         [LINES_OF_TEAR] = write_tear,         [LINES_OF_EXTENT] = write_extent,
         [LINES_OF_DET] = write_det,           [LINES_OF_EDGES] = write_edges,
-        [LINES_OF_RIG] = write_rig,           [LINES_OF_RIGID] = write_rigid,
+        [LINES_OF_CELLS] = write_cells,       [LINES_OF_RIG] = write_rig,
+        [LINES_OF_RIGID] = write_rigid,
     };
     writers[lines](text);
 }

@@ -22,6 +22,7 @@ typedef enum figure_lines {
     LINES_OF_EXTENT,
     LINES_OF_DET,
     LINES_OF_EDGES,
+    LINES_OF_CELLS,
     LINES_OF_RIG,
     LINES_OF_RIGID
 } figure_lines;

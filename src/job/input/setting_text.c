@@ -198,37 +198,64 @@ static ffd_status read_weight(const reading *r)
 
 /* Gates */
 
-/* In the order of the words. */
-static const ffd_gate gates[] = {FFD_GATE_FOLDS,   FFD_GATE_OUTSIDE, FFD_GATE_MULTIPLE, FFD_GATE_SINGULAR,
-                                 FFD_GATE_INVALID, FFD_GATE_TEAR,    FFD_GATE_TEAR,     FFD_GATE_FLIPPED,
-                                 FFD_GATE_FLIPPED, FFD_GATE_EDGES};
+/* A gate, in the order of the words. */
+typedef struct gate_word {
+    ffd_gate gate;
+    const char *limit; /* what its limit is called; NULL: it has none */
+    const char *sign;  /* what stands for it in messages */
+} gate_word;
 
-/* Sets the limit of a gate; of several the strictest counts. text: the limit, followed by the rest of the
-   list; NULL: none. */
-static ffd_status set_limit(const reading *r, ffd_deform_desc *desc, ffd_gate gate, const char *text,
-                            size_t length)
+static const gate_word gates[] = {
+    {FFD_GATE_FOLDS, NULL, NULL},
+    {FFD_GATE_OUTSIDE, NULL, NULL},
+    {FFD_GATE_MULTIPLE, NULL, NULL},
+    {FFD_GATE_SINGULAR, NULL, NULL},
+    {FFD_GATE_INVALID, NULL, NULL},
+    {FFD_GATE_TEAR, "length", "LENGTH"},
+    {FFD_GATE_TEAR, "length", "LENGTH"},
+    {FFD_GATE_FLIPPED, "number", "N"},
+    {FFD_GATE_FLIPPED, "number", "N"},
+    {FFD_GATE_EDGES, "length", "LENGTH"},
+    {FFD_GATE_INVERTED, "number", "N"},
+    {FFD_GATE_INVERTED, "number", "N"},
+    {FFD_GATE_QUALITY, "scaled Jacobian", "MIN"},
+};
+
+static bool is_limit(const gate_word *word, double value)
 {
-    const char *const name = gate == FFD_GATE_TEAR ? "tear" : gate == FFD_GATE_EDGES ? "edges" : "flipped";
-    const bool counts = gate == FFD_GATE_FLIPPED, is_first = !(desc->fail_on & (unsigned)gate);
+    if (word->gate == FFD_GATE_QUALITY)
+        return value >= -1 && value <= 1;
+    return value >= 0 && (*word->limit != 'n' || (value < 0x1p53 && value == floor_of(value)));
+}
+
+/* Sets the limit of a gate; of several the strictest counts. name: of the gate, before any '='. text: the
+   limit, followed by the rest of the list; NULL: none. */
+static ffd_status set_limit(const reading *r, ffd_deform_desc *desc, const gate_word *word, const char *name,
+                            const char *text, size_t length)
+{
+    const bool is_first = !(desc->fail_on & (unsigned)word->gate);
     char copy[64] = "";
     double value = 0;
     bool valid = !text;
     if (text && length < sizeof copy) {
         memcpy(copy, text, length);
-        valid = parse_number(copy, &value) && value >= 0 &&
-                (!counts || (value < 0x1p53 && value == floor_of(value)));
+        valid = parse_number(copy, &value) && is_limit(word, value);
     }
     if (!valid)
-        return refuse(r, ": ", "\"%.*s\" is not a %s of the gate %s", (int)(length < 60 ? length : 60), text,
-                      counts ? "number" : "length", name);
-    if (gate == FFD_GATE_TEAR)
+        return refuse(r, ": ", "\"%.*s\" is not a %s of the gate %.*s", (int)(length < 60 ? length : 60),
+                      text, word->limit, (int)strcspn(name, "="), name);
+    if (word->gate == FFD_GATE_TEAR)
         value = text ? value : -1;
-    if (gate == FFD_GATE_TEAR && (is_first || value < desc->tear_most))
+    if (word->gate == FFD_GATE_TEAR && (is_first || value < desc->tear_most))
         desc->tear_most = value;
-    if (gate == FFD_GATE_EDGES && (is_first || value < desc->edges_most))
+    if (word->gate == FFD_GATE_EDGES && (is_first || value < desc->edges_most))
         desc->edges_most = value;
-    if (gate == FFD_GATE_FLIPPED && (is_first || (uint64_t)value < desc->flipped_most))
+    if (word->gate == FFD_GATE_FLIPPED && (is_first || (uint64_t)value < desc->flipped_most))
         desc->flipped_most = (uint64_t)value;
+    if (word->gate == FFD_GATE_INVERTED && (is_first || (uint64_t)value < desc->inverted_most))
+        desc->inverted_most = (uint64_t)value;
+    if (word->gate == FFD_GATE_QUALITY && (is_first || value > desc->quality_least))
+        desc->quality_least = value;
     return FFD_OK;
 }
 
@@ -260,10 +287,10 @@ static ffd_status add_gate(const reading *r, ffd_deform_desc *desc, const char *
         const size_t size = strlen(name);
         if (is_gate(name, word, length)) {
             const char *const limit = name[size - 1] == '=' ? word + size : NULL;
-            const bool has_limit = gates[i] & (FFD_GATE_TEAR | FFD_GATE_FLIPPED | FFD_GATE_EDGES);
             const ffd_status status =
-                has_limit ? set_limit(r, desc, gates[i], limit, limit ? length - size : 0) : FFD_OK;
-            desc->fail_on |= (unsigned)gates[i];
+                gates[i].limit ? set_limit(r, desc, &gates[i], name, limit, limit ? length - size : 0)
+                               : FFD_OK;
+            desc->fail_on |= (unsigned)gates[i].gate;
             return status;
         }
         ffd_nearest_offer(&nearest, name);
@@ -271,8 +298,8 @@ static ffd_status add_gate(const reading *r, ffd_deform_desc *desc, const char *
     for (size_t i = 0; r->member->words[i]; i++) {
         const size_t size = strcspn(r->member->words[i], "=");
         if (r->member->words[i][size] && length == size && memcmp(r->member->words[i], word, size) == 0)
-            return refuse(r, ": ", "the gate %.*s needs a length: %.*s=LENGTH", (int)size, word, (int)size,
-                          word);
+            return refuse(r, ": ", "the gate %.*s needs a %s: %.*s=%s", (int)size, word, gates[i].limit,
+                          (int)size, word, gates[i].sign);
         if (!r->member->words[i][size] && length > size && word[size] == '=' &&
             memcmp(r->member->words[i], word, size) == 0)
             return refuse(r, ": ", "the gate %.*s takes no value: \"%.*s\"", (int)size, word,

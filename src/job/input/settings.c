@@ -17,8 +17,9 @@ static const char *const format_words[] = {"auto", "obj", "gltf", "glb", "ply", 
                                            "su2",  "vtu", "vtp",  "vts", "msh", "foam", NULL};
 
 static const char *const seam_words[] = {"none", "C0", "C1", "C2", NULL};
-static const char *const gate_words[] = {"folds", "outside", "multiple", "singular", "invalid", "tear",
-                                         "tear=", "flipped", "flipped=", "edges=",   NULL};
+static const char *const gate_words[] = {"folds",    "outside",   "multiple", "singular", "invalid",
+                                         "tear",     "tear=",     "flipped",  "flipped=", "edges=",
+                                         "inverted", "inverted=", "quality=", NULL};
 
 #define AT(member) offsetof(ffd_deform_desc, member)
 static const ffd_member members[] = {
@@ -172,6 +173,8 @@ size_t ffd_member_pieces(const ffd_member *member, member_piece pieces[MEMBER_PI
         pieces[count++] = PIECE(tear_most);
         pieces[count++] = PIECE(flipped_most);
         pieces[count++] = PIECE(edges_most);
+        pieces[count++] = PIECE(inverted_most);
+        pieces[count++] = PIECE(quality_least);
     }
     return count;
 }
@@ -268,6 +271,9 @@ static ffd_status check_gates(const ffd_deform_desc *desc, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT, "the largest step of the gate tear is not a number");
     if (desc->fail_on & FFD_GATE_EDGES && !(desc->edges_most >= 0))
         return ffd_fail(error, FFD_E_ARGUMENT, "the gate edges has no length, but %g", desc->edges_most);
+    if (desc->fail_on & FFD_GATE_QUALITY && isnan(desc->quality_least))
+        return ffd_fail(error, FFD_E_ARGUMENT,
+                        "the least scaled Jacobian of the gate quality is not a number");
     return FFD_OK;
 }
 

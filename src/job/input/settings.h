@@ -34,7 +34,7 @@ typedef struct member_piece {
     size_t offset, size;
 } member_piece;
 /* The most pieces of a member. */
-#define MEMBER_PIECES 4
+#define MEMBER_PIECES 6
 /* Returns the number of pieces that a member is made of, which is not a list. */
 size_t ffd_member_pieces(const ffd_member *member, member_piece pieces[MEMBER_PIECES]);
 /* Copies such a member from one description to another. */

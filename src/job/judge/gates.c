@@ -4,6 +4,7 @@
 #include "job/chain/coverage.h"
 #include "job/judge/warnings.h"
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -148,6 +149,29 @@ static void add_values(complaint *line, const ffd_deform_desc *desc, const ffd_j
         add(line, text, "edges");
 }
 
+/* Adds the gates of cells. */
+static void add_cells(complaint *line, const ffd_deform_desc *desc, const ffd_cell_figures *cells)
+{
+    const double least = cells->scaled_jacobian.after;
+    char text[300];
+    ffd_cells_describe(cells, text, sizeof text);
+    if (desc->fail_on & FFD_GATE_INVERTED && cells->by_deformation + cells->unknown > desc->inverted_most)
+        add(line, text, "inverted");
+    if (!(desc->fail_on & FFD_GATE_QUALITY))
+        return;
+    if (cells->unknown) {
+        snprintf(text, sizeof text, "%" PRIu64 " %s not be decided", cells->unknown,
+                 ffd_plural(cells->unknown, "cell could", "cells could"));
+        add(line, text, "quality");
+    }
+    snprintf(text, sizeof text, "the scaled Jacobian of cell %" PRIu64 " is %g, below %g", cells->worst,
+             least, desc->quality_least);
+    if (!cells->has_worst)
+        add(line, "no cell has a scaled Jacobian", "quality");
+    else if (least < desc->quality_least - KEEPS_LIMIT * fabs(desc->quality_least))
+        add(line, text, "quality");
+}
+
 ffd_status ffd_gates_judge(const ffd_deform_desc *desc, const char *name, const pass_totals *totals,
                            const ffd_job_result *result, ffd_error *error)
 {
@@ -179,5 +203,6 @@ ffd_status ffd_gates_judge(const ffd_deform_desc *desc, const char *name, const 
     if (desc->fail_on & FFD_GATE_INVALID && totals->shapes_invalid)
         add(&line, "morph targets move vertices to coordinates that are not finite", "invalid");
     add_values(&line, desc, result);
+    add_cells(&line, desc, &result->cells);
     return line.length ? ffd_fail_file(error, FFD_E_GATE, name, "%s", line.text) : FFD_OK;
 }

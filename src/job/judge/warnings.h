@@ -1,6 +1,6 @@
 /* warnings.h - what a job says of its figures: of vertices (vertices.c), folds (folds.c), torn edges
-   (tears.c), what stays behind (behind.c), and of moves that move nothing (still.c) or less than they say
-   (places.c). */
+   (tears.c), cells of volume meshes (cells.c), what stays behind (behind.c), and of moves that move nothing
+   (still.c) or less than they say (places.c). */
 #ifndef FFD_JOB_JUDGE_WARNINGS_H
 #define FFD_JOB_JUDGE_WARNINGS_H
 
@@ -28,6 +28,12 @@ void ffd_collapse_warn(const pass_totals *totals, const mesh_log *log);
 void ffd_tears_describe(const ffd_job_result *result, char *text, size_t capacity);
 /* Warns of torn edges, and suggests a remedy. selects: only parts of the mesh are deformed. */
 void ffd_tears_warn(const ffd_job_result *result, bool selects, const mesh_log *log);
+
+/* Describes cells that are inverted or could not be decided: "3 of 96 cells are inverted by the deformation".
+   Empty if there are none. */
+void ffd_cells_describe(const ffd_cell_figures *cells, char *text, size_t capacity);
+/* Warns of them, and names the worst cell. */
+void ffd_cells_warn(const ffd_job_result *result, const mesh_log *log);
 
 /* Logs one line for each kind of thing left behind; with FFD_RIG_KEEP none for joints, pivots and sockets
    (ffd_rig_warn). */

@@ -189,14 +189,19 @@ def _set_gates(desc: Any, value: Any) -> None:
     for gate in value.split(",") if isinstance(value, str) else _listed(value, "fail_on"):
         word, equals, most = str(gate).partition("=")
         desc.fail_on |= library.value_of("ffd_gate", word, "fail_on")
-        if equals and word not in ("tear", "flipped", "edges") or word == "edges" and not equals:
-            raise ValueError(f"fail_on has {gate!r}: tear=LENGTH, flipped=N and edges=LENGTH have a value, others none")
+        if equals and word not in ("tear", "flipped", "edges", "inverted", "quality") or word in ("edges", "quality") and not equals:
+            raise ValueError(f"fail_on has {gate!r}: tear=LENGTH, flipped=N, edges=LENGTH, inverted=N and quality=MIN have a value, "
+                             "others none")
         if word == "tear":
             desc.tear_most = float(most) if equals else -1
         elif word == "flipped" and equals:
             desc.flipped_most = library.integer(int(most), "flipped", most=2**63)
         elif word == "edges":
             desc.edges_most = float(most)
+        elif word == "inverted" and equals:
+            desc.inverted_most = library.integer(int(most), "inverted", most=2**63)
+        elif word == "quality":
+            desc.quality_least = float(most)
 
 
 def _set_embedding(desc: Any, value: Any) -> Any:

@@ -33,8 +33,9 @@ class Result:
     tear, det, edges, displacement, ..: groups of figures, as result.tear.largest; tear.cause is a word: "stays", "blocks", ..;
       seam has continuity, "C1", and faces, a list for each lattice, as [["u+"]]
     rigid: a list of groups, one for each part of rigid= and uniform=: part, pieces, rotation, scale, distance
+    cells: of volume meshes: count, inverted, by_deformation, unknown, scaled_jacobian, worst, as in a report
     flipped_faces: how many of the visible faces end with their back side out, as far as it was counted
-    What is not known is None: a group that the job did not look for (folds, tear, det, edges) or that has nothing (rig, seam), and a
+    What is not known is None: a group that the job did not look for (folds, tear, det, edges) or that has nothing (rig, seam, cells), and a
     number such as the volume of a mesh that is not closed. No number is infinite or NaN.
     """
 
@@ -75,6 +76,7 @@ class Result:
     seam: Any
     weight: Any
     rigid: Any
+    cells: Any
     behind: Any
     flaws: Any
     seconds: Any
@@ -142,6 +144,9 @@ def figures(value: Any) -> Any:
         group.faces = [[face for bit, face in enumerate(FACES) if faces >> bit & 1] for faces in group.faces[:group.count]]
         group.continuity = f"C{value.continuity - 1}"
         del group.count
+    if isinstance(value, declared.ffd_cell_figures) and group:
+        group.worst = group.worst if group.has_worst else None
+        del group.has_worst
     return group
 
 
