@@ -50,8 +50,7 @@ const cli_option cli_job_options[] = {
      "vertices move as far: FILE.npy, attribute:, joint:, property:NAME, color:r; 1-SOURCE", cli_set_member,
      AT(desc), NULL},
     {"fail-on", 0, "GATES",
-     "exit 1 if any: folds,outside,multiple,singular,invalid,tear[=D],flipped[=N],edges=D; of volume meshes "
-     "inverted[=N],quality=MIN",
+     "exit 1: folds,outside,multiple,singular,invalid,tear|flipped|inverted[=X],edges=X,quality=X",
      cli_set_member, AT(desc), NULL},
     {"report", 0, "FILE|-", "JSON report; JSON Lines if the name ends in .jsonl", cli_set_text, AT(report),
      NULL},
