@@ -11,11 +11,14 @@
      Jacobian, between the least and the greatest of which it lies everywhere. Unknown are cells that have one
      sign at corners and Gauss points, where not all coefficients have it, beyond rounding;
    - quadratic cells: corners, middles of edges, faces and the cell, as far as it has them, and Gauss points
-   (3 in each direction; of tetrahedra 4). Unknown where these disagree in sign;
-   - prisms with five and six sides, and polyhedra: tetrahedra of an edge of a face, the face's centre and the
-     cell's centre (the means of the face's vertices, and of those of all faces); a triangle makes one with
-   the cell's centre. A value closer to 0 than rounding may move it is not decided, either, and neither is a
-   cell with a coordinate that is not finite. */
+     (3 in each direction; of tetrahedra 4). Unknown where these disagree in sign;
+   - prisms with five and six sides, and polyhedra: tetrahedra of an edge of a face, the face's centre and
+     the cell's centre (the means of the face's vertices, and of those of all faces); a triangle makes one
+     with the latter. Unknown are polyhedra whose faces contradict each other: an edge is not in two faces
+     that go along it in the two directions. Jobs turn such faces outwards as they lie at rest.
+
+   A value closer to 0 than rounding may move it is not decided, either, and neither is a cell with a
+   coordinate that is not finite. */
 #ifndef FFD_CELLS_H
 #define FFD_CELLS_H
 
@@ -50,7 +53,7 @@ typedef struct ffd_cells_desc {
     uint8_t *inverted; /* 1: the Jacobian is 0 or below somewhere, for certain */
     uint8_t *unknown;  /* 1: not decided, and inverted is 0 */
     double *jacobian;  /* the least determinant that was looked at, in the cube of the unit; NaN if a
-                          coordinate is  not finite */
+                          coordinate is not finite */
     /* The scaled Jacobian as the Verdict library defines it, which vtkMeshQuality has: 1 for the ideal cell,
        at least -1; of quadratic cells that of their corners. NaN of prisms with five and six sides and
        polyhedra, and if a coordinate is not finite. A corner with an edge of no length has 0, and so has an

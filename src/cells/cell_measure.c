@@ -91,32 +91,44 @@ static cell_measure measure_points(const cell_rules *rules, const cell_type *typ
     return measure;
 }
 
-static cell_measure measure_faces(const uint32_t *words, const double *points)
+/* Returns the largest coordinate of the vertices of all faces. */
+static double largest_of_faces(const uint32_t *words, const double *points)
 {
-    jacobian_signs signs = no_signs();
     const uint32_t *at = words + 1;
     double largest = 0;
-    for (uint32_t f = 0; f < words[0]; f++, at += 1 + (size_t)*at)
-        for (uint32_t i = 1; i <= *at; i++)
-            largest = larger_of(largest_of(points + 3 * (size_t)at[i], 3), largest);
-    if (!isfinite(largest))
-        return nothing;
-    const int exponent = scale_of(largest);
-    ffd_polyhedron_signs(words, points, ldexp(1, exponent), &signs);
-    return (cell_measure){state_of(&signs), isfinite(signs.least) ? ldexp(signs.least, -3 * exponent) : NAN,
-                          NAN};
+    for (uint32_t f = 0; f < words[0] && isfinite(largest); f++, at += 1 + (size_t)*at)
+        for (uint32_t i = 1; i <= *at && isfinite(largest); i++) {
+            const double size = largest_of(points + 3 * (size_t)at[i], 3);
+            largest = size <= largest ? largest : size;
+        }
+    return largest;
 }
 
-cell_measure ffd_cell_measure(const cell_rules *rules, const cell_view *cell, const double *points)
+static cell_measure measure_faces(const uint32_t *words, const double *points, const double *rest)
+{
+    jacobian_signs signs = no_signs();
+    const double largest = largest_of_faces(words, points);
+    const bool is_oriented = ffd_polyhedron_is_oriented(words);
+    const double *const outwards = is_oriented ? NULL : rest;
+    if (!isfinite(largest) || (outwards && !isfinite(largest_of_faces(words, outwards))))
+        return nothing;
+    const int exponent = scale_of(largest);
+    ffd_polyhedron_signs(words, points, ldexp(1, exponent), outwards, &signs);
+    return (cell_measure){is_oriented || rest ? state_of(&signs) : JACOBIAN_UNKNOWN,
+                          isfinite(signs.least) ? ldexp(signs.least, -3 * exponent) : NAN, NAN};
+}
+
+cell_measure ffd_cell_measure(const cell_rules *rules, const cell_view *cell, const double *points,
+                              const double *rest)
 {
     const cell_type *const type = ffd_cell_type(cell->number, cell->count);
     uint32_t prism[PRISM_WORDS];
     if (!type)
         return nothing;
     if (type->family == FAMILY_POLYHEDRON)
-        return measure_faces(cell->words, points);
+        return measure_faces(cell->words, points, rest);
     if (type->family != FAMILY_PRISM)
         return measure_points(rules, type, cell->words, points);
     ffd_prism_words(cell->words, type->points / 2, prism);
-    return measure_faces(prism, points);
+    return measure_faces(prism, points, rest);
 }

@@ -12,12 +12,14 @@ typedef struct cell_measure {
     double scaled; /* the scaled Jacobian of the corners; NaN of polyhedra, and where it is not known */
 } cell_measure;
 
-/* Measures a cell. points: three numbers each, of all that the cell names. rules: hold that of its kind. The
-   Jacobian is the determinant of the map from the reference cell, whose edges have the length 1: of a
-   tetrahedron six times its volume, of a box its volume. Tetrahedra and all corners of linear cells have
-   exact signs; hexahedra are decided by Bezier coefficients (hexahedron.h), wedges and pyramids by corners
-   and Gauss points, quadratic cells by these and their middles where the signs agree, polyhedra by tetrahedra
-   round their centre (polyhedron.h). */
-cell_measure ffd_cell_measure(const cell_rules *rules, const cell_view *cell, const double *points);
+/* Measures a cell. points: three numbers each, of all that the cell names. rest: the points at rest, or NULL:
+   by them the faces of a polyhedron look outwards where they contradict each other; without them it is
+   unknown then. rules: hold that of its kind. The Jacobian is the determinant of the map from the reference
+   cell, whose edges have the length 1: of a tetrahedron six times its volume, of a box its volume. Tetrahedra
+   and all corners of linear cells have exact signs; hexahedra are decided by Bezier coefficients
+   (hexahedron.h), wedges and pyramids by corners and Gauss points, quadratic cells by these and their middles
+   where the signs agree, polyhedra by tetrahedra round their centre (polyhedron.h). */
+cell_measure ffd_cell_measure(const cell_rules *rules, const cell_view *cell, const double *points,
+                              const double *rest);
 
 #endif

@@ -14,8 +14,31 @@ typedef struct polyhedron {
     double scale;
     double center[3];
     double largest; /* component of an edge from the first vertex */
-    jacobian_signs *signs;
 } polyhedron;
+
+/* The finalizer of splitmix64 (Steele, Lea, Flood, Fast Splittable Pseudorandom Number Generators, 2014). */
+static uint64_t mix(uint64_t bits)
+{
+    bits = (bits ^ bits >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+    bits = (bits ^ bits >> 27) * UINT64_C(0x94d049bb133111eb);
+    return bits ^ bits >> 31;
+}
+
+/* A number for an edge, and the opposite one for the other direction. */
+static uint64_t number_of(uint32_t from, uint32_t to)
+{
+    return from < to ? mix((uint64_t)from << 32 | to) : -mix((uint64_t)to << 32 | from);
+}
+
+bool ffd_polyhedron_is_oriented(const uint32_t *words)
+{
+    const uint32_t *at = words + 1;
+    uint64_t sum = 0;
+    for (uint32_t f = 0; f < words[0]; f++, at += 1 + (size_t)*at)
+        for (uint32_t i = 0; i < *at; i++)
+            sum += number_of(at[1 + i], at[1 + (i + 1 < *at ? i + 1 : 0)]);
+    return sum == 0;
+}
 
 static void place(const polyhedron *cell, uint32_t point, double out[3])
 {
@@ -54,8 +77,8 @@ static void find_center(polyhedron *cell, const uint32_t *words)
         cell->center[a] = sum[a] / total;
 }
 
-/* Adds a tetrahedron of a triangle, which looks outwards, and the centre. */
-static void add_tetra(const polyhedron *cell, const double a[3], const double b[3], const double c[3])
+/* Returns the determinant of a tetrahedron of a triangle, which looks outwards, and the centre. */
+static double tetra_of(const polyhedron *cell, const double a[3], const double b[3], const double c[3])
 {
     double edges[3][3], normal[3];
     for (int i = 0; i < 3; i++) {
@@ -64,30 +87,50 @@ static void add_tetra(const polyhedron *cell, const double a[3], const double b[
         edges[2][i] = c[i] - cell->center[i];
     }
     vec_cross(edges[1], edges[2], normal);
-    const double size = cell->largest, value = vec_dot(edges[0], normal);
-    const double error = size > 0 ? RELATIVE_ERROR * size * size * size + ABSOLUTE_ERROR : 0;
-    add_sign(cell->signs, value, error);
+    return vec_dot(edges[0], normal);
 }
 
-static void add_face(const polyhedron *cell, const uint32_t *face, uint32_t count)
+/* What the determinants of a face's tetrahedra are for. */
+typedef struct face_use {
+    double sum;
+    jacobian_signs *signs; /* or NULL */
+    double factor, error;
+} face_use;
+
+static void take(face_use *use, double value)
+{
+    use->sum += value;
+    if (use->signs)
+        add_sign(use->signs, use->factor * value, use->error);
+}
+
+static void visit_face(const polyhedron *cell, const uint32_t *face, uint32_t count, face_use *use)
 {
     double mean[3], a[3], b[3], c[3];
     if (count == 3) {
         place(cell, face[0], a);
         place(cell, face[1], b);
         place(cell, face[2], c);
-        add_tetra(cell, a, b, c);
+        take(use, tetra_of(cell, a, b, c));
         return;
     }
     find_mean(cell, face, count, mean);
     for (uint32_t i = 0; i < count; i++) {
         place(cell, face[i], a);
         place(cell, face[i + 1 < count ? i + 1 : 0], b);
-        add_tetra(cell, mean, a, b);
+        take(use, tetra_of(cell, mean, a, b));
     }
 }
 
-void ffd_polyhedron_signs(const uint32_t *words, const double *points, double scale, jacobian_signs *signs)
+static polyhedron make(const uint32_t *words, uint32_t origin, const double *points, double scale)
+{
+    polyhedron cell = {.points = points, .origin = points + 3 * (size_t)origin, .scale = scale};
+    find_center(&cell, words);
+    return cell;
+}
+
+void ffd_polyhedron_signs(const uint32_t *words, const double *points, double scale, const double *rest,
+                          jacobian_signs *signs)
 {
     const uint32_t *at = words + 1;
     uint32_t face = 0;
@@ -97,12 +140,17 @@ void ffd_polyhedron_signs(const uint32_t *words, const double *points, double sc
     }
     if (face == words[0])
         return;
-    polyhedron cell = {
-        .points = points, .origin = points + 3 * (size_t)at[1], .scale = scale, .signs = signs};
-    find_center(&cell, words);
-    for (; face < words[0]; face++, at += 1 + (size_t)*at)
-        if (*at > 0)
-            add_face(&cell, at + 1, *at);
+    const polyhedron cell = make(words, at[1], points, scale);
+    const polyhedron before = rest ? make(words, at[1], rest, scale) : cell;
+    const double size = cell.largest;
+    const double error = size > 0 ? RELATIVE_ERROR * size * size * size + ABSOLUTE_ERROR : 0;
+    for (; face < words[0]; face++, at += 1 + (size_t)*at) {
+        face_use outwards = {.signs = NULL}, use = {.signs = signs, .factor = 1, .error = error};
+        if (rest)
+            visit_face(&before, at + 1, *at, &outwards);
+        use.factor = outwards.sum < 0 ? -1 : 1;
+        visit_face(&cell, at + 1, *at, &use);
+    }
 }
 
 static uint32_t *put_face(uint32_t *words, const uint32_t *points, size_t count)

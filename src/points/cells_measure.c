@@ -77,7 +77,7 @@ static ffd_status measure_tile(void *context, size_t first, size_t count, int wo
     for (size_t c = first; c < first + count; c++) {
         const cell_view view = view_of(call, c);
         TRY(check_cell(call, c, &view, error));
-        const cell_measure measure = ffd_cell_measure(&call->rules, &view, call->points);
+        const cell_measure measure = ffd_cell_measure(&call->rules, &view, call->points, NULL);
         if (desc->inverted)
             desc->inverted[c] = measure.state == JACOBIAN_NEGATIVE || measure.state == JACOBIAN_MIXED;
         if (desc->unknown)

@@ -200,6 +200,23 @@ def polyhedra_have_no_scaled_jacobian(run):
 
 
 @case
+def faces_of_polyhedra_that_contradict_each_other_are_turned_as_they_lie_at_rest(run):
+    """A box of which half the faces look inwards, in the second half of the lattice of FOLD."""
+    points = [[0.85 + 0.1 * x, 0.2 + 0.3 * y, 0.2 + 0.3 * z] for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+    outwards = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [1, 3, 7, 5], [3, 2, 6, 7], [2, 0, 4, 6]]
+    run.write("s.json", STAYS)
+    run.write("l.json", FOLD)
+    for turned in ([], [0, 3, 4], [0, 1, 2, 3, 4, 5]):
+        faces = [face[::-1] if i in turned else face for i, face in enumerate(outwards)]
+        words = [len(faces), *(word for face in faces for word in [len(face), *face])]
+        made = volume.Vtk(False, "UNSTRUCTURED_GRID").line("POINTS 8 double").numbers("d", volume.flat(points))
+        run.write("m.vtk", made.line(f"CELLS 1 {len(words) + 1}").numbers("i", [len(words), *words]).line("CELL_TYPES 1").numbers("i", [42]).data)
+        still, moved = judged(run, "m.vtk", "s.json"), judged(run, "m.vtk")
+        equal((still["by_deformation"], still["unknown"], moved["by_deformation"], moved["unknown"]), (0, 0, 1, 0), turned)
+        equal(still["inverted"]["before"], int(len(turned) == 6), f"{turned}: all look inwards")
+
+
+@case
 def cells_of_gmsh_of_second_order_are_known(run):
     """A pyramid of 14 nodes in Gmsh's order."""
     corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.5, 0.5, 1.0]]

@@ -508,6 +508,11 @@ static void polyhedra_are_judged_by_tetrahedra_round_their_centre(void **state)
     for (int k = 0; k < 3; k++)
         p[6][k] = -0.5; /* a corner is pushed through the others */
     assert_true(polyhedron((const double(*)[3])p, cube_words, CUBE_WORDS).inverted);
+    inwards[2] = 0; /* one face of them looks outwards again */
+    inwards[3] = 3;
+    inwards[4] = 2;
+    inwards[5] = 1;
+    assert_true(polyhedron(cube, inwards, CUBE_WORDS).unknown);
     static const uint32_t nothing[] = {0};
     assert_true(polyhedron(cube, nothing, 1).unknown);
 }

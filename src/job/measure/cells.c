@@ -62,8 +62,8 @@ static void count_tile(void *context, size_t tile, size_t first, size_t last, in
         if (!view.words)
             continue;
         counts.unmeasured += !ffd_cell_type(view.number, view.count);
-        const cell_measure before = ffd_cell_measure(&survey->rules, &view, survey->before);
-        const cell_measure after = ffd_cell_measure(&survey->rules, &view, survey->after);
+        const cell_measure before = ffd_cell_measure(&survey->rules, &view, survey->before, survey->before);
+        const cell_measure after = ffd_cell_measure(&survey->rules, &view, survey->after, survey->before);
         count_cell(c, &before, &after, &counts);
     }
     survey->counts[worker] = counts;
