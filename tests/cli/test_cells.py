@@ -200,6 +200,18 @@ def polyhedra_have_no_scaled_jacobian(run):
 
 
 @case
+def every_kind_is_judged_as_vtk_numbers_it(run):
+    """All are right-handed; a mirror turns all over."""
+    run.write("m.vtk", volume.vtk_kinds())
+    run.write("s.json", STAYS)
+    run.write("l.json", lattice(low=(-2, -2, -2), high=(60, 2, 2), moves=[{"scale": {"factor": [1, 1, -1], "about": [0, 0, 0]}}]))
+    found = judged(run, "m.vtk", "s.json")
+    equal((found["count"], found["inverted"], found["unknown"], found["by_deformation"]), (15, {"before": 0, "after": 0}, 0, 0))
+    found = judged(run, "m.vtk")
+    equal((found["inverted"], found["unknown"], found["by_deformation"]), ({"before": 0, "after": 15}, 0, 15))
+
+
+@case
 def faces_of_polyhedra_that_contradict_each_other_are_turned_as_they_lie_at_rest(run):
     """A box of which half the faces look inwards, in the second half of the lattice of FOLD."""
     points = [[0.85 + 0.1 * x, 0.2 + 0.3 * y, 0.2 + 0.3 * z] for z in (0, 1) for y in (0, 1) for x in (0, 1)]

@@ -130,6 +130,35 @@ def vtu_polyhedra(is_listed):
             "</Piece></UnstructuredGrid></VTKFile>\n").encode()
 
 
+def middles(corners, *groups):
+    """Corners, and the means of groups of them."""
+    return corners + [[sum(corners[i][a] for i in group) / len(group) for a in range(3)] for group in groups]
+
+
+def vtk_kinds():
+    """A cell of each kind, with its points where VTK has them; a prism of five and one of six sides."""
+    cube = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 1.0], [0.0, 1.0, 1.0]]
+    tetra, wedge, pyramid = ([cube[i] for i in (0, 1, 3, 4)], [cube[i] for i in (0, 1, 3, 4, 5, 7)], cube[:4] + [[0.5, 0.5, 1.0]])
+    around, up = [(0, 1), (1, 2), (2, 3), (3, 0)], [(0, 4), (1, 5), (2, 6), (3, 7)]
+    edges = around + [(4, 5), (5, 6), (6, 7), (7, 4)] + up
+    sides = [(0, 4, 7, 3), (1, 2, 6, 5), (0, 1, 5, 4), (3, 7, 6, 2)]
+    triangles = [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3)]
+    quads = [(0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)]
+    towers = [[math.cos(2 * math.pi * i / n), math.sin(2 * math.pi * i / n), z] for n in (5, 6) for z in (0.0, 1.0) for i in range(n)]
+    kinds = [(10, tetra), (11, [cube[i] for i in (0, 1, 3, 2, 4, 5, 7, 6)]), (12, cube), (13, wedge), (14, pyramid), (15, towers[:10]), (16, towers[10:]),
+             (24, middles(tetra, (0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))), (25, middles(cube, *edges)),
+             (26, middles(wedge, *triangles, (0, 3), (1, 4), (2, 5))), (27, middles(pyramid, *around, (0, 4), (1, 4), (2, 4), (3, 4))),
+             (29, middles(cube, *edges, *sides, (0, 1, 2, 3), (4, 5, 6, 7), range(8))), (31, middles(wedge, *triangles)),
+             (32, middles(wedge, *triangles, (0, 3), (1, 4), (2, 5), *quads)), (33, middles(cube, *edges, *sides))]
+    points, cells = [], []
+    for number, (kind, own) in enumerate(kinds):
+        cells.append([len(own), *range(len(points), len(points) + len(own))])
+        points += [[x + 3.0 * number, y, z] for x, y, z in own]
+    made = Vtk(False, "UNSTRUCTURED_GRID").line(f"POINTS {len(points)} double").numbers("d", flat(points))
+    made.line(f"CELLS {len(cells)} {sum(map(len, cells))}").numbers("i", flat(cells))
+    return made.line(f"CELL_TYPES {len(cells)}").numbers("i", [kind for kind, _ in kinds]).data
+
+
 def vtk_vectors(data, keyword, code, count):
     """The numbers behind a line that begins with a keyword."""
     at = data.index(keyword)

@@ -2,6 +2,7 @@
 #include "fuzz_mesh.h"
 #include "base/vector/vec.h"
 #include "check_animations.h"
+#include "check_cells.h"
 #include "check_changed.h"
 #include "io/gltf/read/gltf_document.h"
 #include "io/volume/volume_document.h"
@@ -264,6 +265,7 @@ static void check_move(trial *of, const uint8_t *data, size_t size, const mesh_f
         load_output(of, &saved);
         document = trial_open_again(of, of->output, saved.data, saved.size);
         check_description(document);
+        check_cells(document);
         /* In the scene meshes may have become several, whose vertices have other numbers. */
         if (!trial_is_gltf(of->format) || of->space == FFD_SPACE_MESH)
             check_positions(of, document, expected);
@@ -310,6 +312,7 @@ static void run(trial *of, const uint8_t *data, size_t size)
     if (trial_is_gltf(of->format) && of->space == FFD_SPACE_SCENE)
         check_animations(document);
     of->is_quantized = trial_is_gltf(of->format) && is_quantized(document);
+    check_cells(document);
     const bool goes_on = is_small(document) && take_faces(document, &faces);
     ffd_source_close(&document);
     if (!goes_on)

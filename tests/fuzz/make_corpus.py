@@ -355,6 +355,7 @@ def of_volumes():
         yield "vtk", "polygons-" + kind, volume.vtk_polygons(is_binary=is_binary)
     yield "vtk", "grid", volume.vtk_grid()
     yield "vtk", "polyhedra", volume.vtk_polyhedra()
+    yield "vtk", "kinds", volume.vtk_kinds()
     yield "su2", "plain", volume.su2(boxes=1)
     yield "su2", "flat", volume.su2_flat()
     yield "su2", "zones", volume.su2_zones()
