@@ -1,4 +1,5 @@
 #include "cells/cell_types.h"
+#include "cells/cell_view.h"
 #include <string.h>
 
 /* The corners first; of quadratic cells the middles of edges, then of faces, then the centre. */
@@ -34,7 +35,7 @@ static const cell_type types[CELL_TYPES] = {
     {"wedge12", 31, 12, FAMILY_WEDGE, NULL, wedge},
     {"wedge18", 32, 18, FAMILY_WEDGE, NULL, wedge},
     {"hexahedron24", 33, 24, FAMILY_HEXAHEDRON, NULL, hexahedron},
-    {"polyhedron", 42, 0, FAMILY_POLYHEDRON, NULL, NULL},
+    {"polyhedron", VTK_POLYHEDRON, 0, FAMILY_POLYHEDRON, NULL, NULL},
     {"pyramid14", 74, 14, FAMILY_PYRAMID, NULL, pyramid},
 };
 

@@ -5,6 +5,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* The number of polyhedra in VTK. */
+#define VTK_POLYHEDRON 42
+
 typedef struct cell_view {
     uint8_t number; /* of its kind in VTK */
     /* Its points, in VTK's order. Of a polyhedron the number of its faces, and for each the number of its

@@ -8,6 +8,7 @@
 #include "mesh/cell_list.h"
 #include <inttypes.h>
 #include <math.h>
+#include <string.h>
 
 /* Cells that a thread takes at once. */
 #define CELL_TILE ((size_t)4096)
@@ -51,6 +52,18 @@ static void count_cell(uint64_t cell, const cell_measure *before, const cell_mea
     counts->least_after = after->scaled;
 }
 
+/* Whether no point of a cell has moved: it is then measured once. A polyhedron counts as moved. */
+static bool is_still(const cell_survey *survey, const cell_view *view)
+{
+    size_t p = 0;
+    if (view->number == VTK_POLYHEDRON)
+        return false;
+    while (p < view->count && memcmp(survey->before + 3 * (size_t)view->words[p],
+                                     survey->after + 3 * (size_t)view->words[p], 3 * sizeof(double)) == 0)
+        p++;
+    return p == view->count;
+}
+
 static void count_tile(void *context, size_t tile, size_t first, size_t last, int worker)
 {
     const cell_survey *const survey = context;
@@ -63,7 +76,9 @@ static void count_tile(void *context, size_t tile, size_t first, size_t last, in
             continue;
         counts.unmeasured += !ffd_cell_type(view.number, view.count);
         const cell_measure before = ffd_cell_measure(&survey->rules, &view, survey->before, survey->before);
-        const cell_measure after = ffd_cell_measure(&survey->rules, &view, survey->after, survey->before);
+        const cell_measure after =
+            is_still(survey, &view) ? before
+                                    : ffd_cell_measure(&survey->rules, &view, survey->after, survey->before);
         count_cell(c, &before, &after, &counts);
     }
     survey->counts[worker] = counts;
