@@ -269,6 +269,20 @@ static void a_hexahedron_that_coefficients_do_not_decide_is_unknown(void **state
     }
 }
 
+/* As the wedge below: the top is turned by half a turn and stretched, by (1 - 5 t) (1 - 1.25 t). */
+static void a_hexahedron_that_turns_over_between_its_corners_is_inverted(void **state)
+{
+    double p[8][3];
+    (void)state;
+    memcpy(p, cube, sizeof p);
+    for (int v = 4; v < 8; v++) {
+        p[v][0] *= -4;
+        p[v][1] *= -0.25;
+    }
+    const values found = of("hexahedron", (const double(*)[3])p);
+    assert_true(found.inverted && found.jacobian < 0 && found.scaled > -1);
+}
+
 static void a_box_of_any_shape_and_place_is_decided(void **state)
 {
     draw d = {draw_seed()};
@@ -412,6 +426,7 @@ static void linear_wedges_and_pyramids_are_judged_at_corners_and_gauss_points(vo
     assert_true(flat.inverted && flat.jacobian <= 0 && flat.jacobian >= 0);
     bent[4][2] = -1;
     assert_true(of("pyramid", (const double(*)[3])bent).inverted);
+    assert_near(of("pyramid", (const double(*)[3])bent).scaled, 0, 0);
     /* The triangles are turned by half a turn and stretched: the corners are right-handed, and between them
        it turns over, by (1 - 5 t) (1 - 1.25 t). */
     memcpy(bent, wedge, sizeof bent);
@@ -663,6 +678,7 @@ int main(void)
         cmocka_unit_test(tetrahedra_of_the_widest_range_have_their_sign),
         cmocka_unit_test(what_is_said_of_hexahedra_holds_everywhere),
         cmocka_unit_test(a_hexahedron_that_coefficients_do_not_decide_is_unknown),
+        cmocka_unit_test(a_hexahedron_that_turns_over_between_its_corners_is_inverted),
         cmocka_unit_test(a_box_of_any_shape_and_place_is_decided),
         cmocka_unit_test(quadratic_cells_have_the_gradient_of_their_map),
         cmocka_unit_test(linear_wedges_and_pyramids_are_judged_at_corners_and_gauss_points),
