@@ -489,6 +489,21 @@ static void memory_of_ours(void **state)
     (void)state;
 }
 
+static void memory_of_volume_meshes(void **state)
+{
+    static const struct {
+        const char *format, *name;
+    } meshes[] = {
+        {"vtk", "kinds"}, {"vtk", "polyhedra"}, {"vtu", "raw-zlib"}, {"su2", "plain"}, {"msh", "old-bytes"}};
+    for (size_t i = 0; i < sizeof meshes / sizeof *meshes; i++) {
+        take_input(meshes[i].format, meshes[i].name);
+        assert_true(fail_everywhere(input, run_deform, ffd_alloc_fail_after) > 20);
+        assert_true(fail_everywhere(input, run_check, ffd_alloc_fail_after) > 20);
+        unlink(input);
+    }
+    (void)state;
+}
+
 static void memory_of_morph_targets(void **state)
 {
     static const struct {
@@ -606,9 +621,10 @@ static int tear_down(void **state)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(memory_of_ours),    cmocka_unit_test(memory_of_morph_targets),
-        cmocka_unit_test(memory_of_cpp),     cmocka_unit_test(memory_of_lattice_files),
-        cmocka_unit_test(memory_of_reports), cmocka_unit_test(memory_of_held_faces),
+        cmocka_unit_test(memory_of_ours),          cmocka_unit_test(memory_of_morph_targets),
+        cmocka_unit_test(memory_of_cpp),           cmocka_unit_test(memory_of_lattice_files),
+        cmocka_unit_test(memory_of_reports),       cmocka_unit_test(memory_of_held_faces),
+        cmocka_unit_test(memory_of_volume_meshes),
     };
     if (argc != 2)
         return 2;
