@@ -6,6 +6,7 @@ import math
 import re
 from fractions import Fraction
 
+import foam_files as foam
 import volume_files as volume
 from harness import CUBE, NO, OK, USAGE, case, check, equal, float32, lattice, main, near
 from messages import anything, entry, one_line
@@ -197,6 +198,25 @@ def polyhedra_have_no_scaled_jacobian(run):
     run.ffd("check", "m.vtk", "-l", "s.json", "--fail-on", "quality=0", code=NO, err="m.vtk: no cell has a scaled Jacobian (--fail-on quality)")
     run.ffd("check", "m.vtk", "-l", "l.json", "--fail-on", "inverted", code=NO,
             err="m.vtk: 2 of 2 cells are inverted by the deformation (--fail-on inverted)")
+
+
+@case
+def cells_of_openfoam_are_between_its_faces(run):
+    """A hexahedron and a pyramid, as polyhedra; without owner and neighbour there are none."""
+    run.write("s.json", lattice())
+    run.write("l.json", lattice(moves=[{"scale": {"factor": [1, 1, -1], "about": [0, 0, 0]}}]))
+    for is_binary in (False, True):
+        files = foam.Foam(is_binary).files()
+        for name in files:
+            run.write(f"m/{name}", files[name])
+        equal(judged(run, "m/points", "s.json"), {"count": 2, "inverted": {"before": 0, "after": 0}, "by_deformation": 0, "unknown": 0,
+                                                  "scaled_jacobian": {"before": None, "after": None}, "worst": None})
+        equal(judged(run, "m/points")["by_deformation"], 2)
+        run.folder_of("o")
+        run.ffd("deform", "m/points", "o/points", "-l", "l.json", "--fail-on", "inverted=1", code=NO,
+                err="m/points: 2 of 2 cells are inverted by the deformation (--fail-on inverted)")
+        run.write("p/points", files["points"])
+        run.ffd("check", "p/points", "-l", "l.json", "--fail-on", "inverted", code=USAGE, err=anything)
 
 
 @case

@@ -151,6 +151,7 @@ const mesh_format ffd_foam_format = {
     .save = save,
     .mark_used = ffd_volume_mark_used,
     .selectors = &ffd_volume_selectors,
+    .cells = &ffd_volume_cell_calls,
     .resources = &resources,
     .sidecars = &sidecars,
 };
