@@ -146,6 +146,10 @@ deform models/spot.obj scan.obj -l scan.json
 "$ffd" fit --pairs landmarks.csv --cover scan.obj --size 4,4,4 -o align.json --quiet
 deform scan.obj aligned.obj -l align.json
 draw scan scan.obj aligned.obj $pair --camera -1,0.3,-2 --size 260x220
+python3 "$data/make_duct.py" >duct.su2
+for one in bump fair-bump; do
+    draw $one duct.su2 -l $one.json --seam C1 --color det --no-cage --frames 2 --up z --camera 0.1,-1,0.12 --size 320x130
+done
 python3 "$data/make_wing.py" >wing.obj
 for one in wing-folds wing; do
     deform wing.obj moved-$one.obj -l lattices/$one.json

@@ -203,6 +203,7 @@ def polyhedra_have_no_scaled_jacobian(run):
 @case
 def cells_of_openfoam_are_between_its_faces(run):
     """A hexahedron and a pyramid, as polyhedra; without owner and neighbour there are none."""
+    run.folder_of("o")
     run.write("s.json", lattice())
     run.write("l.json", lattice(moves=[{"scale": {"factor": [1, 1, -1], "about": [0, 0, 0]}}]))
     for is_binary in (False, True):
@@ -212,7 +213,6 @@ def cells_of_openfoam_are_between_its_faces(run):
         equal(judged(run, "m/points", "s.json"), {"count": 2, "inverted": {"before": 0, "after": 0}, "by_deformation": 0, "unknown": 0,
                                                   "scaled_jacobian": {"before": None, "after": None}, "worst": None})
         equal(judged(run, "m/points")["by_deformation"], 2)
-        run.folder_of("o")
         run.ffd("deform", "m/points", "o/points", "-l", "l.json", "--fail-on", "inverted=1", code=NO,
                 err="m/points: 2 of 2 cells are inverted by the deformation (--fail-on inverted)")
         run.write("p/points", files["points"])
