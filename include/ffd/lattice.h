@@ -112,6 +112,24 @@ FFD_API ffd_status ffd_lattice_load_rest(const char *path, const ffd_setting *va
 FFD_API ffd_status ffd_lattice_parse(const char *text, size_t size, const char *name, ffd_lattice **lattice,
                                      ffd_error *error);
 
+/* As ffd_lattice_parse, with values for placeholders as in ffd_lattice_load_set, and with what derivatives by
+   the placeholders need (ffd_embedding_parameters in ffd/points.h). Further errors: FFD_E_INVALID (a
+   placeholder has no value, or stands where there is no derivative: for a text, an index, a seed),
+   FFD_E_UNSUPPORTED (a placeholder in the moves of a key). */
+FFD_API ffd_status ffd_lattice_parse_set(const char *text, size_t size, const char *name,
+                                         const ffd_setting *values, size_t count, bool *used,
+                                         ffd_lattice **lattice, ffd_error *error);
+
+/* Returns the number of columns of the derivative by placeholders: one for each number of each placeholder,
+   in the order in which the file first uses them. 0 for lattices that are not of ffd_lattice_parse_set.
+   Thread-safe. */
+FFD_API size_t ffd_lattice_get_column_count(const ffd_lattice *lattice);
+
+/* Returns the name of a column: "S", or "S[1]" for a number of an array, from 0. The caller frees *name with
+   ffd_free. Thread-safe. Errors: FFD_E_ARGUMENT (there is no such column), FFD_E_MEMORY. */
+FFD_API ffd_status ffd_lattice_get_column(const ffd_lattice *lattice, size_t column, char **name,
+                                          ffd_error *error);
+
 /* A parameter (the declaration of a placeholder) of a lattice file. The library fills it; it is valid during
    the callback only. */
 typedef struct ffd_parameter {

@@ -251,6 +251,53 @@ FFD_API ffd_status ffd_embedding_basis_transposed(const ffd_embedding *embedding
                                                   const double *dfdx, double *dfdq,
                                                   const ffd_run_options *options, ffd_error *error);
 
+/* Compute the derivative of the points by the weights of the deformed volume: by h_j it is R_j (Q_j - X) /
+   h_j (the quotient rule; The NURBS Book 4.4), where X is the place of the deformed volume at the point; of a
+   point outside that is extended, that of its border point, times the factor of the falloff.
+   - moved: a lattice with the rest volume of the embedding, to the bit (else FFD_E_INVALID), whose deformed
+     control points and weights it is taken at; weights that it does not have are 1.
+   - jacobian: filled, N x 3 x n doubles: that of coordinate c of point i by weight j at (3 i + c) n + j.
+     w_fastest: the weights are in the order of Python's arrays, else u fastest.
+   - dw: n changes of the weights, u fastest; dx: filled, N x 3 doubles, the changes of the points.
+   - dfdx: N x 3 doubles, a gradient by the points; dfdw: filled, n doubles, u fastest. Sums as in
+     ffd_embedding_basis_transposed.
+   - options: may be NULL.
+
+   Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_INVALID, FFD_E_CANCELLED, FFD_E_MEMORY. */
+FFD_API ffd_status ffd_embedding_weights(const ffd_embedding *embedding, const ffd_lattice *moved,
+                                         bool w_fastest, double *jacobian, const ffd_run_options *options,
+                                         ffd_error *error);
+FFD_API ffd_status ffd_embedding_weights_times(const ffd_embedding *embedding, const ffd_lattice *moved,
+                                               const double *dw, double *dx, const ffd_run_options *options,
+                                               ffd_error *error);
+FFD_API ffd_status ffd_embedding_weights_transposed(const ffd_embedding *embedding, const ffd_lattice *moved,
+                                                    const double *dfdx, double *dfdw,
+                                                    const ffd_run_options *options, ffd_error *error);
+
+/* Compute the derivative of the points by the m numbers of the placeholders of a lattice file, with the bits
+   of `ffd jacobian --wrt parameters`.
+   - lattice: of ffd_lattice_parse_set, with the rest volume of the embedding, to the bit (else
+     FFD_E_INVALID), at whose values it is taken; its columns are those of ffd_lattice_get_column, m in
+     number. Its control points must not have been set since (FFD_E_INVALID).
+   - jacobian: filled, N x 3 x m doubles: that of coordinate c of point i by number k at (3 i + c) m + k.
+   - dp: m changes of the numbers; dx: filled, N x 3 doubles, the changes of the points.
+   - dfdx: N x 3 doubles, a gradient by the points; dfdp: filled, m doubles. Sums as in
+     ffd_embedding_basis_transposed.
+   - options: may be NULL.
+
+   Memory: 32 m bytes for each control point. Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_INVALID (also a drag
+   after an exact bend with a placeholder), FFD_E_CANCELLED, FFD_E_MEMORY. */
+FFD_API ffd_status ffd_embedding_parameters(const ffd_embedding *embedding, const ffd_lattice *lattice,
+                                            double *jacobian, const ffd_run_options *options,
+                                            ffd_error *error);
+FFD_API ffd_status ffd_embedding_parameters_times(const ffd_embedding *embedding, const ffd_lattice *lattice,
+                                                  const double *dp, double *dx,
+                                                  const ffd_run_options *options, ffd_error *error);
+FFD_API ffd_status ffd_embedding_parameters_transposed(const ffd_embedding *embedding,
+                                                       const ffd_lattice *lattice, const double *dfdx,
+                                                       double *dfdp, const ffd_run_options *options,
+                                                       ffd_error *error);
+
 /* Serialises an embedding, for the same version of the library on machines of the same byte order. *bytes are
  *size bytes; the caller frees them with ffd_free. Thread-safe. Errors: FFD_E_MEMORY. */
 FFD_API ffd_status ffd_embedding_save(const ffd_embedding *embedding, void **bytes, size_t *size,

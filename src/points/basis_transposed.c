@@ -1,89 +1,79 @@
-/* basis_transposed.c - computes products with the transposed dX/dQ. */
+/* basis_transposed.c - computes products with the transposed dX/dQ, and with the derivative by the weights.
+ */
 #include "base/memory/memory.h"
-#include "points/basis_row.h"
-#include "points/point_run.h"
-#include <string.h>
-
-/* The most bytes for sums of blocks. The sums are added in the order of the blocks, so that the result does
-   not depend on threads. */
-#define SUM_BYTES ((size_t)64 << 20)
-#define BLOCKS_A_THREAD 4
+#include "points/adjoint.h"
+#include "points/block_sums.h"
+#include "points/row_tangent.h"
 
 typedef struct transposed_work {
     const ffd_embedding *embedding;
-    const double *weights, *dfdx;
-    size_t first_block;
-    size_t width;    /* 3 for each control point */
-    double *sums;    /* `width` for each block of a group */
+    const adjoint *wanted;
+    size_t weights;  /* where the sums by weights begin */
     basis_row *rows; /* one for each thread */
 } transposed_work;
 
-static void add_block(void *context, size_t block, size_t first, size_t last, int worker)
+/* Adds what a point tells of its control points. */
+static void add_points(const basis_row *row, const double g[3], double *sum)
+{
+    for (size_t e = 0; e < row->count; e++)
+        for (size_t c = 0; c < 3; c++)
+            sum[3 * (size_t)row->columns[e] + c] += row->values[e] * g[c];
+}
+
+/* The same of their weights: dX/dh_j = R_j (Q_j - X) / h_j. */
+static void add_weights(const ffd_lattice *moved, const basis_row *row, const double g[3], double *sum)
+{
+    const double *const weights = moved->deformed_weights;
+    double x[3];
+    ffd_row_place(moved, row, x);
+    for (size_t e = 0; e < row->count; e++) {
+        const size_t point = row->columns[e];
+        double along = 0;
+        for (size_t c = 0; c < 3; c++)
+            along += (moved->deformed[3 * point + c] - x[c]) * g[c];
+        sum[point] += row->values[e] / (weights ? weights[point] : 1) * along;
+    }
+}
+
+static void add_block(void *context, size_t first, size_t last, int worker, double *sum)
 {
     const transposed_work *const work = context;
-    const size_t before = work->first_block * POINT_TILE;
-    double *const sum = work->sums + block * work->width;
+    const adjoint *const wanted = work->wanted;
     basis_row *const row = &work->rows[worker];
-    size_t next = ffd_embedding_first_extended(work->embedding, before + first);
-    memset(sum, 0, work->width * sizeof *sum);
-    for (size_t i = before + first; i < before + last; i++) {
-        ffd_basis_row(work->embedding, work->weights, NULL, BASIS_BY_U, i, &next, row);
-        for (size_t e = 0; e < row->count; e++)
-            for (size_t c = 0; c < 3; c++)
-                sum[3 * (size_t)row->columns[e] + c] += row->values[e] * work->dfdx[3 * i + c];
+    size_t next = ffd_embedding_first_extended(work->embedding, first);
+    for (size_t i = first; i < last; i++) {
+        ffd_basis_row(work->embedding, wanted->weights, NULL, BASIS_BY_U, i, &next, row);
+        if (wanted->by_points)
+            add_points(row, wanted->dfdx + 3 * i, sum);
+        if (wanted->moved)
+            add_weights(wanted->moved, row, wanted->dfdx + 3 * i, sum + work->weights);
     }
 }
 
-/* Returns the number of blocks that are summed at a time. */
-static size_t group_size(const transposed_work *work, int threads)
+ffd_status ffd_embedding_adjoint(const ffd_embedding *embedding, const adjoint *wanted, double *gradient,
+                                 const ffd_run_options *options, ffd_error *error)
 {
-    const size_t most = SUM_BYTES / (work->width * sizeof(double)),
-                 wanted = BLOCKS_A_THREAD * (size_t)threads;
-    return most < 1 ? 1 : most < wanted ? most : wanted;
-}
-
-static void add_group(transposed_work *work, size_t points, int threads, double *dfdq)
-{
-    const size_t blocks = points / POINT_TILE + (points % POINT_TILE != 0);
-    ffd_parallel_tiles(points, POINT_TILE, threads, add_block, work);
-    for (size_t b = 0; b < blocks; b++)
-        for (size_t c = 0; c < work->width; c++)
-            dfdq[c] += work->sums[b * work->width + c];
-}
-
-static ffd_status add_all(transposed_work *work, const ffd_run_options *options, double *dfdq,
-                          ffd_error *error)
-{
-    const size_t count = work->embedding->count, group = group_size(work, options->threads);
-    memset(dfdq, 0, work->width * sizeof *dfdq);
-    work->sums = ffd_alloc(group, work->width * sizeof *work->sums);
-    work->rows = ffd_alloc((size_t)options->threads, sizeof *work->rows);
-    if (!work->sums || !work->rows)
-        return ffd_fail_memory(error);
-    for (size_t first = 0; first < count; first += group * POINT_TILE) {
-        const size_t left = count - first, points = left < group * POINT_TILE ? left : group * POINT_TILE;
-        work->first_block = first / POINT_TILE;
-        add_group(work, points, options->threads, dfdq);
-        if (options->progress && !options->progress(options->user, (double)(first + points) / (double)count))
-            return ffd_fail(error, FFD_E_CANCELLED, "cancelled by the progress function");
-    }
-    return FFD_OK;
+    const size_t count = embedding->rest->count;
+    point_run run = {.total = 0};
+    transposed_work work = {
+        .embedding = embedding, .wanted = wanted, .weights = wanted->by_points ? 3 * count : 0};
+    ffd_status status;
+    TRY_END(ffd_point_run_begin(options, embedding->count, &run, error));
+    work.rows = ffd_alloc((size_t)run.options.threads, sizeof *work.rows);
+    TRY_END(work.rows ? FFD_OK : ffd_fail_memory(error));
+    TRY_END(
+        ffd_block_sums(&run, work.weights + (wanted->moved ? count : 0), add_block, &work, gradient, error));
+end:
+    ffd_free(work.rows);
+    ffd_point_run_end(&run);
+    return status;
 }
 
 ffd_status ffd_embedding_basis_transposed(const ffd_embedding *embedding, const double *weights,
                                           const double *dfdx, double *dfdq, const ffd_run_options *options,
                                           ffd_error *error)
 {
-    point_run run = {.total = 0};
-    transposed_work work = {
-        .embedding = embedding, .weights = weights, .dfdx = dfdx, .width = 3 * embedding->rest->count};
-    ffd_status status;
-    TRY_END(ffd_basis_weights(embedding, &work.weights, error));
-    TRY_END(ffd_point_run_begin(options, embedding->count, &run, error));
-    TRY_END(add_all(&work, &run.options, dfdq, error));
-end:
-    ffd_free(work.sums);
-    ffd_free(work.rows);
-    ffd_point_run_end(&run);
-    return status;
+    adjoint wanted = {.weights = weights, .dfdx = dfdx, .by_points = true};
+    TRY(ffd_basis_weights(embedding, &wanted.weights, error));
+    return ffd_embedding_adjoint(embedding, &wanted, dfdq, options, error);
 }

@@ -68,6 +68,10 @@ ffd_status ffd_lattice_load_rest(const char *path, const ffd_setting *values, si
                                  ffd_lattice **lattice, ffd_error *error);
 ffd_status ffd_lattice_parse(const char *text, size_t size, const char *name, ffd_lattice **lattice,
                              ffd_error *error);
+ffd_status ffd_lattice_parse_set(const char *text, size_t size, const char *name, const ffd_setting *values,
+                                 size_t count, bool *used, ffd_lattice **lattice, ffd_error *error);
+size_t ffd_lattice_get_column_count(const ffd_lattice *lattice);
+ffd_status ffd_lattice_get_column(const ffd_lattice *lattice, size_t column, char **name, ffd_error *error);
 typedef struct ffd_parameter {
     size_t struct_size;
     const char *name;
@@ -1035,6 +1039,22 @@ ffd_status ffd_embedding_basis_times(const ffd_embedding *embedding, const doubl
 ffd_status ffd_embedding_basis_transposed(const ffd_embedding *embedding, const double *weights,
                                           const double *dfdx, double *dfdq, const ffd_run_options *options,
                                           ffd_error *error);
+ffd_status ffd_embedding_weights(const ffd_embedding *embedding, const ffd_lattice *moved, bool w_fastest,
+                                 double *jacobian, const ffd_run_options *options, ffd_error *error);
+ffd_status ffd_embedding_weights_times(const ffd_embedding *embedding, const ffd_lattice *moved,
+                                       const double *dw, double *dx, const ffd_run_options *options,
+                                       ffd_error *error);
+ffd_status ffd_embedding_weights_transposed(const ffd_embedding *embedding, const ffd_lattice *moved,
+                                            const double *dfdx, double *dfdw, const ffd_run_options *options,
+                                            ffd_error *error);
+ffd_status ffd_embedding_parameters(const ffd_embedding *embedding, const ffd_lattice *lattice,
+                                    double *jacobian, const ffd_run_options *options, ffd_error *error);
+ffd_status ffd_embedding_parameters_times(const ffd_embedding *embedding, const ffd_lattice *lattice,
+                                          const double *dp, double *dx, const ffd_run_options *options,
+                                          ffd_error *error);
+ffd_status ffd_embedding_parameters_transposed(const ffd_embedding *embedding, const ffd_lattice *lattice,
+                                               const double *dfdx, double *dfdp,
+                                               const ffd_run_options *options, ffd_error *error);
 ffd_status ffd_embedding_save(const ffd_embedding *embedding, void **bytes, size_t *size, ffd_error *error);
 ffd_status ffd_embedding_load(const void *bytes, size_t size, const ffd_lattice *lattice,
                               ffd_embedding **embedding, ffd_error *error);

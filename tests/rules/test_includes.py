@@ -86,7 +86,7 @@ LAYERS = {
     "author": {"base", "base/file", "base/memory", "base/system", "base/vector", "lattice", "spline"},
     "lattice/file": {"base", "base/file", "base/memory", "base/text", "base/vector", "json", "lattice", "lattice/formats"},
     "lattice/formats": {"base", "base/file", "base/memory", "base/text", "base/vector", "io/deflate", "io/npy", "json", "lattice"},
-    "lattice/tangent": {"base/memory", "base/vector", "lattice"},
+    "lattice/tangent": {"base/memory", "base/text", "base/vector", "lattice"},
     "embed/frame": {"base", "base/memory", "base/vector", "lattice", "spline"},
     "embed/boundary": {"base", "base/memory", "base/vector", "embed/frame", "lattice", "spline"},
     "deform": {"base", "base/vector", "embed/boundary", "lattice"},
@@ -98,7 +98,7 @@ LAYERS = {
     "fold": {"base", "base/memory", "base/system", "base/vector", "embed/frame", "fold/affine", "lattice", "spline"},
     "points": {
         "base", "base/memory", "base/system", "base/text", "base/vector", "cells", "deform", "embed", "embed/boundary", "lattice",
-        "mesh", "spline",
+        "lattice/tangent", "mesh", "spline",
     },
     "job/input": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io", "io/npy", "lattice",

@@ -1,7 +1,6 @@
 /* jacobian_prepare.c - prepares the rows: embeddings, gradients of later lattices, derivatives of moves. */
 #include "base/memory/memory.h"
 #include "base/system/deadline.h"
-#include "base/text/buffer.h"
 #include "embed/boundary/boundary.h"
 #include "job/chain/chain_apply.h"
 #include "job/chain/lattice_memory.h"
@@ -12,7 +11,6 @@
 #include "job/pass/vertex_rounding.h"
 #include "points/embedding.h"
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 static mesh_pass pass_of(const jacobian *j, size_t links)
@@ -194,24 +192,11 @@ end:
     return status;
 }
 
-/* Returns the full name of a column, NULL: out of memory. It is not shortened, as two columns may share a
-   long prefix. */
-static char *column_name(const spec_variable *variable, size_t component)
-{
-    char number[32] = "";
-    byte_buffer name = {0};
-    if (variable->is_array)
-        snprintf(number, sizeof number, "[%zu]", component);
-    ffd_buffer_text(&name, variable->name);
-    ffd_buffer_text(&name, number);
-    return ffd_buffer_finish(&name);
-}
-
 /* Finds the column of a number of a placeholder, which several lattices may share; adds it if it is new. */
 static ffd_status find_column(jacobian *j, const spec_variable *variable, size_t component, size_t *column,
                               ffd_error *error)
 {
-    char *const name = column_name(variable, component);
+    char *const name = ffd_spec_column_name(variable, component);
     for (*column = 0; name && *column < j->columns; ++*column)
         if (strcmp(j->names[*column], name) == 0) {
             ffd_free(name);

@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "job/jacobian/jacobian.h"
+#include "points/row_tangent.h"
 #include <string.h>
 
 static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -73,38 +74,7 @@ static void fill_by_points(const jacobian *j, size_t vertex, jacobian_rows *rows
     }
 }
 
-/* sum R_j dQ_j, plus, if weights have derivatives, sum R_j (Q_j - X) dh_j / h_j (the quotient rule). */
-static void find_tangent(const ffd_lattice *lattice, const lattice_tangents *tangents, size_t column,
-                         const basis_row *basis, const double x[3], double tangent[3])
-{
-    const double *const points = tangents->points + column * 3 * lattice->count;
-    const double *const weights = tangents->weights ? tangents->weights + column * lattice->count : NULL;
-    memset(tangent, 0, 3 * sizeof *tangent);
-    for (size_t e = 0; e < basis->count; e++) {
-        const size_t point = basis->columns[e];
-        const double part =
-            weights ? weights[point] / (lattice->deformed_weights ? lattice->deformed_weights[point] : 1) : 0;
-        for (size_t c = 0; c < 3; c++)
-            tangent[c] +=
-                basis->values[e] * (points[3 * point + c] + part * (lattice->deformed[3 * point + c] - x[c]));
-    }
-}
-
-/* Evaluates the deformed volume at a row's point. */
-static void find_place(const ffd_lattice *lattice, const basis_row *basis, double x[3])
-{
-    double sum = 0;
-    memset(x, 0, 3 * sizeof *x);
-    for (size_t e = 0; e < basis->count; e++) {
-        sum += basis->values[e];
-        for (size_t c = 0; c < 3; c++)
-            x[c] += basis->values[e] * lattice->deformed[3 * (size_t)basis->columns[e] + c];
-    }
-    for (size_t c = 0; c < 3 && sum > 0; c++)
-        x[c] /= sum;
-}
-
-/* The same of a sealed lattice, whose row does not have all of the volume. */
+/* The place of a row of a sealed lattice, which does not have all of the volume. */
 static void find_sealed_place(const jacobian_link *link, size_t vertex, size_t next, double x[3])
 {
     double uvw[3];
@@ -121,12 +91,13 @@ static void add_link(const jacobian *j, size_t index, size_t vertex, jacobian_ro
                   &rows->next[index], &rows->basis);
     const double *const block = block_of(j, link, vertex, product);
     const double weight = ffd_jacobian_weight(j, vertex);
-    find_place(lattice, &rows->basis, x);
+    ffd_row_place(lattice, &rows->basis, x);
     if (link->seal.sealed)
         find_sealed_place(link, vertex, rows->next[index], x);
     for (size_t k = 0; k < link->tangents.columns && rows->basis.count > 0; k++) {
         double tangent[3];
-        find_tangent(lattice, &link->tangents, k, &rows->basis, x, tangent);
+        const control_change change = ffd_tangents_column(&link->tangents, lattice->count, k);
+        ffd_row_tangent(lattice, &change, &rows->basis, x, tangent);
         mat_apply(block, tangent, tangent);
         for (size_t c = 0; c < 3; c++)
             rows->sums[3 * link->columns[k] + c] += weight * tangent[c];

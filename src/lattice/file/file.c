@@ -35,6 +35,16 @@ ffd_status ffd_lattice_parse(const char *text, size_t size, const char *name, ff
     return build(spec, lattice, error);
 }
 
+ffd_status ffd_lattice_parse_set(const char *text, size_t size, const char *name, const ffd_setting *values,
+                                 size_t count, bool *used, ffd_lattice **lattice, ffd_error *error)
+{
+    const spec_settings settings = {.values = values, .used = used, .count = count, .derives = true};
+    lattice_spec *spec;
+    *lattice = NULL;
+    TRY(ffd_spec_parse(text, size, name, &settings, &spec, error));
+    return build(spec, lattice, error);
+}
+
 ffd_status ffd_lattice_list_parameters(const char *text, size_t size, const char *name,
                                        ffd_parameter_function function, void *user, ffd_error *error)
 {

@@ -1,9 +1,11 @@
 #include "lattice/tangent/tangents.h"
 #include "base/memory/memory.h"
+#include "base/text/buffer.h"
 #include "base/vector/trig.h"
 #include "lattice/build.h"
 #include "lattice/move_exact.h"
 #include "lattice/tangent/move_tangent.h"
+#include <stdio.h>
 #include <string.h>
 
 /* The derivatives while the moves of a lattice are applied again. */
@@ -22,6 +24,35 @@ size_t ffd_spec_column_count(const lattice_spec *spec)
     for (size_t i = 0; i < spec->variable_count; i++)
         columns += spec->variables[i].size;
     return columns;
+}
+
+size_t ffd_lattice_get_column_count(const ffd_lattice *lattice)
+{
+    return lattice->spec ? ffd_spec_column_count(lattice->spec) : 0;
+}
+
+ffd_status ffd_lattice_get_column(const ffd_lattice *lattice, size_t column, char **name, ffd_error *error)
+{
+    const size_t count = ffd_lattice_get_column_count(lattice);
+    size_t component = column, v = 0;
+    *name = NULL;
+    if (column >= count)
+        return ffd_fail(error, FFD_E_ARGUMENT, "there is no column %zu: the lattice has %zu", column, count);
+    while (component >= lattice->spec->variables[v].size)
+        component -= lattice->spec->variables[v++].size;
+    *name = ffd_spec_column_name(&lattice->spec->variables[v], component);
+    return *name ? FFD_OK : ffd_fail_memory(error);
+}
+
+char *ffd_spec_column_name(const spec_variable *variable, size_t component)
+{
+    char number[32] = "";
+    byte_buffer name = {0};
+    if (variable->is_array)
+        snprintf(number, sizeof number, "[%zu]", component);
+    ffd_buffer_text(&name, variable->name);
+    ffd_buffer_text(&name, number);
+    return ffd_buffer_finish(&name);
 }
 
 static size_t first_column(const lattice_spec *spec, size_t variable)

@@ -24,5 +24,8 @@ void ffd_lattice_tangents_free(lattice_tangents *tangents);
 
 /* Returns the number of columns of a spec. */
 size_t ffd_spec_column_count(const lattice_spec *spec);
+/* Returns the full name of a column, NULL: out of memory. It is not shortened, as two columns may share a
+   long prefix. */
+char *ffd_spec_column_name(const spec_variable *variable, size_t component);
 
 #endif
