@@ -33,6 +33,9 @@ WRONG = [
     ('lat.seal("C1", ["u"])', "u-"),
     ("emb.points.nonsense", "nonsense"),
     ('lat.deform(emb, gradients=True).shape', "shape"),
+    ('lat.mirrored("u")', "u"),
+    ("lat.parameters_jacobian(emb, 3)", "int"),
+    ('lat.weights_times(emb, "x")', "str"),
 ]
 RIGHT = """Q = lat.rest.copy()
 Q[5, 2, 2] += (0, 0, 0.3)
@@ -45,6 +48,9 @@ box = ffd.Lattice.box(np.zeros(3), (1, 1, 1), np.array([4, 5, 6]), (2, 3, None),
 box.refine(8, insert={"u": [0.25]}).seal("C1", ["u-", "w+"]).mirror("u").save("b.json", part="both")
 B = lat.basis(emb)
 displacements = B @ (Q - lat.rest).reshape(-1, 3)
+derivatives = lat.parameters_jacobian(emb, {"A": 3}, threads=1) @ [1.0, 2.0] + lat.parameters_times(emb, [1, 2])
+back = lat.parameters_transposed(emb, derivatives, {"A": [1, 2]}).sum() + lat.weights_transposed(emb, lat.weights_times(emb, lat.rest[..., 0]))
+columns = lat.mirrored("x", at=0.5).parameter_columns[0] + "A"
 mesh, result = ffd.deform_mesh(object(), lat, Q, outside="extend", with_result=True)
 turned = mesh.points, result.moved + 1, result.tear.edges
 result = ffd.deform_file("a.obj", "b.obj", {"a": lat, "b": "c.json"}, set={"A": 3}, only="node:a", fail_on=["folds", "tear=0.1"], snap="1e-3r")

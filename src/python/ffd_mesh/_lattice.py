@@ -12,6 +12,7 @@ import numpy as np
 
 from . import _arrays as arrays
 from . import _declarations as declared
+from . import _derivatives as derivatives
 from . import _library as library
 from . import _variants as variants
 from ._convert import convert, is_other
@@ -20,7 +21,7 @@ from ._embedding import Embedding, EmbeddingOptions
 from ._errors import InvalidError
 from ._late_copy import Edit, LateCopy
 from ._library import Owned, Progress, Run, call, lib
-from ._types import (ControlPoints, Counts, Degrees, Direction, Doubles, Floats, Grid, Half, Indices, Isa, KnotWords, Knots, Numbers, Order, Outside,
+from ._types import (Axis, ControlPoints, Counts, Degrees, Direction, Doubles, Floats, Grid, Half, Indices, Isa, KnotWords, Knots, Numbers, Order, Outside,
                      Part, Path, Row, Rows, Shape, Spacing, Sparse, Triangles, Volume)
 from ._values import (Deformed, FoldBarrier, Folds, Parameter, box_content, box_desc, csr, described, direction_of, faces_of, finite, folds_of, parameters, parameters_of, settings, three,
                       triangles_of, vertices_of, wishes_of)
@@ -40,6 +41,9 @@ class Lattice:
     _parameters: tuple[Parameter, ...]
     _bounds: np.ndarray | None  # it was fitted to
     _is_still: bool  # at a time of its keys
+    _time: float | None  # this time
+    _source: derivatives.Source | None  # of its placeholders
+    _is_edited: bool  # control points or weights were set
     _size: tuple[int, int, int]
     _degree: tuple[int, int, int]
 
@@ -55,6 +59,7 @@ class Lattice:
         call(make, *arguments, ctypes.byref(owned.pointer))
         self = cls.__new__(cls)
         self._owned, self._parameters, self._bounds, self._is_still = owned, parameters, None, False
+        self._time, self._source, self._is_edited = None, None, False
         size, degree = (ctypes.c_size_t * 3)(), (ctypes.c_int * 3)()
         lib.ffd_lattice_get_size(owned.pointer, size)
         lib.ffd_lattice_get_degree(owned.pointer, degree)
@@ -103,7 +108,10 @@ class Lattice:
         unused = [name for name, is_used in zip(values or {}, used) if not is_used]
         if unused:
             raise ValueError(f"{os.fspath(path)} has no placeholder {', '.join(map(repr, unused))}")
-        self._parameters = tuple(parameters(path).values())
+        with open(path, "rb") as file:
+            data = file.read()
+        self._parameters = tuple(parameters_of(data, os.fspath(path)).values())
+        self._source = derivatives.source_of(data, os.fspath(path), values)
         return self
 
     @classmethod
@@ -114,7 +122,9 @@ class Lattice:
         text = json.dumps(text) if isinstance(text, dict) else text
         data = text.encode() if isinstance(text, str) else bytes(text)
         found = parameters_of(data, name)
-        return cls._new(lib.ffd_lattice_parse, data, len(data), library.encoded(name, "name"), parameters=tuple(found.values()))
+        self = cls._new(lib.ffd_lattice_parse, data, len(data), library.encoded(name, "name"), parameters=tuple(found.values()))
+        self._source = derivatives.source_of(data, name)
+        return self
 
     @classmethod
     def box(cls, low: Row, high: Row, size: Counts = 4, degree: Degrees = None, *, knots: Knots = "default", axes: Rows | None = None,
@@ -270,9 +280,9 @@ class Lattice:
         after the last like these. The result has no keys; its text is that of a still."""
         if not self.keys:
             raise ValueError("the lattice has no keys")
-        copy = self._copy()
-        call(lib.ffd_lattice_set_time, copy._pointer, ctypes.c_double(library.real(time, "time")))
-        copy._is_still = True
+        copy, copy_time = self._copy(), library.real(time, "time")
+        call(lib.ffd_lattice_set_time, copy._pointer, ctypes.c_double(copy_time))
+        copy._is_still, copy._time = True, copy_time
         return copy
 
     def refine(self, size: Counts | None = None, degree: Degrees = None, *, insert: Mapping[Direction, Row] | None = None) -> Lattice:
@@ -325,6 +335,16 @@ class Lattice:
         numbers = np.ascontiguousarray(arrays.doubles(matrix, "matrix", (4, 4)))
         return self._new(lib.ffd_lattice_transform, self._pointer, arrays.address(numbers))
 
+    def mirrored(self, axis: Axis, at: float = 0.0) -> Lattice:
+        """Returns the lattice reflected in the plane where the coordinate of axis, "x", "y" or "z", is `at`: points reflected
+        there go to the reflected places. (`mirror` turns the layers of a lattice round.) A box stays one, other shapes become
+        control points, as of `transform`."""
+        if axis not in ("x", "y", "z"):
+            raise ValueError(f"axis must be 'x', 'y' or 'z', not {axis!r}")
+        matrix, row = np.eye(4), "xyz".index(axis)
+        matrix[row, row], matrix[row, 3] = -1, 2 * library.real(at, "at")
+        return self.transform(matrix)
+
     def jitter(self, sigma: Numbers, seed: int) -> Lattice:
         """Returns a lattice with noise added to its displacements: sigma x, with x in [-1, 1) for each axis of each control
         point, the same bits on every machine, as of the move "jitter".
@@ -364,7 +384,9 @@ class Lattice:
         edits = [Edit(function, arrays.copied(value, what, self.size + more))
                  for function, value, what, more in ((lib.ffd_lattice_set_points, Q, "Q", (3,)), (lib.ffd_lattice_set_offsets, offsets, "offsets", (3,)),
                                                      (lib.ffd_lattice_set_weights, weights, "weights", ())) if value is not None]
-        return self._copy(edits)
+        copy = self._copy(edits)
+        copy._is_edited = True
+        return copy
 
     # -- deformation
 
@@ -511,6 +533,52 @@ class Lattice:
                                     None if kept is None else arrays.address(kept), arrays.address(numbers), arrays.address(out))
         return np.ascontiguousarray(out.transpose(2, 1, 0, 3))
 
+    @property
+    def parameter_columns(self) -> tuple[str, ...]:
+        """The names of the columns of `parameters_jacobian`, in their order: "A" of a number, "S[0]", "S[1]" .. of an array."""
+        return derivatives.columns(self)
+
+    def parameters_jacobian(self, embedding: Embedding, values: Mapping[str, Any] | None = None, *, threads: int = 0,
+                            isa: Isa = "auto", progress: Progress | None = None) -> Doubles:
+        """The derivative of the deformed points by the numbers of the placeholders in the moves of the lattice's file, (N, 3, m)
+        float64, with the bits of `ffd jacobian --wrt parameters`. Without placeholders m is 0.
+
+        values: of placeholders, by name, at which the lattice is taken; for others those that it was loaded with, else
+                their defaults
+        Columns are in the order in which the file first uses the placeholders: see `parameter_columns`. Raises `InvalidError` if
+        control points were set since (`moved`), or where a placeholder is no number that moves points (a text, an index, a seed).
+        """
+        return derivatives.parameters_jacobian(self, Run(threads, isa, progress), embedding, values)
+
+    def parameters_times(self, embedding: Embedding, dp: Row, values: Mapping[str, Any] | None = None, *, threads: int = 0,
+                         isa: Isa = "auto", progress: Progress | None = None) -> Doubles:
+        """Computes `parameters_jacobian` @ dp for changes dp (m,) of the numbers, without storing it: (N, 3) float64."""
+        return derivatives.parameters_times(self, Run(threads, isa, progress), embedding, dp, values)
+
+    def parameters_transposed(self, embedding: Embedding, dfdx: Rows, values: Mapping[str, Any] | None = None, *, threads: int = 0,
+                              isa: Isa = "auto", progress: Progress | None = None) -> Doubles:
+        """The derivative of a scalar f by the numbers of the placeholders, (m,) float64. dfdx: its derivative by the deformed
+        points, (N, 3)."""
+        return derivatives.parameters_transposed(self, Run(threads, isa, progress), embedding, dfdx, values)
+
+    def weights_jacobian(self, embedding: Embedding, *, threads: int = 0, isa: Isa = "auto",
+                         progress: Progress | None = None) -> Doubles:
+        """The derivative of the deformed points by the weights of the deformed volume, (N, 3, nu*nv*nw) float64, at this
+        lattice's own deformed control points and weights (those that it does not have are 1): R_j (Q_j - X) / h_j. Columns are
+        in Python's order, w fastest. The NURBS Book, 4.4."""
+        return derivatives.weights_jacobian(self, Run(threads, isa, progress), embedding)
+
+    def weights_times(self, embedding: Embedding, dw: Grid | Row, *, threads: int = 0, isa: Isa = "auto",
+                      progress: Progress | None = None) -> Doubles:
+        """Computes `weights_jacobian` @ dw for changes dw of the weights, (nu, nv, nw) or (nu*nv*nw,), without storing it: (N, 3)."""
+        return derivatives.weights_times(self, Run(threads, isa, progress), embedding, dw)
+
+    def weights_transposed(self, embedding: Embedding, dfdx: Rows, *, threads: int = 0, isa: Isa = "auto",
+                           progress: Progress | None = None) -> Doubles:
+        """The derivative of a scalar f by the weights of the deformed volume, (nu, nv, nw) float64. dfdx: its derivative by the
+        deformed points, (N, 3)."""
+        return derivatives.weights_transposed(self, Run(threads, isa, progress), embedding, dfdx)
+
     @overload
     def evaluate(self, uvw: Rows, *, volume: Volume = "deformed", jacobians: Literal[False] = False, threads: int = 0, isa: Isa = "auto",
                  progress: Progress | None = None) -> Doubles: ...
@@ -571,7 +639,8 @@ class Lattice:
         return self
 
     def __reduce__(self) -> Any:
-        return _again, (self.text, self._bounds, None if self.needs_points or self.keys else self.offsets, self._parameters)
+        return _again, (self.text, self._bounds, None if self.needs_points or self.keys else self.offsets, self._parameters,
+                        (self._time, self._source, self._is_edited))
 
     # -- internal
 
@@ -636,11 +705,13 @@ class Lattice:
         return source, out
 
 
-def _again(text: str, bounds: np.ndarray | None, offsets: np.ndarray | None, parameters: tuple[Parameter, ...] = ()) -> Lattice:
-    """Restores a pickled lattice. parameters: which its text lacks."""
+def _again(text: str, bounds: np.ndarray | None, offsets: np.ndarray | None, parameters: tuple[Parameter, ...] = (),
+           origin: tuple[float | None, derivatives.Source | None, bool] = (None, None, False)) -> Lattice:
+    """Restores a pickled lattice. parameters, origin: what its text lacks."""
     lattice = Lattice.parse(text)
     lattice = lattice if bounds is None else lattice._fit(bounds).moved(offsets=offsets)  # None: as the text says
     lattice._parameters = parameters or lattice._parameters
+    lattice._time, lattice._source, lattice._is_edited = origin
     return lattice
 
 
