@@ -29,6 +29,7 @@
 #include <ffd/author.h>
 #include <ffd/batch.h>
 #include <ffd/cells.h>
+#include <ffd/chain.h>
 #include <ffd/deform.h>
 #include <ffd/embedding.h>
 #include <ffd/error.h>

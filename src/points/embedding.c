@@ -126,7 +126,7 @@ static ffd_status join_extended(const embed_work *work, size_t tiles, ffd_error 
     return FFD_OK;
 }
 
-static ffd_status check(ffd_embedding_desc *desc, ffd_error *error)
+ffd_status ffd_embedding_desc_check(ffd_embedding_desc *desc, ffd_error *error)
 {
     if (!desc->lattice)
         return ffd_fail(error, FFD_E_ARGUMENT, "there is no lattice to embed points in");
@@ -208,7 +208,7 @@ ffd_status ffd_embedding_create(const ffd_embedding_desc *callers, const ffd_run
     ffd_embedding_desc_init(&desc, sizeof desc);
     ffd_status status;
     TRY_END(ffd_struct_take(&desc, sizeof desc, callers, "ffd_embedding_desc", error));
-    TRY_END(check(&desc, error));
+    TRY_END(ffd_embedding_desc_check(&desc, error));
     TRY_END(ffd_point_run_begin(options, desc.points.count, &run, error));
     TRY_END(ffd_embedding_make(desc.lattice, desc.points.count, embedding, error));
     (*embedding)->falloff = desc.falloff;

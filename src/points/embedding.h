@@ -31,6 +31,9 @@ struct ffd_embedding {
     atomic_bool asked;                    /* whether these would have been of use (point_cells.h) */
 };
 
+/* Checks a description, and fills in the default steps of its points. Errors: FFD_E_ARGUMENT, FFD_E_LIMIT. */
+ffd_status ffd_embedding_desc_check(ffd_embedding_desc *desc, ffd_error *error);
+
 /* Makes an embedding with a copy of the lattice and with uninitialised arrays for count points. Errors:
    FFD_E_MEMORY. */
 ffd_status ffd_embedding_make(const ffd_lattice *lattice, size_t count, ffd_embedding **embedding,

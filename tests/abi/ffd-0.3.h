@@ -1080,6 +1080,45 @@ typedef struct ffd_cells_desc {
 int ffd_cells_kind_points(const char *kind);
 void ffd_cells_desc_init(ffd_cells_desc *desc, size_t size);
 ffd_status ffd_cells_measure(const ffd_cells_desc *desc, const ffd_run_options *options, ffd_error *error);
+typedef struct ffd_chain_desc {
+    size_t struct_size;
+    const ffd_lattice *const *lattices;
+    size_t count;
+    bool blocks;
+    ffd_span points;
+    ffd_outside outside;
+    double falloff, snap;
+} ffd_chain_desc;
+void ffd_chain_desc_init(ffd_chain_desc *desc, size_t size);
+typedef struct ffd_chain_embedding ffd_chain_embedding;
+ffd_status ffd_chain_embedding_create(const ffd_chain_desc *desc, const ffd_run_options *options,
+                                      ffd_chain_embedding **embedding, ffd_error *error);
+void ffd_chain_embedding_destroy(ffd_chain_embedding **embedding);
+size_t ffd_chain_embedding_get_count(const ffd_chain_embedding *embedding);
+const double *ffd_chain_embedding_get_uvw(const ffd_chain_embedding *embedding);
+const uint8_t *ffd_chain_embedding_get_status(const ffd_chain_embedding *embedding);
+const uint32_t *ffd_chain_embedding_get_blocks(const ffd_chain_embedding *embedding);
+ffd_status ffd_chain_embedding_bounds(const ffd_chain_embedding *embedding, ffd_span points, double min[3],
+                                      double max[3], const ffd_run_options *options, ffd_error *error);
+typedef struct ffd_chain_deform_desc {
+    size_t struct_size;
+    const ffd_lattice *const *moved;
+    ffd_span in;
+    ffd_span out;
+    double *gradients;
+    const double *weights;
+    const double *slopes;
+    const uint32_t *vertices;
+    size_t vertex_count;
+} ffd_chain_deform_desc;
+void ffd_chain_deform_desc_init(ffd_chain_deform_desc *desc, size_t size);
+ffd_status ffd_chain_embedding_deform(const ffd_chain_embedding *embedding, const ffd_chain_deform_desc *desc,
+                                      const ffd_run_options *options, ffd_error *error);
+ffd_status ffd_chain_embedding_basis_times(const ffd_chain_embedding *embedding, const double *const *dq,
+                                           double *dx, const ffd_run_options *options, ffd_error *error);
+ffd_status ffd_chain_embedding_basis_transposed(const ffd_chain_embedding *embedding, const double *dfdx,
+                                                double *const *dfdq, const ffd_run_options *options,
+                                                ffd_error *error);
 int ffd_displacement(const ffd_lattice *lattice, const double uvw[3], double delta[3], double gradient[9]);
 typedef enum ffd_direction_outcome {
     FFD_DIRECTION_KEPT = 0,

@@ -122,6 +122,9 @@ LAYERS = {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "job", "job/chain", "job/input", "json", "lattice",
         "lattice/file", "mesh", "mesh/morph",
     },
+    "job/arrays": {
+        "base", "base/memory", "base/text", "base/vector", "deform", "embed", "job/chain", "mesh", "points",
+    },
     "job/jacobian": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed/boundary", "io/npy",
         "job", "job/chain", "job/input", "job/judge", "job/pass", "lattice/tangent", "points",

@@ -267,10 +267,29 @@ static void begin_again(const block_work *work)
     }
 }
 
+/* Makes the outcomes of points whose blocks are known. */
+static void recall(const block_work *work)
+{
+    const chain_run *const run = work->run;
+    for (size_t i = 0; i < run->count; i++) {
+        const uint32_t owner = run->scratch->owners[i];
+        const ffd_location *const location = &run->scratch->locations[i];
+        if (owner != BLOCK_NONE)
+            ffd_outcome_make(work->chain->links[owner].lattice, location, &run->outcomes[i]);
+        else
+            run->outcomes[i] = (point_outcome){.status = location->status,
+                                               .outside = location->status != FFD_VERTEX_INVALID};
+    }
+}
+
 /* Finds the block of each point. A block that holds the point has precedence over one that the point misses
    by at most the snap. */
 static ffd_status locate(block_work *work, ffd_error *error)
 {
+    if (work->run->located) {
+        recall(work);
+        return FFD_OK;
+    }
     begin_points(work);
     TRY(locate_pending(work, error));
     if (!(work->chain->outside.snap > 0))
@@ -327,9 +346,11 @@ static ffd_status extend(const block_work *work, size_t i, ffd_error *error)
     const lattice_chain *const chain = work->chain;
     const chain_run *const run = work->run;
     const double falloff = chain->outside.falloff, reach = falloff > 0 ? falloff : HUGE_VAL;
-    boundary_point nearest;
-    uint32_t block;
-    TRY(ffd_blocks_nearest(chain, run->x + 3 * i, reach, &nearest, &block, error));
+    border_place own, *const place = run->borders ? &run->borders[i] : &own;
+    if (!run->borders || !run->located)
+        TRY(ffd_blocks_nearest(chain, run->x + 3 * i, reach, &place->nearest, &place->block, error));
+    const boundary_point nearest = place->nearest;
+    const uint32_t block = place->block;
     if (!nearest.found)
         return FFD_OK;
     ffd_mark_owner(chain, run, i, block | OWNER_NEAREST);

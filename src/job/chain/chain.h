@@ -46,7 +46,8 @@ typedef struct chain_link {
     ffd_lattice *lattice; /* as given: vertices have its u,v,w */
     ffd_lattice *sealed;  /* the same at rest, with held faces, which moves points in its place; NULL: none */
     unsigned held;        /* these faces: bit 2 a + side, as of ffd_lattice_seal */
-    ffd_locator *locator; /* NULL until the lattice is fitted to the mesh */
+    const ffd_lattice *moved; /* the same at rest, lent: it moves points in place of both; NULL: none */
+    ffd_locator *locator;     /* NULL until the lattice is fitted to the mesh */
     bool lattice_is_lent, locator_is_lent; /* owned by the chain's share */
     const char *path; /* of the lattice file, the caller's; NULL if values are set in it */
     file_stamp stamp; /* of the file at path, taken before it was read */
@@ -104,7 +105,7 @@ typedef struct lattice_chain {
 /* Returns the lattice whose control points move what is in the link. */
 static inline const ffd_lattice *ffd_link_mover(const chain_link *link)
 {
-    return link->sealed ? link->sealed : link->lattice;
+    return link->moved ? link->moved : link->sealed ? link->sealed : link->lattice;
 }
 
 /* The number of u,v,w that a point may have in this chain: one in each link, or one in all blocks. */
@@ -143,6 +144,12 @@ typedef struct chain_rounding {
 
 /* The owner of a point that is in no block. */
 #define BLOCK_NONE UINT32_MAX
+
+/* The border point that an extended point follows, and with blocks the block that it is of. */
+typedef struct border_place {
+    boundary_point nearest;
+    uint32_t block;
+} border_place;
 
 /* Scratch memory for blocks, beside that of single links. */
 typedef struct block_scratch {
@@ -186,7 +193,10 @@ struct chain_pace;
 typedef struct chain_run {
     double *x;                      /* 3 a point: replaced by the new positions */
     size_t count;                   /* at most CHAIN_RUN */
-    bool located;                   /* scratch->locations already holds those of the first link */
+    bool located;                   /* scratch->locations already holds those of the first link; with
+                                       blocks, scratch->owners the blocks too */
+    border_place *borders;          /* NULL, or an entry for each point: of those that the first link, or
+                                       blocks, extend to; filled, or known if the run is located */
     bool first_only;                /* blocks: do not look up a point on a face in other blocks too */
     const chain_rounding *rounding; /* NULL: coordinates are exact */
     chain_scratch *scratch;

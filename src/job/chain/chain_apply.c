@@ -15,8 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-/* F = F2 F1, written with E = F - I: E = E1 + E2 + E2 E1. Zeros stay exact. */
-static void compose(double gradient[9], const double next[9])
+void ffd_gradients_compose(double gradient[9], const double next[9])
 {
     double product[9];
     mat_multiply(next, gradient, product);
@@ -47,6 +46,21 @@ static displacement_batch begin_batch(chain_run *run, size_t links, size_t link)
     return batch;
 }
 
+/* Finds the border point that a point outside follows, unless it is known. */
+static ffd_status find_border(const chain_link *link, border_place *borders, double reach,
+                              const chain_run *run, size_t i, boundary_point *nearest, ffd_error *error)
+{
+    if (borders && run->located) {
+        *nearest = borders[i].nearest;
+        return FFD_OK;
+    }
+    TRY(link->is_convex ? FFD_OK : ffd_deadline_check(error));
+    TRY(ffd_boundary_find(link->border, run->x + 3 * i, reach, nearest, error));
+    if (borders)
+        borders[i].nearest = *nearest;
+    return FFD_OK;
+}
+
 /* Extends link l to a point outside of it; writes the displacement where the batch writes the others. */
 static ffd_status extend(const lattice_chain *chain, size_t l, chain_run *run,
                          const displacement_batch *batch, size_t i, ffd_error *error)
@@ -62,8 +76,7 @@ static ffd_status extend(const lattice_chain *chain, size_t l, chain_run *run,
     if (run->scratch->locations[i].status == FFD_VERTEX_INVALID || !link->border)
         return FFD_OK;
     const double reach = link->falloff > 0 ? link->falloff : HUGE_VAL;
-    TRY(link->is_convex ? FFD_OK : ffd_deadline_check(error));
-    TRY(ffd_boundary_find(link->border, run->x + 3 * i, reach, &nearest, error));
+    TRY(find_border(link, l == 0 ? run->borders : NULL, reach, run, i, &nearest, error));
     if (!nearest.found)
         return FFD_OK;
     ffd_mark_part(chain, l, run, i, nearest.uvw);
@@ -122,7 +135,7 @@ static void add_link(const chain_run *run, const array_kernel *arrays)
     for (size_t i = 0; i < run->count && run->gradient && !run->only_turns; i++) {
         const double *const next = scratch->gradient + 9 * i;
         if (scratch->moves[i] && run->outcomes[i].moved)
-            compose(run->gradient + 9 * i, next);
+            ffd_gradients_compose(run->gradient + 9 * i, next);
         else if (scratch->moves[i])
             memcpy(run->gradient + 9 * i, next, 9 * sizeof *next);
     }
