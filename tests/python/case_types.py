@@ -34,6 +34,10 @@ WRONG = [
     ("emb.points.nonsense", "nonsense"),
     ('lat.deform(emb, gradients=True).shape', "shape"),
     ('lat.mirrored("u")', "u"),
+    ('ffd.Chain(["a.json"])', "str"),
+    ('ffd.Blocks([lat]).deform(emb)', "Embedding"),
+    ('ffd.Chain([lat]).embed(np.zeros((10, 3)), outside="clamp")', "clamp"),
+    ('ffd.Chain([lat]).deform(ffd.Chain([lat]).embed(np.zeros((10, 3))), gradients=True).shape', "shape"),
     ("lat.parameters_jacobian(emb, 3)", "int"),
     ('lat.weights_times(emb, "x")', "str"),
 ]
@@ -51,6 +55,11 @@ displacements = B @ (Q - lat.rest).reshape(-1, 3)
 derivatives = lat.parameters_jacobian(emb, {"A": 3}, threads=1) @ [1.0, 2.0] + lat.parameters_times(emb, [1, 2])
 back = lat.parameters_transposed(emb, derivatives, {"A": [1, 2]}).sum() + lat.weights_transposed(emb, lat.weights_times(emb, lat.rest[..., 0]))
 columns = lat.mirrored("x", at=0.5).parameter_columns[0] + "A"
+chain = ffd.Chain([lat, box]).fit(np.zeros((10, 3)), shared_box=True).moved([Q, None])
+several = chain.embed(np.zeros((10, 3), np.float32), snap=0.1)
+ahead = chain.deform(several, [None, box.rest]) + chain.basis_times(several, [Q, None], threads=1)
+back = chain.basis_transposed(several, ahead)[0][..., 0].sum() + chain.deform(several, normals=ahead).points.sum()
+blocks = ffd.Blocks((lat, box)).embed([[0, 0, 0.5]]).blocks
 mesh, result = ffd.deform_mesh(object(), lat, Q, outside="extend", with_result=True)
 turned = mesh.points, result.moved + 1, result.tear.edges
 result = ffd.deform_file("a.obj", "b.obj", {"a": lat, "b": "c.json"}, set={"A": 3}, only="node:a", fail_on=["folds", "tear=0.1"], snap="1e-3r")

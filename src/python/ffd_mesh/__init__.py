@@ -13,6 +13,7 @@ printed.
 from ._animate import AnimatedBytes, Animation, animate_bytes, animate_file
 from ._batch import batch
 from ._cell_quality import Cells, cells
+from ._chain import Blocks, Chain, ChainEmbedding
 from ._convert import convert_lattice
 from ._embed import EmbeddedBytes, embed_bytes, embed_file
 from ._embedding import Embedding, Status
@@ -34,7 +35,7 @@ from ._views import ViewBytes, edit_bytes, edit_file, view_bytes, view_file
 __version__: str = _lib.ffd_version().decode()
 
 __all__ = [
-    "AnimatedBytes", "Animation", "ArgumentError", "Cancelled", "Cells", "Csr", "Deformed", "DeformedBytes", "EmbeddedBytes", "Embedding", "EmbeddingError", "Error",
+    "AnimatedBytes", "Animation", "ArgumentError", "Blocks", "Cancelled", "Cells", "Chain", "ChainEmbedding", "Csr", "Deformed", "DeformedBytes", "EmbeddedBytes", "Embedding", "EmbeddingError", "Error",
     "ExistsError", "FileError", "Fit", "FittedFile", "FoldBarrier", "Folds", "GateError", "InvalidError", "JacobianBytes", "Lattice", "LimitError",
     "OutOfMemoryError", "Parameter", "Positions", "Result", "Status", "UnmetError", "UnsupportedError", "ViewBytes", "animate_bytes", "animate_file", "batch", "cells", "check_bytes",
     "check_file", "compare_bytes", "compare_files", "compare_folders", "convert_lattice", "deform_bytes", "deform_file", "deform_mesh", "edit_bytes", "edit_file", "embed_bytes", "embed_file", "fit", "fit_file",

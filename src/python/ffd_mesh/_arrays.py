@@ -110,6 +110,20 @@ def readable(array: np.ndarray) -> np.ndarray:
     return array.copy() if _repeats(array) else array
 
 
+def source_and_out(embedded: np.ndarray, points: Any, out: Any, vertices: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Returns the points at rest, and the array for the results, after checks. embedded: the points of the embedding."""
+    count = len(embedded)
+    source = embedded if points is None else readable(vectors(points, "points", count))
+    if out is None:
+        return source, np.empty((count, 3), source.dtype) if vertices is None else np.array(source)
+    out = output(out, "out", count)
+    if overlap(out, embedded):
+        raise ValueError("out is memory of the points that were embedded, which a later call starts from: embed a copy")
+    if points is not None and not same_place(source, out) and overlap(source, out):
+        raise ValueError("out and points overlap and are not the same array")
+    return source, out
+
+
 def span(array: np.ndarray) -> ffd_span:
     """An ffd_span of an (N, 3) array, which must outlive it."""
     if array.size == 0:

@@ -10,6 +10,7 @@ import numpy as np
 from . import _arrays as arrays
 from . import _library as library
 from ._library import Run, lib
+from ._values import Deformed
 
 
 def turned_normals(run: Run, gradients: np.ndarray, normals: Any, what: str = "normals") -> tuple[np.ndarray, int]:
@@ -32,6 +33,17 @@ def turned_tangents(run: Run, gradients: np.ndarray, tangents: Any, normals: np.
         run(lib.ffd_tangents_deform, arrays.address(gradients), across, arrays.span(source), arrays.span(result), ctypes.byref(collapsed))
     _tell(collapsed.value, "tangents")
     return result, collapsed.value
+
+
+def turned(run: Run, out: np.ndarray, gradients: np.ndarray, normals: Any, tangents: Any, wanted: bool) -> Deformed:
+    """Transforms normals and tangents by the gradients of the displacement. out: the deformed points; wanted: gradients are, too."""
+    total, across, along = 0, None, None
+    if normals is not None:
+        across, total = turned_normals(run, gradients, normals)
+    if tangents is not None:
+        along, more = turned_tangents(run, gradients, tangents, across)
+        total += more
+    return Deformed(out, across, along, gradients if wanted else None, total)
 
 
 def _tell(collapsed: int, what: str) -> None:

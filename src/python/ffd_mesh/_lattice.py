@@ -16,15 +16,16 @@ from . import _derivatives as derivatives
 from . import _library as library
 from . import _variants as variants
 from ._convert import convert, is_other
-from ._directions import turned_normals, turned_tangents
+from ._directions import turned
 from ._embedding import Embedding, EmbeddingOptions
 from ._errors import InvalidError
 from ._late_copy import Edit, LateCopy
 from ._library import Owned, Progress, Run, call, lib
 from ._types import (Axis, ControlPoints, Counts, Degrees, Direction, Doubles, Floats, Grid, Half, Indices, Isa, KnotWords, Knots, Numbers, Order, Outside,
                      Part, Path, Row, Rows, Shape, Spacing, Sparse, Triangles, Volume)
-from ._values import (Deformed, FoldBarrier, Folds, Parameter, box_content, box_desc, csr, described, direction_of, faces_of, finite, folds_of, parameters, parameters_of, settings, three,
-                      triangles_of, vertices_of, wishes_of)
+from ._values import (Deformed, FoldBarrier, Folds, Parameter, box_content, box_desc, csr, described, direction_of, faces_of, finite, folds_of, parameters, parameters_of, settings, three, vertices_of,
+                      wishes_of)
+from ._weights import weighted
 
 REST, DEFORMED = declared.ENUMERATIONS["ffd_volume"].values()
 
@@ -477,21 +478,19 @@ class Lattice:
         found = np.empty((count, 3, 3)) if wanted else None
         where = arrays.address(found) if found is not None and count else None
         arguments: tuple[Any, ...] = (arrays.span(source), arrays.span(out), where)
-        weighted, kept = _weighted(run, source, weight, triangles, wanted)
-        if weighted and triangles is None and (normals is not None or tangents is not None):
-            raise ValueError("normals and tangents need triangles= with weight=: without the slope of the weight they are wrong by "
-                             "degrees")
+        kept = weighted(run, source, weight, triangles, wanted, normals is not None or tangents is not None)
+        weights_of_points = () if kept.weights is None else kept.addresses
         listed = None if vertices is None else vertices_of(vertices, count)
         if listed is None:
-            function = lib.ffd_embedding_deform_weighted if weighted else lib.ffd_embedding_deform
-            run(function, embedding._pointer, lattice._pointer, *weighted, *arguments)
+            function = lib.ffd_embedding_deform_weighted if weights_of_points else lib.ffd_embedding_deform
+            run(function, embedding._pointer, lattice._pointer, *weights_of_points, *arguments)
         else:
-            function = lib.ffd_embedding_deform_some_weighted if weighted else lib.ffd_embedding_deform_some
-            run(function, embedding._pointer, lattice._pointer, arrays.address(listed), len(listed), *weighted, *arguments)
+            function = lib.ffd_embedding_deform_some_weighted if weights_of_points else lib.ffd_embedding_deform_some
+            run(function, embedding._pointer, lattice._pointer, arrays.address(listed), len(listed), *weights_of_points, *arguments)
         del kept
         if found is None:
             return out
-        return _directions(run, out, found, normals, tangents, gradients)
+        return turned(run, out, found, normals, tangents, gradients)
 
     def basis(self, embedding: Embedding, *, weights: Grid | None = None, threads: int = 0, isa: Isa = "auto",
               progress: Progress | None = None) -> Sparse:
@@ -693,16 +692,7 @@ class Lattice:
         """Returns the points at rest, and the array for the results, after checks."""
         if not isinstance(embedding, Embedding):
             raise TypeError(f"embedding must be what embed returns, not {type(embedding).__name__}")
-        count = len(embedding)
-        source = embedding.points if points is None else arrays.readable(arrays.vectors(points, "points", count))
-        if out is None:
-            return source, np.empty((count, 3), source.dtype) if vertices is None else np.array(source)
-        out = arrays.output(out, "out", count)
-        if arrays.overlap(out, embedding.points):
-            raise ValueError("out is memory of the points that were embedded, which a later call starts from: embed a copy")
-        if points is not None and not arrays.same_place(source, out) and arrays.overlap(source, out):
-            raise ValueError("out and points overlap and are not the same array")
-        return source, out
+        return arrays.source_and_out(embedding.points, points, out, vertices)
 
 
 def _again(text: str, bounds: np.ndarray | None, offsets: np.ndarray | None, parameters: tuple[Parameter, ...] = (),
@@ -713,30 +703,3 @@ def _again(text: str, bounds: np.ndarray | None, offsets: np.ndarray | None, par
     lattice._parameters = parameters or lattice._parameters
     lattice._time, lattice._source, lattice._is_edited = origin
     return lattice
-
-
-def _weighted(run: Run, points: np.ndarray, weight: Any, triangles: Any, wanted: bool) -> tuple[tuple[Any, ...], Any]:
-    """The arguments of the library for weights, and what must stay alive. wanted: gradients are, which take the slopes."""
-    if weight is None:
-        if triangles is not None:
-            raise ValueError("triangles= is for weight=")
-        return (), None
-    count = len(points)
-    weights = arrays.doubles(weight, "weight", (count,))
-    if triangles is None or not wanted:
-        return (arrays.address(weights), None), weights
-    faces, slopes = triangles_of(triangles, count), np.empty((count, 3))
-    run(lib.ffd_weight_slopes, arrays.span(points), arrays.address(weights), arrays.address(faces), len(faces),
-        arrays.address(slopes))
-    return (arrays.address(weights), arrays.address(slopes)), (weights, slopes)
-
-
-def _directions(run: Run, out: np.ndarray, gradients: np.ndarray, normals: Any, tangents: Any, wanted: bool) -> Deformed:
-    """Transforms normals and tangents by the gradients of the displacement. wanted: these are, too."""
-    total, turned, along = 0, None, None
-    if normals is not None:
-        turned, total = turned_normals(run, gradients, normals)
-    if tangents is not None:
-        along, more = turned_tangents(run, gradients, tangents, turned)
-        total += more
-    return Deformed(out, turned, along, gradients if wanted else None, total)
