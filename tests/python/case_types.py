@@ -34,6 +34,9 @@ WRONG = [
     ("emb.points.nonsense", "nonsense"),
     ('lat.deform(emb, gradients=True).shape', "shape"),
     ('lat.mirrored("u")', "u"),
+    ('ffd.Lattice.plane((0, 0), (1, 1)).mirror("w")', "w"),
+    ('ffd.Lattice.plane((0, 0), (1, 1)).deform(emb)', "Embedding"),
+    ('ffd.Lattice.plane((0, 0), (1, 1)).nonsense', "nonsense"),
     ('ffd.Chain(["a.json"])', "str"),
     ('ffd.Blocks([lat]).deform(emb)', "Embedding"),
     ('ffd.Chain([lat]).embed(np.zeros((10, 3)), outside="clamp")', "clamp"),
@@ -55,6 +58,11 @@ displacements = B @ (Q - lat.rest).reshape(-1, 3)
 derivatives = lat.parameters_jacobian(emb, {"A": 3}, threads=1) @ [1.0, 2.0] + lat.parameters_times(emb, [1, 2])
 back = lat.parameters_transposed(emb, derivatives, {"A": [1, 2]}).sum() + lat.weights_transposed(emb, lat.weights_times(emb, lat.rest[..., 0]))
 columns = lat.mirrored("x", at=0.5).parameter_columns[0] + "A"
+plane = ffd.Lattice.plane((0, 0), [1, 2], size=(4, 5), knots=("open", [0, 0, 0, 0, 0.5, 1, 1, 1, 1])).refine(8, insert={"u": [0.2]})
+flat = plane.embed([[0.5, 0.5]], outside="extend")
+flat_results = plane.deform(flat, np.zeros((3, 4, 5, 2))) + 1, plane.deform(flat, normals=[[0, 1]]).normals, plane.basis(flat) @ plane.rest.reshape(-1, 2)
+flat_lattices = plane.moved(plane.rest, weights=np.ones((4, 5))).seal("C1", ["u-"]).solid.rest, plane.fold_barrier(plane.rest).gradient, plane.size[1] + 1
+ffd.deform_file("a.obj", "b.obj", plane)
 chain = ffd.Chain([lat, box]).fit(np.zeros((10, 3)), shared_box=True).moved([Q, None])
 several = chain.embed(np.zeros((10, 3), np.float32), snap=0.1)
 ahead = chain.deform(several, [None, box.rest]) + chain.basis_times(several, [Q, None], threads=1)

@@ -27,6 +27,7 @@ from ._jobs import (DeformedBytes, Positions, check_bytes, check_file, deform_by
 from ._lattice import Lattice
 from ._library import lib as _lib
 from ._meshes import deform_mesh
+from ._plane import PlaneEmbedding, PlaneLattice
 from ._result import Result
 from ._schemas import schema
 from ._values import Csr, Deformed, FoldBarrier, Folds, Parameter, parameters
@@ -37,7 +38,7 @@ __version__: str = _lib.ffd_version().decode()
 __all__ = [
     "AnimatedBytes", "Animation", "ArgumentError", "Blocks", "Cancelled", "Cells", "Chain", "ChainEmbedding", "Csr", "Deformed", "DeformedBytes", "EmbeddedBytes", "Embedding", "EmbeddingError", "Error",
     "ExistsError", "FileError", "Fit", "FittedFile", "FoldBarrier", "Folds", "GateError", "InvalidError", "JacobianBytes", "Lattice", "LimitError",
-    "OutOfMemoryError", "Parameter", "Positions", "Result", "Status", "UnmetError", "UnsupportedError", "ViewBytes", "animate_bytes", "animate_file", "batch", "cells", "check_bytes",
+    "OutOfMemoryError", "Parameter", "PlaneEmbedding", "PlaneLattice", "Positions", "Result", "Status", "UnmetError", "UnsupportedError", "ViewBytes", "animate_bytes", "animate_file", "batch", "cells", "check_bytes",
     "check_file", "compare_bytes", "compare_files", "compare_folders", "convert_lattice", "deform_bytes", "deform_file", "deform_mesh", "edit_bytes", "edit_file", "embed_bytes", "embed_file", "fit", "fit_file",
     "info", "info_bytes", "jacobian_bytes", "jacobian_file", "parameters", "positions_bytes", "positions_file", "schema",
     "view_bytes", "view_file",

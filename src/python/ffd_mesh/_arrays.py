@@ -22,27 +22,27 @@ def numbers(value: Any, what: str) -> np.ndarray:
     return array
 
 
-def vectors(value: Any, what: str, count: int | None = None) -> np.ndarray:
-    """Checks that value is an array (N, 3) of real numbers, with any strides. Returns float32 and float64 in the machine's byte order
+def vectors(value: Any, what: str, count: int | None = None, width: int = 3) -> np.ndarray:
+    """Checks that value is an array (N, 3), or of another width, of real numbers, with any strides. Returns float32 and float64 in the machine's byte order
     uncopied. Floats of at most 32 bits become float32, all other numbers float64."""
     array = numbers(value, what)
     if array.dtype not in _NUMBERS:
         narrow = array.dtype.kind == "f" and array.dtype.itemsize <= 4
         array = array.astype(np.float32 if narrow else np.float64)
-    if array.ndim != 2 or array.shape[1] != 3:
-        raise ValueError(f"{what} must have the shape (N, 3), not {array.shape}")
+    if array.ndim != 2 or array.shape[1] != width:
+        raise ValueError(f"{what} must have the shape (N, {width}), not {array.shape}")
     if count is not None and len(array) != count:
         raise ValueError(f"{what} must have {count} rows, not {len(array)}")
     return array
 
 
-def output(value: Any, what: str, count: int) -> np.ndarray:
-    """Checks that value is an array (count, 3) that results can be written to."""
+def output(value: Any, what: str, count: int, width: int = 3) -> np.ndarray:
+    """Checks that value is an array (count, 3), or of another width, that results can be written to."""
     if not isinstance(value, np.ndarray):
         raise TypeError(f"{what} must be an array of numpy, not {type(value).__name__}")
     if value.dtype not in _NUMBERS:
         raise TypeError(f"{what} must be float32 or float64 in the machine's byte order, not {value.dtype}")
-    array = vectors(value, what, count)
+    array = vectors(value, what, count, width)
     if not array.flags.writeable:
         raise ValueError(f"{what} is read-only")
     if _repeats(array):
@@ -51,7 +51,7 @@ def output(value: Any, what: str, count: int) -> np.ndarray:
 
 
 def outputs(value: Any, what: str, shape: tuple[int, int, int]) -> np.ndarray:
-    """Checks that value is an array of this shape, (K, N, 3), that results can be written to."""
+    """Checks that value is an array of this shape, (K, N, 3) or (K, N, 2), that results can be written to."""
     if not isinstance(value, np.ndarray):
         raise TypeError(f"{what} must be an array of numpy, not {type(value).__name__}")
     if isinstance(value, np.ma.MaskedArray):

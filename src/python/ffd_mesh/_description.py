@@ -15,11 +15,12 @@ from . import _declarations as declared
 from . import _library as library
 from ._errors import Error
 from ._lattice import Lattice
+from ._plane import PlaneLattice
 from ._types import Path, ReadOptions, names
 from ._values import faces_of, settings
 from ._wording import worded
 
-AnyLattice = Union[Lattice, Path, bytes]
+AnyLattice = Union[Lattice, PlaneLattice, Path, bytes]
 Files = Union[Mapping[str, Any], Callable[[str], Any]]
 
 # The settings that have arguments of their own, or none.
@@ -134,6 +135,8 @@ class Memory:
 def set_lattice(source: Any, lattice: AnyLattice) -> Any:
     """Sets an ffd_lattice_source by path, as an object or as a text. Returns what must stay alive beside the lattice."""
     text = None
+    if isinstance(lattice, PlaneLattice):
+        lattice = lattice.solid
     if isinstance(lattice, Lattice):
         source.object = lattice._owned.pointer.value
     elif isinstance(lattice, bytes):

@@ -6,7 +6,7 @@ import ctypes
 import json
 import os
 import re
-from typing import Any, Literal, Mapping, Sequence, overload
+from typing import TYPE_CHECKING, Any, Literal, Mapping, Sequence, overload
 
 import numpy as np
 
@@ -26,6 +26,9 @@ from ._types import (Axis, ControlPoints, Counts, Degrees, Direction, Doubles, F
 from ._values import (Deformed, FoldBarrier, Folds, Parameter, box_content, box_desc, csr, described, direction_of, faces_of, finite, folds_of, parameters, parameters_of, settings, three, vertices_of,
                       wishes_of)
 from ._weights import weighted
+
+if TYPE_CHECKING:
+    from ._plane import PlaneLattice
 
 REST, DEFORMED = declared.ENUMERATIONS["ffd_volume"].values()
 
@@ -143,6 +146,16 @@ class Lattice:
         if axes is not None:
             made.axes[:] = arrays.doubles(axes, "axes", (3, 3)).ravel()
         return cls._new(lib.ffd_lattice_from_arrays, ctypes.byref(made))
+
+    @classmethod
+    def plane(cls, low: Row, high: Row, size: Counts = 4, degree: Degrees = None, *, knots: Knots = "default") -> PlaneLattice:
+        """Makes a lattice for points of a plane (N, 2), whose volume at rest is the rectangle from low (2,) to high (2,): its control
+        points are (n, m, 2). Files of it have a doubled layer: see `PlaneLattice`.
+
+        size, degree, knots: as in `box`, one value, or two for u, v
+        """
+        from ._plane import PlaneLattice
+        return PlaneLattice._box(low, high, size, degree, knots)
 
     @classmethod
     def from_points(cls, points: ControlPoints, degree: Degrees = None, *, knots: Knots = "default", weights: Grid | None = None) -> Lattice:

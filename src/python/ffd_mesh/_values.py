@@ -122,6 +122,15 @@ def three(value: Any, what: str) -> tuple[Any, Any, Any]:
     return value, value, value
 
 
+def pair(value: Any, what: str) -> tuple[Any, Any]:
+    """Returns two values, for u, v. value: one for both, or two."""
+    if isinstance(value, (list, tuple, np.ndarray)):
+        if len(value) != 2:
+            raise ValueError(f"{what} must be one value, or two, not {len(value)}")
+        return tuple(value)  # type: ignore[return-value]
+    return value, value
+
+
 def box_desc(size: Any = 4, degree: Any = None, knots: Any = "default", margin: Any = 0.05) -> Any:
     """The description of a new lattice: of each one value, or three for u, v, w."""
     desc = library.filled("ffd_lattice_desc")
@@ -139,7 +148,7 @@ def box_content(low: Any, high: Any, size: Any, degree: Any, knots: Any, axes: A
         box["axes"] = arrays.doubles(axes, "axes", (3, 3)).tolist()
     kinds = (knots,) * 3 if isinstance(knots, str) else three(knots, "knots")
     for kind in kinds:
-        if isinstance(kind, str) and kind not in ("default", "clamped") or _has_breakpoints(kind):
+        if isinstance(kind, str) and kind not in ("default", "clamped") or has_breakpoints(kind):
             raise ValueError(f"spacing='{spacing}' needs clamped knots, not {kind!r}")
     made = ["clamped" if isinstance(kind, str) else arrays.doubles(kind, "knots", np.shape(kind)).tolist() for kind in kinds]
     return {"format": "ffd-lattice", "version": 1, "size": sizes, "knots": made, "rest": {"box": box},
@@ -200,7 +209,7 @@ def wishes_of(size: Any, degree: Any, insert: Any) -> tuple[Any, list[np.ndarray
     return desc, kept
 
 
-def _has_breakpoints(knots: Any) -> bool:
+def has_breakpoints(knots: Any) -> bool:
     """Whether these are ("closed", breakpoints)."""
     return isinstance(knots, tuple) and len(knots) == 2 and isinstance(knots[0], str) and knots[0] == "closed"
 
@@ -209,9 +218,9 @@ def described(size: Any, degree: Any, knots: Any) -> tuple[Any, list[np.ndarray]
     """Makes an ffd_lattice_arrays. Returns it with the arrays that must stay alive."""
     made, kept = library.filled("ffd_lattice_arrays"), []
     made.size[:], made.degree[:] = shape_of(size, degree)
-    one = isinstance(knots, str) or _has_breakpoints(knots)
+    one = isinstance(knots, str) or has_breakpoints(knots)
     for direction, knot in enumerate((knots,) * 3 if one else three(knots, "knots")):
-        word, values = (knot, None) if isinstance(knot, str) else knot if _has_breakpoints(knot) else ("default", knot)
+        word, values = (knot, None) if isinstance(knot, str) else knot if has_breakpoints(knot) else ("default", knot)
         made.knots[direction] = library.value_of("ffd_knots", word, "knots")
         if values is not None:
             kept.append(arrays.doubles(values, "knots", (len(values),)))
@@ -252,11 +261,16 @@ def csr(matrix: Any) -> Any:
     indices = arrays.lent(owned, matrix.indices, (count,), np.int32, writable=True)  # below 2**26, so the sign is never set
     parts = (arrays.lent(owned, matrix.values, (count,), np.float64, writable=True), indices.astype(kind, copy=False),
              starts.astype(kind))
+    return sparse(parts, (rows, columns))
+
+
+def sparse(parts: tuple[np.ndarray, np.ndarray, np.ndarray], shape: tuple[int, int]) -> Any:
+    """Makes a scipy csr_array, or a `Csr`, of values, columns and starts."""
     try:
         from scipy.sparse import csr_array  # type: ignore[import-untyped]
     except ImportError:
-        return Csr(*parts, (rows, columns))
-    return csr_array(parts, shape=(rows, columns))
+        return Csr(*parts, shape)
+    return csr_array(parts, shape=shape)
 
 
 def parameters_of(data: bytes, name: str) -> dict[str, Parameter]:
