@@ -18,6 +18,11 @@
 extern "C" {
 #endif
 
+/* Many points in several lattices. u,v,w in the first lattice, or in blocks, hold for any deformed control
+   points; those in later lattices are of the control points that the lattices have themselves. It is
+   immutable: any number of threads may use it. */
+typedef struct ffd_chain_embedding ffd_chain_embedding;
+
 /* What to embed in several lattices. Fill with ffd_chain_desc_init, then set lattices, count and points. */
 typedef struct ffd_chain_desc {
     size_t struct_size; /* sizeof(ffd_chain_desc) in the caller's header */
@@ -33,15 +38,14 @@ typedef struct ffd_chain_desc {
     ffd_span points;
     ffd_outside outside;
     double falloff, snap;
+    /* NULL (default), or an embedding of the same points, with the same settings, in lattices of the same
+       rest volumes (else FFD_E_INVALID): u,v,w in the first lattice, or in blocks, are taken from it. Used
+       during the call only. */
+    const ffd_chain_embedding *start;
 } ffd_chain_desc;
 
 /* Sets desc to defaults. size: sizeof(ffd_chain_desc) in the caller's header. */
 FFD_API void ffd_chain_desc_init(ffd_chain_desc *desc, size_t size);
-
-/* Many points in several lattices. u,v,w in the first lattice, or in blocks, hold for any deformed control
-   points; those in later lattices are of the control points that the lattices have themselves. It is
-   immutable: any number of threads may use it. */
-typedef struct ffd_chain_embedding ffd_chain_embedding;
 
 /* Finds u,v,w of all points, in later lattices where the ones before take them. The caller destroys
    *embedding. options may be NULL. Memory: 26 bytes a point and 25 for each further lattice of a chain, or 30
@@ -70,6 +74,11 @@ FFD_API const uint8_t *ffd_chain_embedding_get_status(const ffd_chain_embedding 
    border is nearest; UINT32_MAX: none. N numbers, which belong to the embedding. NULL where they are one
    after the other. Thread-safe. */
 FFD_API const uint32_t *ffd_chain_embedding_get_blocks(const ffd_chain_embedding *embedding);
+
+/* Returns how many pairs of blocks have volumes that overlap, where blocks may only share faces: what is in
+   both goes with the first alone. pair: filled with the indices of the first pair. Boxes with the same axes
+   are always found, other volumes by sample places. Thread-safe. */
+FFD_API size_t ffd_chain_embedding_get_overlaps(const ffd_chain_embedding *embedding, size_t pair[2]);
 
 /* Finds the bounds of the finite points as the lattices of the embedding move them: what the box of a further
    lattice goes round ({"box": "mesh"}). min, max: filled; infinite, and min greater than max, if no point is

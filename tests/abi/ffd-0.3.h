@@ -1080,6 +1080,7 @@ typedef struct ffd_cells_desc {
 int ffd_cells_kind_points(const char *kind);
 void ffd_cells_desc_init(ffd_cells_desc *desc, size_t size);
 ffd_status ffd_cells_measure(const ffd_cells_desc *desc, const ffd_run_options *options, ffd_error *error);
+typedef struct ffd_chain_embedding ffd_chain_embedding;
 typedef struct ffd_chain_desc {
     size_t struct_size;
     const ffd_lattice *const *lattices;
@@ -1088,9 +1089,9 @@ typedef struct ffd_chain_desc {
     ffd_span points;
     ffd_outside outside;
     double falloff, snap;
+    const ffd_chain_embedding *start;
 } ffd_chain_desc;
 void ffd_chain_desc_init(ffd_chain_desc *desc, size_t size);
-typedef struct ffd_chain_embedding ffd_chain_embedding;
 ffd_status ffd_chain_embedding_create(const ffd_chain_desc *desc, const ffd_run_options *options,
                                       ffd_chain_embedding **embedding, ffd_error *error);
 void ffd_chain_embedding_destroy(ffd_chain_embedding **embedding);
@@ -1098,6 +1099,7 @@ size_t ffd_chain_embedding_get_count(const ffd_chain_embedding *embedding);
 const double *ffd_chain_embedding_get_uvw(const ffd_chain_embedding *embedding);
 const uint8_t *ffd_chain_embedding_get_status(const ffd_chain_embedding *embedding);
 const uint32_t *ffd_chain_embedding_get_blocks(const ffd_chain_embedding *embedding);
+size_t ffd_chain_embedding_get_overlaps(const ffd_chain_embedding *embedding, size_t pair[2]);
 ffd_status ffd_chain_embedding_bounds(const ffd_chain_embedding *embedding, ffd_span points, double min[3],
                                       double max[3], const ffd_run_options *options, ffd_error *error);
 typedef struct ffd_chain_deform_desc {

@@ -200,6 +200,19 @@ class Products(unittest.TestCase):
             parts = sum(several.basis_times(embedding, [d if k == n else None for k, d in enumerate(D)]) for n in range(len(several)))
             self.assertLess(np.abs(parts - ahead).max(), 1e-11)
 
+    def test_an_embedding_goes_along_with_the_control_points(self):
+        for several, points in ((ffd.Chain([FIRST, SECOND, WEIGHTED]), POINTS), (ffd.Blocks(SIDES), ON_FACES)):
+            for kind, options in ((np.float64, {"outside": "extend", "falloff": 0.3}), (np.float32, {"snap": 0.01})):
+                embedding = several.embed(points.astype(kind), **options)
+                Q = [support.pushed(RANDOM, lattice, 0.04) for lattice in several.lattices]
+                made, wanted = embedding.moved(Q), several.moved(Q).embed(points.astype(kind), **options)
+                self.assertEqual((made.uvw.tobytes(), made.status.tobytes()), (wanted.uvw.tobytes(), wanted.status.tobytes()))
+                self.assertTrue(np.array_equal(made.blocks, wanted.blocks))
+                self.assertEqual(made.chain.deform(made).tobytes(), several.deform(embedding, Q).tobytes())
+                g = RANDOM.standard_normal(points.shape)
+                for a, b in zip(made.chain.basis_transposed(made, g), wanted.chain.basis_transposed(wanted, g)):
+                    self.assertEqual(a.tobytes(), b.tobytes())
+
     def test_a_chain_agrees_with_the_program(self):
         """By the control points of each lattice, through those behind it."""
         points, lattices = POINTS[8:308], [FIRST, SECOND, WEIGHTED]
@@ -257,6 +270,18 @@ class Statuses(unittest.TestCase):
         self.assertTrue(np.array_equal(nearest[inside], wanted[inside]) and (nearest >= 0).all())
         self.assertTrue(np.array_equal(nearest[~inside], np.clip(np.ceil(x[~inside] / 0.5) - 1, 0, 2)))
         self.assertTrue(np.array_equal(ffd.Blocks(SIDES[:1]).embed(ON_FACES).blocks, np.where(inside & (x <= 0.5), 0, -1)))
+
+
+    def test_volumes_that_overlap_have_a_warning(self):
+        with self.assertNoLogs("ffd_mesh"):
+            ffd.Blocks(SIDES).embed(POINTS)
+            ffd.Chain([SECOND, SECOND]).embed(POINTS)
+        with self.assertLogs("ffd_mesh", "WARNING") as found:
+            ffd.Blocks([SIDES[0], SIDES[2], SECOND]).embed(POINTS)
+        self.assertEqual(found.output, ["WARNING:ffd_mesh:the volumes of lattices 0 and 2 overlap: what is in both goes with the first lattice alone"])
+        with self.assertLogs("ffd_mesh", "WARNING") as found:
+            ffd.Blocks([SECOND, *SIDES]).embed(POINTS)
+        self.assertIn("lattices 0 and 1 overlap, and 1 more pairs do", found.output[0])
 
 
 class Use(unittest.TestCase):

@@ -137,7 +137,7 @@ class Parameters(unittest.TestCase):
             ffd.Lattice.box((0, 0, 0), (1, 1, 1)).parameters_jacobian(ffd.Lattice.box((0, 0, 0), (1, 1, 1)).embed([[0, 0, 0]]), {"C": 1})
         with self.assertRaisesRegex(ValueError, r"dp must have the shape \(5,\)"):
             lattice.parameters_times(embedding, [1])
-        with self.assertRaisesRegex(ValueError, "dfdx must have the shape"):
+        with self.assertRaisesRegex(ValueError, "g must have the shape"):
             lattice.parameters_transposed(embedding, [1])
         with self.assertRaisesRegex(ffd.InvalidError, "another lattice"):
             lattice.parameters_jacobian(ffd.Lattice.box((0, 0, 0), (1, 1, 1)).embed([[0, 0, 0]]))

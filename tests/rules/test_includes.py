@@ -123,7 +123,7 @@ LAYERS = {
         "lattice/file", "mesh", "mesh/morph",
     },
     "job/arrays": {
-        "base", "base/memory", "base/text", "base/vector", "deform", "embed", "job/chain", "mesh", "points",
+        "base", "base/memory", "base/text", "base/vector", "deform", "embed", "job/chain", "lattice", "mesh", "points",
     },
     "job/jacobian": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed/boundary", "io/npy",

@@ -333,6 +333,21 @@ static void bounds_are_those_of_the_moved_points(void **state)
     (void)state;
 }
 
+static void overlapping_blocks_are_told(void **state)
+{
+    static several s;
+    size_t pair[2];
+    for (int blocks = 0; blocks < 2; blocks++) {
+        begin(&s, blocks, FFD_OUTSIDE_KEEP);
+        ffd_chain_embedding *embedding = embed(&s);
+        assert_int_equal(ffd_chain_embedding_get_overlaps(embedding, pair), blocks ? 3 : 0);
+        assert_true(pair[0] == 0 && pair[1] == (size_t)blocks);
+        ffd_chain_embedding_destroy(&embedding);
+        end(&s);
+    }
+    (void)state;
+}
+
 static void refused(const several *s, ffd_status status, const char *words)
 {
     ffd_chain_embedding *embedding = NULL;
@@ -348,7 +363,7 @@ static void what_is_wrong_is_refused(void **state)
     static several s;
     static double out[3 * POINTS];
     begin(&s, false, FFD_OUTSIDE_KEEP);
-    ffd_lattice *unfitted, *const own = s.lattices[1];
+    ffd_lattice *unfitted, *const own = s.lattices[1], *const first = s.lattices[0];
     ffd_error error;
     assert_int_equal(parse("\"size\":[4,4,4],\"rest\":{\"box\":\"mesh\"}", "", &unfitted, &error), FFD_OK);
     s.lattices[1] = unfitted;
@@ -368,6 +383,21 @@ static void what_is_wrong_is_refused(void **state)
     refused(&s, FFD_E_EMBEDDING, "is outside of all lattices");
     s.desc.outside = FFD_OUTSIDE_KEEP;
     ffd_chain_embedding *embedding = embed(&s);
+    s.desc.start = embedding;
+    s.desc.snap = 0.1;
+    refused(&s, FFD_E_INVALID, "is of other points, settings or lattices");
+    s.desc.snap = 0;
+    s.desc.blocks = true;
+    refused(&s, FFD_E_INVALID, "is of other points, settings or lattices");
+    s.desc.blocks = false;
+    s.lattices[0] = s.lattices[1];
+    refused(&s, FFD_E_INVALID, "is of other points, settings or lattices");
+    s.lattices[0] = first;
+    ffd_chain_embedding *again = embed(&s);
+    assert_memory_equal(ffd_chain_embedding_get_uvw(again), ffd_chain_embedding_get_uvw(embedding),
+                        sizeof s.xyz);
+    ffd_chain_embedding_destroy(&again);
+    s.desc.start = NULL;
     ffd_chain_deform_desc desc;
     ffd_chain_deform_desc_init(&desc, sizeof desc);
     const ffd_lattice *const moved[] = {s.lattices[0], s.lattices[2], NULL};
@@ -434,6 +464,7 @@ int main(void)
         cmocka_unit_test(products_are_differences),
         cmocka_unit_test(gradients_are_differences),
         cmocka_unit_test(bounds_are_those_of_the_moved_points),
+        cmocka_unit_test(overlapping_blocks_are_told),
         cmocka_unit_test(what_is_wrong_is_refused),
         cmocka_unit_test(memory_may_run_out_anywhere),
     };

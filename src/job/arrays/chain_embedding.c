@@ -6,6 +6,7 @@
 #include "embed/locator_border.h"
 #include "job/chain/chain_boxes.h"
 #include "job/chain/point_outcome.h"
+#include "lattice/rest_hash.h"
 #include "points/span.h"
 #include <ffd/result.h>
 #include <math.h>
@@ -15,6 +16,23 @@ void ffd_chain_desc_init(ffd_chain_desc *desc, size_t size)
 {
     const ffd_chain_desc defaults = {.struct_size = sizeof defaults};
     ffd_struct_give(&defaults, sizeof defaults, desc, size);
+}
+
+/* Checks an embedding whose u,v,w are taken over. */
+static ffd_status check_start(const ffd_chain_desc *desc, ffd_error *error)
+{
+    const lattice_chain *const chain = &desc->start->chain;
+    const chain_outside *const outside = &chain->outside;
+    bool same = desc->start->count == desc->points.count && chain->count == desc->count &&
+                (desc->start->owners != NULL) == desc->blocks &&
+                desc->start->is_float == (desc->points.type == FFD_FLOAT32) &&
+                outside->extend == (desc->outside == FFD_OUTSIDE_EXTEND) &&
+                outside->falloff == desc->falloff && outside->snap == desc->snap;
+    for (size_t l = 0; same && l < desc->count; l++)
+        same = ffd_rest_equal(desc->lattices[l], chain->links[l].lattice);
+    return same ? FFD_OK
+                : ffd_fail(error, FFD_E_INVALID,
+                           "the embedding to start from is of other points, settings or lattices");
 }
 
 static ffd_status check(ffd_chain_desc *desc, ffd_error *error)
@@ -35,7 +53,7 @@ static ffd_status check(ffd_chain_desc *desc, ffd_error *error)
         TRY(ffd_embedding_desc_check(&one, error));
         desc->points = l + 1 == desc->count ? one.points : desc->points;
     }
-    return FFD_OK;
+    return desc->start ? check_start(desc, error) : FFD_OK;
 }
 
 static ffd_status make_link(const ffd_chain_desc *desc, const ffd_lattice *lattice, ffd_isa isa,
@@ -165,15 +183,19 @@ static ffd_status embed_tile(void *context, size_t first, size_t count, int work
     ffd_chain_embedding *const embedding = work->embedding;
     chain_room *const room = &work->rooms[worker];
     const chain_points points = {first, count, NULL};
+    const ffd_chain_embedding *const start = work->desc->start;
     ffd_span_read(&work->desc->points, first, count, room->x);
     for (size_t layer = 0; layer < embedding->layers; layer++) {
-        TRY(ffd_chain_send(embedding, embedding->chain.links, layer, false, &points, room, room->delta, NULL,
-                           error));
+        const bool known = start && layer == 0;
+        TRY(ffd_chain_send(known ? start : embedding, embedding->chain.links, layer, known, &points, room,
+                           room->delta, NULL, error));
         TRY(keep_layer(work, layer, &points, room, error));
         for (size_t i = 0; i < count && layer > 0; i++)
             ffd_outcome_join(&room->outcomes[i], &room->joined[i]);
         if (layer == 0)
             memcpy(room->joined, room->outcomes, count * sizeof *room->joined);
+        for (size_t i = 0; i < count && known && embedding->owners; i++)
+            room->joined[i].status = start->status[first + i];
     }
     return keep_statuses(work, &points, room->joined, error);
 }
@@ -243,6 +265,7 @@ ffd_status ffd_chain_embedding_create(const ffd_chain_desc *callers, const ffd_r
     (*embedding)->count = desc.points.count;
     (*embedding)->is_float = desc.points.type == FFD_FLOAT32;
     TRY_END(make_chain(&desc, run.options.isa, &(*embedding)->chain, error));
+    TRY_END(ffd_overlaps_find(&(*embedding)->chain, &(*embedding)->overlaps, error));
     TRY_END(embed_all(&desc, &run, *embedding, error));
 end:
     ffd_point_run_end(&run);
@@ -293,4 +316,11 @@ const uint8_t *ffd_chain_embedding_get_status(const ffd_chain_embedding *embeddi
 const uint32_t *ffd_chain_embedding_get_blocks(const ffd_chain_embedding *embedding)
 {
     return embedding->owners;
+}
+
+size_t ffd_chain_embedding_get_overlaps(const ffd_chain_embedding *embedding, size_t pair[2])
+{
+    pair[0] = embedding->overlaps.first;
+    pair[1] = embedding->overlaps.other;
+    return embedding->overlaps.pairs;
 }

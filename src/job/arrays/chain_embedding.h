@@ -4,6 +4,7 @@
 #define FFD_JOB_ARRAYS_CHAIN_EMBEDDING_H
 
 #include "job/chain/chain.h"
+#include "job/chain/overlaps.h"
 #include "points/embedding.h"
 #include "points/point_run.h"
 #include <ffd/chain.h>
@@ -18,6 +19,7 @@ struct ffd_chain_embedding {
     ffd_embedding *places;
     uint32_t *owners; /* the block that moves each point; BLOCK_NONE: none. NULL: of a chain */
     uint8_t *status;  /* in all lattices together */
+    overlap_pairs overlaps;
 };
 
 /* Scratch memory of a thread for a tile. All zeros before the first use. */

@@ -19,10 +19,9 @@
 
 typedef struct overlap_search {
     const lattice_chain *chain;
-    double *places;      /* PLACES a block; the first is NaN until they are computed */
-    uint32_t block;      /* the current block, which is compared with later ones */
-    size_t pairs;        /* the number of overlapping pairs, */
-    size_t first, other; /* and the lowest pair */
+    double *places; /* PLACES a block; the first is NaN until they are computed */
+    uint32_t block; /* the current block, which is compared with later ones */
+    overlap_pairs found;
     ffd_status status;
     ffd_error *error;
 } overlap_search;
@@ -109,20 +108,20 @@ static bool visit_pair(void *context, uint32_t other)
         return true;
     /* The tree visits in any order; report the pair with the lowest numbers. */
     if (overlap(search, block, other)) {
-        if (search->pairs == 0 || (search->first == block && other < search->other)) {
-            search->first = block;
-            search->other = other;
+        if (search->found.pairs == 0 || (search->found.first == block && other < search->found.other)) {
+            search->found.first = block;
+            search->found.other = other;
         }
-        search->pairs++;
+        search->found.pairs++;
     }
     return !search->status;
 }
 
-ffd_status ffd_overlaps_warn(const lattice_chain *chain, const mesh_log *log, ffd_error *error)
+ffd_status ffd_overlaps_find(const lattice_chain *chain, overlap_pairs *found, ffd_error *error)
 {
     static const double none[3] = {0, 0, 0};
     overlap_search search = {.chain = chain, .error = error};
-    char more[60] = "";
+    *found = (overlap_pairs){0};
     if (!chain->blocks)
         return FFD_OK;
     search.places = ffd_alloc(chain->count, 3 * PLACES * sizeof *search.places);
@@ -135,13 +134,22 @@ ffd_status ffd_overlaps_warn(const lattice_chain *chain, const mesh_log *log, ff
         ffd_box_tree_visit_box(&chain->tree, &chain->boxes[l], none, visit_pair, &search);
     }
     ffd_free(search.places);
-    if (search.status || search.pairs == 0)
-        return search.status;
-    if (search.pairs > 1)
-        snprintf(more, sizeof more, ", and %zu more pairs do", search.pairs - 1);
+    *found = search.found;
+    return search.status;
+}
+
+ffd_status ffd_overlaps_warn(const lattice_chain *chain, const mesh_log *log, ffd_error *error)
+{
+    overlap_pairs found;
+    char more[60] = "";
+    TRY(ffd_overlaps_find(chain, &found, error));
+    if (found.pairs == 0)
+        return FFD_OK;
+    if (found.pairs > 1)
+        snprintf(more, sizeof more, ", and %zu more pairs do", found.pairs - 1);
     ffd_log_line(log, FFD_LOG_WARNING,
                  "the volumes of %s and %s overlap%s: what is in both goes with the first {lattice} alone",
-                 chain->links[search.first].lattice->spec->name,
-                 chain->links[search.other].lattice->spec->name, more);
+                 chain->links[found.first].lattice->spec->name, chain->links[found.other].lattice->spec->name,
+                 more);
     return FFD_OK;
 }

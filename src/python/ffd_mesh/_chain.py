@@ -76,6 +76,12 @@ class ChainEmbedding:
         counts = np.bincount(self.status, minlength=len(Status))
         return {status: int(counts[status]) for status in Status}
 
+    def moved(self, Q: Several | None = None, *, offsets: Several | None = None, weights: Sequence[Grid | None] | None = None, threads: int = 0,
+              isa: Isa = "auto", progress: Progress | None = None) -> ChainEmbedding:
+        """Returns the embedding of the same points in `chain.moved(Q, ..)`, at whose control points products are: u, v, w in the first
+        lattice, and in blocks, are not searched again."""
+        return self.chain.moved(Q, offsets=offsets, weights=weights)._embed(self.points, self._options, Run(threads, isa, progress), self)
+
     def __repr__(self) -> str:
         counted = ", ".join(f"{count} {status.name.lower()}" for status, count in self.counts.items() if count)
         return f"<ChainEmbedding of {len(self)} points in {len(self.chain.lattices)} lattices: {counted or 'none'}>"
@@ -161,17 +167,8 @@ class _Several:
 
         Arguments, and what is kept of the points, as in `Lattice.embed`; outside="error" refuses a point that is outside of all lattices.
         """
-        points = arrays.readable(arrays.vectors(points, "points"))
-        pointers = (ctypes.c_void_p * len(self.lattices))(*(lattice._fitted.value for lattice in self.lattices))
-        desc = library.filled("ffd_chain_desc")
-        desc.lattices, desc.count, desc.blocks = ctypes.addressof(pointers), len(self.lattices), self._side_by_side
-        desc.points = arrays.span(points)
-        desc.outside = library.value_of("ffd_outside", outside, "outside")
-        desc.falloff, desc.snap = library.real(falloff, "falloff"), library.real(snap, "snap")
-        owned = Owned(lib.ffd_chain_embedding_destroy)
-        Run(threads, isa, progress)(lib.ffd_chain_embedding_create, ctypes.byref(desc), last=(ctypes.byref(owned.pointer),))
-        del pointers
-        return ChainEmbedding._of(owned, self, points, {"outside": outside, "falloff": desc.falloff, "snap": desc.snap})
+        options = {"outside": outside, "falloff": library.real(falloff, "falloff"), "snap": library.real(snap, "snap")}
+        return self._embed(arrays.readable(arrays.vectors(points, "points")), options, Run(threads, isa, progress))
 
     @overload
     def deform(self, embedding: ChainEmbedding, Q: Several | None = None, *, offsets: Several | None = None,
@@ -272,6 +269,24 @@ class _Several:
 
     # -- internal
 
+    def _embed(self, points: np.ndarray, options: dict[str, Any], run: Run, start: ChainEmbedding | None = None) -> ChainEmbedding:
+        """Embeds points. start: of the same points, with the same options, in the same lattices at rest."""
+        pointers = (ctypes.c_void_p * len(self.lattices))(*(lattice._fitted.value for lattice in self.lattices))
+        desc = library.filled("ffd_chain_desc")
+        desc.lattices, desc.count, desc.blocks = ctypes.addressof(pointers), len(self.lattices), self._side_by_side
+        desc.points = arrays.span(points)
+        desc.outside = library.value_of("ffd_outside", options["outside"], "outside")
+        desc.falloff, desc.snap = options["falloff"], options["snap"]
+        desc.start = None if start is None else start._pointer.value
+        owned = Owned(lib.ffd_chain_embedding_destroy)
+        run(lib.ffd_chain_embedding_create, ctypes.byref(desc), last=(ctypes.byref(owned.pointer),))
+        pair = (ctypes.c_size_t * 2)()
+        pairs = lib.ffd_chain_embedding_get_overlaps(owned.pointer, pair) if start is None else 0
+        if pairs:
+            library.LOG.warning("the volumes of lattices %d and %d overlap%s: what is in both goes with the first lattice alone", *pair,
+                                f", and {pairs - 1} more pairs do" if pairs > 1 else "")
+        return ChainEmbedding._of(owned, self, points, options)
+
     def _with(self: _Self, lattices: Sequence[Lattice]) -> _Self:
         return type(self)(lattices)
 
@@ -322,7 +337,8 @@ def _alike(a: Lattice, b: Lattice) -> bool:
 
 
 class Chain(_Several):
-    """Lattices that act one after the other, as several -l of `ffd deform`: what one has moved is embedded in the next.
+    """Lattices that act one after the other, as several -l of `ffd deform`: what one has moved is embedded in the next. (A point on a
+    common face of two is moved by both: volumes that lie side by side are `Blocks`.)
 
         chain = ffd_mesh.Chain([bend, twist])
         embedding = chain.embed(points)
@@ -336,7 +352,8 @@ class Chain(_Several):
 
 class Blocks(_Several):
     """Lattices side by side, as with `--blocks` of `ffd deform`: all act on the points at rest, each point in the first lattice that
-    holds it. Their volumes may share faces; a point on a common face is in the first of both.
+    holds it. Their volumes may share faces; a point on a common face is in the first of both. `embed` warns of volumes that overlap in the
+    log "ffd_mesh".
 
     Immutable, so threads may share it. Can be pickled. lattices: the `Lattice` objects, in their order
     """

@@ -99,11 +99,11 @@ def parameters_times(lattice: Lattice, run: Run, embedding: Embedding, dp: Any, 
     return out
 
 
-def parameters_transposed(lattice: Lattice, run: Run, embedding: Embedding, dfdx: Any,
+def parameters_transposed(lattice: Lattice, run: Run, embedding: Embedding, g: Any,
                           values: Mapping[str, Any] | None) -> np.ndarray:
     """`Lattice.parameters_transposed`."""
     lattice._check_same(embedding)
-    numbers = arrays.doubles(dfdx, "dfdx", (len(embedding), 3))
+    numbers = arrays.doubles(g, "g", (len(embedding), 3))
     variables = _variables(lattice, values)
     out = np.zeros(len(variables.names))
     if variables.owned is not None:
@@ -131,10 +131,10 @@ def weights_times(lattice: Lattice, run: Run, embedding: Embedding, dw: Any) -> 
     return out
 
 
-def weights_transposed(lattice: Lattice, run: Run, embedding: Embedding, dfdx: Any) -> np.ndarray:
+def weights_transposed(lattice: Lattice, run: Run, embedding: Embedding, g: Any) -> np.ndarray:
     """`Lattice.weights_transposed`."""
     lattice._check_same(embedding)
-    numbers = arrays.doubles(dfdx, "dfdx", (len(embedding), 3))
+    numbers = arrays.doubles(g, "g", (len(embedding), 3))
     out = np.empty(lattice.size[::-1])
     run(lib.ffd_embedding_weights_transposed, embedding._pointer, lattice._fitted, arrays.address(numbers), arrays.address(out))
     return np.ascontiguousarray(out.transpose(2, 1, 0))

@@ -559,6 +559,7 @@ class Lattice:
                 their defaults
         Columns are in the order in which the file first uses the placeholders: see `parameter_columns`. Raises `InvalidError` if
         control points were set since (`moved`), or where a placeholder is no number that moves points (a text, an index, a seed).
+        Lattices made of this one (`strength`, `refine` ..) have no placeholders.
         """
         return derivatives.parameters_jacobian(self, Run(threads, isa, progress), embedding, values)
 
@@ -567,11 +568,11 @@ class Lattice:
         """Computes `parameters_jacobian` @ dp for changes dp (m,) of the numbers, without storing it: (N, 3) float64."""
         return derivatives.parameters_times(self, Run(threads, isa, progress), embedding, dp, values)
 
-    def parameters_transposed(self, embedding: Embedding, dfdx: Rows, values: Mapping[str, Any] | None = None, *, threads: int = 0,
+    def parameters_transposed(self, embedding: Embedding, g: Rows, values: Mapping[str, Any] | None = None, *, threads: int = 0,
                               isa: Isa = "auto", progress: Progress | None = None) -> Doubles:
-        """The derivative of a scalar f by the numbers of the placeholders, (m,) float64. dfdx: its derivative by the deformed
-        points, (N, 3)."""
-        return derivatives.parameters_transposed(self, Run(threads, isa, progress), embedding, dfdx, values)
+        """The derivative of a scalar f by the numbers of the placeholders, (m,) float64. g: its derivative by the deformed points,
+        (N, 3)."""
+        return derivatives.parameters_transposed(self, Run(threads, isa, progress), embedding, g, values)
 
     def weights_jacobian(self, embedding: Embedding, *, threads: int = 0, isa: Isa = "auto",
                          progress: Progress | None = None) -> Doubles:
@@ -585,11 +586,11 @@ class Lattice:
         """Computes `weights_jacobian` @ dw for changes dw of the weights, (nu, nv, nw) or (nu*nv*nw,), without storing it: (N, 3)."""
         return derivatives.weights_times(self, Run(threads, isa, progress), embedding, dw)
 
-    def weights_transposed(self, embedding: Embedding, dfdx: Rows, *, threads: int = 0, isa: Isa = "auto",
+    def weights_transposed(self, embedding: Embedding, g: Rows, *, threads: int = 0, isa: Isa = "auto",
                            progress: Progress | None = None) -> Doubles:
-        """The derivative of a scalar f by the weights of the deformed volume, (nu, nv, nw) float64. dfdx: its derivative by the
-        deformed points, (N, 3)."""
-        return derivatives.weights_transposed(self, Run(threads, isa, progress), embedding, dfdx)
+        """The derivative of a scalar f by the weights of the deformed volume, (nu, nv, nw) float64. g: its derivative by the deformed
+        points, (N, 3)."""
+        return derivatives.weights_transposed(self, Run(threads, isa, progress), embedding, g)
 
     @overload
     def evaluate(self, uvw: Rows, *, volume: Volume = "deformed", jacobians: Literal[False] = False, threads: int = 0, isa: Isa = "auto",

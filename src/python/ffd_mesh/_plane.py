@@ -381,11 +381,11 @@ class PlaneLattice:
         numbers = np.repeat(arrays.doubles(given, "dw", shape).reshape(self.size)[:, :, None], 2, axis=2)
         return np.ascontiguousarray(self.solid.weights_times(solid, numbers, threads=threads, isa=isa, progress=progress)[:, :2])
 
-    def weights_transposed(self, embedding: PlaneEmbedding, dfdx: Rows, *, threads: int = 0, isa: Isa = "auto",
+    def weights_transposed(self, embedding: PlaneEmbedding, g: Rows, *, threads: int = 0, isa: Isa = "auto",
                            progress: Progress | None = None) -> Doubles:
-        """The derivative of a scalar f by the weights of the deformed plane, (n, m) float64. dfdx: its derivative by the points, (N, 2)."""
+        """The derivative of a scalar f by the weights of the deformed plane, (n, m) float64. g: its derivative by the points, (N, 2)."""
         solid = self._solid_of(embedding)
-        numbers = raised(arrays.doubles(dfdx, "dfdx", (len(embedding), 2)))
+        numbers = raised(arrays.doubles(g, "g", (len(embedding), 2)))
         made = self.solid.weights_transposed(solid, numbers, threads=threads, isa=isa, progress=progress)
         return np.ascontiguousarray(made[:, :, 0] + made[:, :, 1])
 
