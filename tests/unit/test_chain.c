@@ -333,6 +333,49 @@ static void bounds_are_those_of_the_moved_points(void **state)
     (void)state;
 }
 
+#define MANY ((size_t)9000)
+
+static void threads_change_nothing(void **state)
+{
+    static several s;
+    static double xyz[3 * MANY], out[2][3 * MANY], dx[2][3 * MANY], back[2][LATTICES][3 * 200];
+    draw d = {draw_seed()};
+    for (size_t i = 0; i < 3 * MANY; i++)
+        xyz[i] = draw_between(&d, -1.2, 1.2);
+    for (int blocks = 0; blocks < 2; blocks++) {
+        begin(&s, blocks, FFD_OUTSIDE_EXTEND);
+        s.desc.points = (ffd_span){.data = xyz, .count = MANY};
+        for (int way = 0; way < 2; way++) {
+            ffd_run_options options;
+            ffd_chain_deform_desc desc;
+            ffd_chain_embedding *embedding;
+            const double *dq[LATTICES];
+            double *dfdq[LATTICES];
+            ffd_run_options_init(&options, sizeof options);
+            options.threads = way ? 4 : 1;
+            ffd_chain_deform_desc_init(&desc, sizeof desc);
+            desc.in = s.desc.points;
+            desc.out = (ffd_span){.data = out[way], .count = MANY};
+            for (size_t l = 0; l < LATTICES; l++) {
+                assert_true(s.sizes[l] <= 200);
+                dq[l] = ffd_lattice_get_offsets(s.lattices[l]);
+                dfdq[l] = back[way][l];
+            }
+            assert_int_equal(ffd_chain_embedding_create(&s.desc, &options, &embedding, NULL), FFD_OK);
+            assert_int_equal(ffd_chain_embedding_deform(embedding, &desc, &options, NULL), FFD_OK);
+            assert_int_equal(ffd_chain_embedding_basis_times(embedding, dq, dx[way], &options, NULL), FFD_OK);
+            assert_int_equal(ffd_chain_embedding_basis_transposed(embedding, xyz, dfdq, &options, NULL),
+                             FFD_OK);
+            ffd_chain_embedding_destroy(&embedding);
+        }
+        assert_memory_equal(out[0], out[1], sizeof out[0]);
+        assert_memory_equal(dx[0], dx[1], sizeof dx[0]);
+        assert_memory_equal(back[0], back[1], sizeof back[0]);
+        end(&s);
+    }
+    (void)state;
+}
+
 static void overlapping_blocks_are_told(void **state)
 {
     static several s;
@@ -464,6 +507,7 @@ int main(void)
         cmocka_unit_test(products_are_differences),
         cmocka_unit_test(gradients_are_differences),
         cmocka_unit_test(bounds_are_those_of_the_moved_points),
+        cmocka_unit_test(threads_change_nothing),
         cmocka_unit_test(overlapping_blocks_are_told),
         cmocka_unit_test(what_is_wrong_is_refused),
         cmocka_unit_test(memory_may_run_out_anywhere),
