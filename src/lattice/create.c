@@ -1,6 +1,7 @@
 /* create.c - ffd_lattice_create: makes a lattice round points from the caller's description. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/spelling.h"
 #include "base/struct_size.h"
 #include "base/vector/direction.h"
 #include "base/vector/principal.h"
@@ -25,11 +26,11 @@ static ffd_status check_counts(const ffd_lattice_desc *desc, ffd_error *error)
     for (int a = 0; a < 3; a++) {
         const int degree = desc->degree[a];
         if (desc->size[a] < 2)
-            return ffd_fail(error, FFD_E_ARGUMENT, "{size} %zu along %c is less than 2%s", desc->size[a],
-                            "uvw"[a],
-                            desc -> size[a] < 1 ? ""
-                                                : ": a plane needs two layers that move alike: {size} 5,5,2, "
-                                                  "{degree} 3,3,1, and \"at\": [i, j, \"all\"]");
+            return ffd_fail(
+                error, FFD_E_ARGUMENT, "{size} %zu along %c is less than 2%s", desc->size[a], "uvw"[a],
+                desc -> size[a] < 1 ? ""
+                                    : SPELLED(": a plane needs two layers that move alike: {size} 5,5,2, "
+                                              "{degree} 3,3,1, and \"at\": [i, j, \"all\"]"));
         if (desc->size[a] > FFD_MAX_CONTROL_POINTS / count)
             return ffd_fail(error, FFD_E_LIMIT,
                             "{size}: a lattice of %zu by %zu by %zu has more than %zu control points",

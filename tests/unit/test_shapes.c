@@ -498,6 +498,12 @@ static void a_created_box_encloses_the_finite_points(void **state)
     assert_int_equal(ffd_lattice_create(&desc, points + 6, 1, &l, &error), FFD_E_INVALID);
     assert_null(l);
     assert_int_equal(ffd_lattice_create(&desc, points, 0, &l, &error), FFD_E_INVALID);
+    desc.size[2] = 1;
+    assert_int_equal(ffd_lattice_create(&desc, points, 5, &l, &error), FFD_E_ARGUMENT);
+    assert_string_equal(
+        error.message, "size 1 along w is less than 2: a plane needs two layers that move alike: size 5,5,2, "
+                       "degree 3,3,1, and \"at\": [i, j, \"all\"]");
+    desc.size[2] = 4;
     desc.spacing = FFD_SPACING_UNIFORM;
     desc.size[1] = 2;
     assert_int_equal(ffd_lattice_create(&desc, points, 2, &l, &error), FFD_OK);
