@@ -285,6 +285,9 @@ class Lattices(unittest.TestCase):
         self.refused(ValueError, r"low must have the shape \(2,\)", ffd.Lattice.plane, (0, 0, 0), (1, 1))
         self.refused(ValueError, "size must be one value, or two, not 3", ffd.Lattice.plane, (0, 0), (1, 1), (3, 3, 3))
         self.refused(ValueError, "degree must be one value, or two", ffd.Lattice.plane, (0, 0), (1, 1), 4, (1, 1, 1))
+        self.refused(ValueError, "size must be 2 to .*, not 1", ffd.Lattice.plane, (0, 0), (1, 1), (1, 4))
+        for make in (lambda: ffd.Lattice.box((0, 0, 0), (1, 1, 1), (5, 5, 1)), lambda: ffd.Lattice.around(np.zeros((3, 3)), (5, 5, 1))):
+            self.refused(ValueError, "size 1 along w is less than 2: Lattice.plane makes a lattice of a plane", make)
         for low, high in (((0, 0), (0, 1)), ((0, 0), (np.nan, 1)), ((1, 1), (0, 0)), ((0, 0), (np.inf, 1))):
             self.refused(ffd.Error, "", ffd.Lattice.plane, low, high)
         self.refused(ValueError, r"points must have the shape \(N, 2\), not \(3000, 3\)", plane.embed, np.zeros((3000, 3)))

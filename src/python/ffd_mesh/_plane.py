@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays as arrays
+from . import _library as library
 from ._embedding import Embedding, Status
 from ._lattice import Lattice
 from ._library import Progress
@@ -136,7 +137,7 @@ class PlaneLattice:
         side = float((highest - lowest).max())
         # A power of two, so that w is 1/2 in the plane, to the bit.
         half = math.ldexp(1.0, max(-500, min(math.frexp(side)[1], 500)) - 2) if 0 < side < math.inf else 1.0
-        sizes, degrees = pair(size, "size"), pair(degree, "degree")
+        sizes, degrees = [library.integer(value, "size", 2, 2**62) for value in pair(size, "size")], pair(degree, "degree")
         kinds: Any = (knots, knots) if isinstance(knots, str) or has_breakpoints(knots) else pair(knots, "knots")
         return cls._of(Lattice.box([*lowest, -half], [*highest, half], [*sizes, 2], [*degrees, 1], knots=[*kinds, "clamped"]))
 

@@ -158,6 +158,8 @@ def box_content(low: Any, high: Any, size: Any, degree: Any, knots: Any, axes: A
 def shape_of(size: Any, degree: Any) -> tuple[list[int], list[int]]:
     """Converts sizes and degrees for the library, which takes 0 for a degree that is not given."""
     sizes = [library.integer(value, "size", 1, 2**62) for value in three(size, "size")]
+    if 1 in sizes:
+        raise ValueError(f"size 1 along {'uvw'[sizes.index(1)]} is less than 2: Lattice.plane makes a lattice of a plane")
     return sizes, degrees_of(degree)
 
 
