@@ -66,6 +66,14 @@ static void begin(several *s, bool blocks, ffd_outside outside)
     s->desc.falloff = outside == FFD_OUTSIDE_EXTEND ? 0.3 : 0;
 }
 
+/* Takes the points off the faces of the boxes, where a step would take them to the other side. */
+static void leave_faces(several *s)
+{
+    draw d = {draw_seed()};
+    for (size_t i = 0; i < 3 * POINTS; i++)
+        s->xyz[i] = isfinite(s->xyz[i]) ? draw_between(&d, -1.2, 1.2) : s->xyz[i];
+}
+
 static void end(several *s)
 {
     for (size_t l = 0; l < LATTICES; l++)
@@ -217,6 +225,7 @@ static void products_are_differences(void **state)
     draw d = {draw_seed()};
     for (int kind = 0; kind < 4; kind++) {
         begin(&s, kind % 2 == 1, kind < 2 ? FFD_OUTSIDE_KEEP : FFD_OUTSIDE_EXTEND);
+        leave_faces(&s);
         ffd_chain_embedding *embedding = embed(&s);
         double *dq[LATTICES], *dfdq[LATTICES], forward = 0, back = 0, size = 0;
         ffd_lattice *sides[2][LATTICES];
@@ -253,8 +262,8 @@ static void products_are_differences(void **state)
             }
             near += agrees;
         }
-        /* A few points cross the border of a later lattice with the step. */
-        assert_true(near > POINTS - POINTS / 50);
+        /* A point may cross the border of a later lattice with the step, or a kink of its border. */
+        assert_true(near + 4 >= POINTS);
         assert_int_equal(ffd_chain_embedding_basis_transposed(embedding, dfdx, dfdq, NULL, NULL), FFD_OK);
         for (size_t l = 0; l < LATTICES; l++)
             for (size_t i = 0; i < 3 * s.sizes[l]; i++)
@@ -280,6 +289,7 @@ static void gradients_are_differences(void **state)
     const double step = 1e-6;
     for (int kind = 0; kind < 4; kind++) {
         begin(&s, kind % 2 == 1, kind < 2 ? FFD_OUTSIDE_KEEP : FFD_OUTSIDE_EXTEND);
+        leave_faces(&s);
         ffd_chain_embedding *embedding = embed(&s);
         ffd_chain_deform_desc desc;
         ffd_chain_deform_desc_init(&desc, sizeof desc);
@@ -304,7 +314,7 @@ static void gradients_are_differences(void **state)
                                    gradients[9 * i + 3 * r + c]) > 1e-5);
             }
         }
-        assert_true(near > 9 * (POINTS - POINTS / 8));
+        assert_true(near + 9 * 6 >= 9 * POINTS);
         end(&s);
     }
     (void)state;
