@@ -50,8 +50,8 @@ FFD_API void ffd_chain_desc_init(ffd_chain_desc *desc, size_t size);
 /* Finds u,v,w of all points, in later lattices where the ones before take them. The caller destroys
    *embedding. options may be NULL. Memory: 26 bytes a point and 25 for each further lattice of a chain, or 30
    with blocks; the lattices and their search structures; with FFD_OUTSIDE_EXTEND 140 more bytes for each
-   point outside of a lattice. Thread-safe. Errors: as of ffd_embedding_create, and FFD_E_ARGUMENT (no
-   lattice, or too many). */
+   point outside of a lattice. Thread-safe. Errors: as of ffd_embedding_create, also FFD_E_ARGUMENT (no
+   lattice), FFD_E_LIMIT (too many). */
 FFD_API ffd_status ffd_chain_embedding_create(const ffd_chain_desc *desc, const ffd_run_options *options,
                                               ffd_chain_embedding **embedding, ffd_error *error);
 
@@ -81,9 +81,12 @@ FFD_API const uint32_t *ffd_chain_embedding_get_blocks(const ffd_chain_embedding
 FFD_API size_t ffd_chain_embedding_get_overlaps(const ffd_chain_embedding *embedding, size_t pair[2]);
 
 /* Finds the bounds of the finite points as the lattices of the embedding move them: what the box of a further
-   lattice goes round ({"box": "mesh"}). min, max: filled; infinite, and min greater than max, if no point is
-   finite. options may be NULL. Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_CANCELLED, FFD_E_MEMORY. points: as
-   they were embedded. */
+   lattice goes round ({"box": "mesh"}).
+   - points: the N points that were embedded.
+   - min, max: filled; infinite, and min greater than max, if no point is finite.
+   - options: may be NULL.
+
+   Thread-safe. Errors: FFD_E_ARGUMENT, FFD_E_CANCELLED, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_chain_embedding_bounds(const ffd_chain_embedding *embedding, ffd_span points,
                                               double min[3], double max[3], const ffd_run_options *options,
                                               ffd_error *error);

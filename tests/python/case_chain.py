@@ -238,6 +238,11 @@ class Products(unittest.TestCase):
             D, g = RANDOM.standard_normal(WEIGHTED.rest.shape), RANDOM.standard_normal(POINTS.shape)
             self.assertLess(np.abs(one.basis_times(embedding, [D]) - WEIGHTED.basis_times(alone, D)).max(), 1e-14)
             self.assertEqual(one.basis_transposed(embedding, g)[0].tobytes(), WEIGHTED.basis_transposed(alone, g).tobytes())
+            more = {"normals": g, "tangents": g[:, ::-1], "gradients": True, "weight": RANDOM.random(5000), "triangles": RANDOM.integers(8, 5000, (900, 3))}
+            found, wanted = one.deform(embedding, **more), WEIGHTED.deform(alone, **more)
+            for name in ("points", "normals", "tangents", "gradients"):
+                self.assertEqual(getattr(found, name).tobytes(), getattr(wanted, name).tobytes(), name)
+            self.assertEqual(found.collapsed, wanted.collapsed)
 
 
 class Statuses(unittest.TestCase):
