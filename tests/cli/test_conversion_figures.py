@@ -19,9 +19,9 @@ WIDE, HIGH = 9, 7
 GRID = [[i / 4, j / 4, math.sin(i * j) / 8] for j in range(HIGH) for i in range(WIDE)]
 FACES = [[k, k + 1, k + WIDE + 1, k + WIDE] for k in range(WIDE * (HIGH - 1)) if k % WIDE < WIDE - 1]
 TRIANGLES = [[f[0], f[k], f[k + 1]] for f in FACES for k in (1, 2)]
-# These say nothing of the deformation, or are of the file that is written.
+# These say nothing of the deformation, are of the file that is written, or (cells) of formats that are not converted.
 NOT_FIGURES = {"line", "input", "output", "outputs", "positions", "row", "picture", "page", "own_frame", "set", "status", "exit", "error",
-               "seconds", "indices_left", "bytes_left", "bounds_left", "morphs", "precision"}
+               "seconds", "indices_left", "bytes_left", "bounds_left", "morphs", "precision", "cells"}
 GATES = ("--fail-on", "edges=1e9,flipped=1000000")
 
 
