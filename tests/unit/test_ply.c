@@ -37,43 +37,43 @@ static void every_type_is_loaded_and_stored(void **state)
     (void)state;
     static const struct {
         const char *name;
-        ply_type type;
+        number_type type;
         size_t size;
         const char *bytes; /* big endian */
         double value;
     } cases[] = {
-        {"char", PLY_CHAR, 1, "\x80", -128},
-        {"int8", PLY_CHAR, 1, "\x7f", 127},
-        {"uchar", PLY_UCHAR, 1, "\x80", 128},
-        {"uint8", PLY_UCHAR, 1, "\xff", 255},
-        {"short", PLY_SHORT, 2, "\xff\xfe", -2},
-        {"int16", PLY_SHORT, 2, "\x01\x02", 258},
-        {"ushort", PLY_USHORT, 2, "\xff\xfe", 65534},
-        {"uint16", PLY_USHORT, 2, "\x00\x01", 1},
-        {"int", PLY_INT, 4, "\x80\x00\x00\x00", -2147483648.0},
-        {"int32", PLY_INT, 4, "\x00\x01\x00\x02", 65538},
-        {"uint", PLY_UINT, 4, "\xff\xff\xff\xff", 4294967295.0},
-        {"uint32", PLY_UINT, 4, "\x80\x00\x00\x00", 2147483648.0},
-        {"float", PLY_FLOAT, 4, "\xbf\xc0\x00\x00", -1.5},
-        {"float32", PLY_FLOAT, 4, "\x00\x00\x00\x01", 1.401298464324817e-45},
-        {"double", PLY_DOUBLE, 8, "\x3f\xf0\x00\x00\x00\x00\x00\x01", 1.0000000000000002},
-        {"float64", PLY_DOUBLE, 8, "\xc0\x00\x00\x00\x00\x00\x00\x00", -2},
+        {"char", NUMBER_INT8, 1, "\x80", -128},
+        {"int8", NUMBER_INT8, 1, "\x7f", 127},
+        {"uchar", NUMBER_UINT8, 1, "\x80", 128},
+        {"uint8", NUMBER_UINT8, 1, "\xff", 255},
+        {"short", NUMBER_INT16, 2, "\xff\xfe", -2},
+        {"int16", NUMBER_INT16, 2, "\x01\x02", 258},
+        {"ushort", NUMBER_UINT16, 2, "\xff\xfe", 65534},
+        {"uint16", NUMBER_UINT16, 2, "\x00\x01", 1},
+        {"int", NUMBER_INT32, 4, "\x80\x00\x00\x00", -2147483648.0},
+        {"int32", NUMBER_INT32, 4, "\x00\x01\x00\x02", 65538},
+        {"uint", NUMBER_UINT32, 4, "\xff\xff\xff\xff", 4294967295.0},
+        {"uint32", NUMBER_UINT32, 4, "\x80\x00\x00\x00", 2147483648.0},
+        {"float", NUMBER_FLOAT, 4, "\xbf\xc0\x00\x00", -1.5},
+        {"float32", NUMBER_FLOAT, 4, "\x00\x00\x00\x01", 1.401298464324817e-45},
+        {"double", NUMBER_DOUBLE, 8, "\x3f\xf0\x00\x00\x00\x00\x00\x01", 1.0000000000000002},
+        {"float64", NUMBER_DOUBLE, 8, "\xc0\x00\x00\x00\x00\x00\x00\x00", -2},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
-        ply_type type;
+        number_type type;
         char turned[8];
         double value = 0;
         const size_t size = cases[i].size;
         assert_true(ffd_ply_type_of(word_of(cases[i].name, strlen(cases[i].name)), &type));
         assert_int_equal(type, cases[i].type);
-        assert_int_equal(ffd_ply_type_size(type), size);
+        assert_int_equal(ffd_type_size(type), size);
         for (size_t k = 0; k < size && k < sizeof turned; k++)
             turned[k] = cases[i].bytes[size - 1 - k];
         assert_true(ffd_ply_load(PLY_BIG_ENDIAN, type, word_of(cases[i].bytes, size), &value));
         assert_true(value == cases[i].value);
         assert_true(ffd_ply_load(PLY_LITTLE_ENDIAN, type, word_of(turned, size), &value));
         assert_true(value == cases[i].value);
-        if (ply_is_whole(type))
+        if (!number_is_real(type))
             continue;
         char stored[FFD_NUMBER_CAPACITY];
         assert_int_equal(ffd_ply_store(PLY_BIG_ENDIAN, type, value, stored), size);
@@ -81,7 +81,7 @@ static void every_type_is_loaded_and_stored(void **state)
         assert_int_equal(ffd_ply_store(PLY_LITTLE_ENDIAN, type, value, stored), size);
         assert_memory_equal(stored, turned, size);
     }
-    ply_type type;
+    number_type type;
     static const char *const unknown[] = {"", "Float", "float16", "long", "int64", "floats", "list"};
     for (size_t i = 0; i < COUNT(unknown); i++)
         assert_false(ffd_ply_type_of(word_of(unknown[i], strlen(unknown[i])), &type));
@@ -94,19 +94,19 @@ static void ascii_numbers_are_rounded_and_written_by_type(void **state)
     static const char above[] = "1.000000059604644775390625000000001";
     double value;
     char text[FFD_NUMBER_CAPACITY];
-    assert_true(ffd_ply_load(PLY_ASCII, PLY_FLOAT, word_of(above, strlen(above)), &value));
+    assert_true(ffd_ply_load(PLY_ASCII, NUMBER_FLOAT, word_of(above, strlen(above)), &value));
     assert_true(value == 1 + (double)FLT_EPSILON);
-    assert_true(ffd_ply_load(PLY_ASCII, PLY_DOUBLE, word_of(above, strlen(above)), &value));
+    assert_true(ffd_ply_load(PLY_ASCII, NUMBER_DOUBLE, word_of(above, strlen(above)), &value));
     assert_true(value == 1 + (double)FLT_EPSILON / 2);
-    assert_true(ffd_ply_load(PLY_ASCII, PLY_FLOAT, word_of("1e39", 4), &value));
+    assert_true(ffd_ply_load(PLY_ASCII, NUMBER_FLOAT, word_of("1e39", 4), &value));
     assert_true(isinf(value));
-    assert_true(ffd_ply_load(PLY_ASCII, PLY_FLOAT, word_of("-1e-46", 6), &value));
+    assert_true(ffd_ply_load(PLY_ASCII, NUMBER_FLOAT, word_of("-1e-46", 6), &value));
     assert_true(value == 0 && signbit(value));
-    assert_false(ffd_ply_load(PLY_ASCII, PLY_FLOAT, word_of("1x", 2), &value));
-    assert_false(ffd_ply_load(PLY_ASCII, PLY_INT, word_of("one", 3), &value));
-    assert_int_equal(ffd_ply_store(PLY_ASCII, PLY_FLOAT, ply_round(PLY_FLOAT, 0.1), text), 3);
+    assert_false(ffd_ply_load(PLY_ASCII, NUMBER_FLOAT, word_of("1x", 2), &value));
+    assert_false(ffd_ply_load(PLY_ASCII, NUMBER_INT32, word_of("one", 3), &value));
+    assert_int_equal(ffd_ply_store(PLY_ASCII, NUMBER_FLOAT, number_round(NUMBER_FLOAT, 0.1), text), 3);
     assert_memory_equal(text, "0.1", 3);
-    assert_int_equal(ffd_ply_store(PLY_ASCII, PLY_DOUBLE, (double)0.1F, text), 19);
+    assert_int_equal(ffd_ply_store(PLY_ASCII, NUMBER_DOUBLE, (double)0.1F, text), 19);
     assert_memory_equal(text, "0.10000000149011612", 19);
 }
 
@@ -114,14 +114,14 @@ static void only_whole_counts_are_accepted(void **state)
 {
     (void)state;
     size_t count;
-    assert_true(ffd_ply_load_count(PLY_ASCII, PLY_UCHAR, word_of("3", 1), &count) && count == 3);
-    assert_int_equal(ffd_ply_load_count(PLY_ASCII, PLY_INT, word_of("4294967296", 10), &count),
+    assert_true(ffd_ply_load_count(PLY_ASCII, NUMBER_UINT8, word_of("3", 1), &count) && count == 3);
+    assert_int_equal(ffd_ply_load_count(PLY_ASCII, NUMBER_INT32, word_of("4294967296", 10), &count),
                      SIZE_MAX > UINT32_MAX);
     static const char *const bad[] = {"-1", "1.5", "nan", "1e300", "inf", "x", "9007199254740992"};
     for (size_t i = 0; i < COUNT(bad); i++)
-        assert_false(ffd_ply_load_count(PLY_ASCII, PLY_INT, word_of(bad[i], strlen(bad[i])), &count));
-    assert_false(ffd_ply_load_count(PLY_BIG_ENDIAN, PLY_CHAR, word_of("\xff", 1), &count));
-    assert_true(ffd_ply_load_count(PLY_BIG_ENDIAN, PLY_UCHAR, word_of("\xff", 1), &count) && count == 255);
+        assert_false(ffd_ply_load_count(PLY_ASCII, NUMBER_INT32, word_of(bad[i], strlen(bad[i])), &count));
+    assert_false(ffd_ply_load_count(PLY_BIG_ENDIAN, NUMBER_INT8, word_of("\xff", 1), &count));
+    assert_true(ffd_ply_load_count(PLY_BIG_ENDIAN, NUMBER_UINT8, word_of("\xff", 1), &count) && count == 255);
 }
 
 /* Refusals */
@@ -238,18 +238,18 @@ typedef struct sample {
     sample_kind kind;
 } sample;
 
-static void put(sample *s, ply_type type, double value)
+static void put(sample *s, number_type type, double value)
 {
     char bytes[FFD_NUMBER_CAPACITY];
     const ply_encoding encoding = s->kind.encoding;
-    if (encoding == PLY_ASCII || !ply_is_whole(type)) {
-        size_t size = ffd_ply_store(encoding, type, ply_round(type, value), bytes);
+    if (encoding == PLY_ASCII || number_is_real(type)) {
+        size_t size = ffd_ply_store(encoding, type, number_round(type, value), bytes);
         ffd_buffer_append(&s->bytes, bytes, size);
         if (encoding == PLY_ASCII)
             ffd_buffer_text(&s->bytes, " ");
         return;
     }
-    const size_t size = ffd_ply_type_size(type);
+    const size_t size = ffd_type_size(type);
     const uint32_t bits = (uint32_t)(int64_t)value;
     for (size_t i = 0; i < size; i++)
         bytes[i] = (char)(bits >> (8 * (encoding == PLY_BIG_ENDIAN ? size - 1 - i : i)));
@@ -305,38 +305,38 @@ static const int pyramid[5][4] = {{3, 2, 1, 0}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2
 
 static void put_rows(sample *s)
 {
-    const ply_type wide = s->kind.wide ? PLY_DOUBLE : PLY_FLOAT;
-    put(s, PLY_USHORT, 2);
-    put(s, PLY_SHORT, -3);
-    put(s, PLY_SHORT, 2570); /* two line feed bytes in binary */
-    put(s, PLY_UINT, 4294967295.0);
+    const number_type wide = s->kind.wide ? NUMBER_DOUBLE : NUMBER_FLOAT;
+    put(s, NUMBER_UINT16, 2);
+    put(s, NUMBER_INT16, -3);
+    put(s, NUMBER_INT16, 2570); /* two line feed bytes in binary */
+    put(s, NUMBER_UINT32, 4294967295.0);
     end_row(s);
     for (size_t v = 0; v < 5; v++) {
-        put(s, PLY_UCHAR, 10);
+        put(s, NUMBER_UINT8, 10);
         put(s, wide, corners[v][2]);
         put(s, wide, corners[v][0]);
-        put(s, PLY_UCHAR, (double)v);
+        put(s, NUMBER_UINT8, (double)v);
         for (size_t i = 0; i < v; i++)
-            put(s, PLY_DOUBLE, 0.1 * (double)i);
-        put(s, PLY_FLOAT, 0);
+            put(s, NUMBER_DOUBLE, 0.1 * (double)i);
+        put(s, NUMBER_FLOAT, 0);
         put(s, wide, corners[v][1]);
-        put(s, PLY_FLOAT, 0);
-        put(s, PLY_DOUBLE, 1);
-        put(s, PLY_CHAR, -5);
+        put(s, NUMBER_FLOAT, 0);
+        put(s, NUMBER_DOUBLE, 1);
+        put(s, NUMBER_INT8, -5);
         end_row(s);
     }
     for (size_t f = 0; f < 5; f++) {
         const int count = f == 0 ? 4 : 3;
-        put(s, PLY_FLOAT, 0.5);
-        put(s, PLY_UCHAR, count);
+        put(s, NUMBER_FLOAT, 0.5);
+        put(s, NUMBER_UINT8, count);
         for (int i = 0; i < count; i++)
-            put(s, PLY_INT, pyramid[f][i]);
-        put(s, PLY_UCHAR, 0);
+            put(s, NUMBER_INT32, pyramid[f][i]);
+        put(s, NUMBER_UINT8, 0);
         end_row(s);
     }
     for (int e = 0; e < 2; e++) {
-        put(s, PLY_INT, e);
-        put(s, PLY_INT, 4);
+        put(s, NUMBER_INT32, e);
+        put(s, NUMBER_INT32, 4);
         end_row(s);
     }
 }

@@ -5,7 +5,7 @@
 
 #include "base/fail.h"
 #include "base/text/code_scan.h"
-#include "io/volume/number_type.h"
+#include "base/text/number_type.h"
 
 typedef struct foam_file {
     const char *name; /* for messages */

@@ -95,7 +95,7 @@ static void format_place(const void *context, char *text, size_t capacity)
 }
 
 /* Writes a number for a message: its text, or the shortest text of a binary number. */
-static void format_value(const ply_document *d, ply_type type, text_word word, char *text, size_t capacity)
+static void format_value(const ply_document *d, number_type type, text_word word, char *text, size_t capacity)
 {
     double value = 0;
     if (d->header.encoding == PLY_ASCII)
@@ -127,7 +127,7 @@ static ffd_difference_kind kind_of(const comparer *c, const ply_property *proper
     return joins_vertices ? FFD_DIFFERENCE_TOPOLOGY : FFD_DIFFERENCE_OTHER;
 }
 
-static void differ_in_values(comparer *c, const ply_property *property, ply_type type, text_word a,
+static void differ_in_values(comparer *c, const ply_property *property, number_type type, text_word a,
                              text_word b)
 {
     char place[160], first[48] = "", second[48] = "";
@@ -138,7 +138,7 @@ static void differ_in_values(comparer *c, const ply_property *property, ply_type
                             ffd_text_display_size(property->name), property->name.first, first, second);
 }
 
-static bool same_value(const comparer *c, ply_type type, text_word a, text_word b)
+static bool same_value(const comparer *c, number_type type, text_word a, text_word b)
 {
     const ply_encoding in_a = c->a->header.encoding, in_b = c->b->header.encoding;
     double x, y;

@@ -17,7 +17,7 @@ void ffd_ply_document_walk(const ply_document *d, const ply_element *element, pl
 }
 
 ffd_status ffd_ply_refuse_vertex(const ply_document *d, const ply_walk *walk, const char *what, uint64_t row,
-                                 ply_type type, text_word word, ffd_error *error)
+                                 number_type type, text_word word, ffd_error *error)
 {
     const bool text = d->header.encoding == PLY_ASCII;
     double value = 0;
@@ -120,10 +120,11 @@ static ffd_status read_vertices(ply_document *d, ffd_error *error)
 
 static void describe_part(ply_document *d)
 {
-    const bool narrow = d->types[0] == PLY_FLOAT || d->types[1] == PLY_FLOAT || d->types[2] == PLY_FLOAT;
+    const bool narrow =
+        d->types[0] == NUMBER_FLOAT || d->types[1] == NUMBER_FLOAT || d->types[2] == NUMBER_FLOAT;
     d->file.part.vertex_count = (size_t)d->vertex->count;
     for (size_t a = 0; a < 3; a++)
-        d->file.part.rounding.is_float[a] = d->types[a] == PLY_FLOAT;
+        d->file.part.rounding.is_float[a] = d->types[a] == NUMBER_FLOAT;
     d->file.part.normal_count = d->has_normals ? d->file.part.vertex_count : 0;
     d->file.base.largest_coordinate = narrow ? FLT_MAX : DBL_MAX;
 }

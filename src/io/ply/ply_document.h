@@ -29,7 +29,7 @@ typedef struct ply_document {
     const ply_property *face_normals[3]; /* nx ny nz of the faces, if float or double; NULL: none */
     bool has_whole_face_normals;         /* whether they are of an integer type; they are then kept */
     bool renew_normals;                  /* whether face normals are computed anew with the results */
-    ply_type types[PLY_SLOT_COUNT];      /* by slot */
+    number_type types[PLY_SLOT_COUNT];   /* by slot */
     /* Binary, without lists: all rows of vertices have the same size and layout. */
     bool has_fixed_rows;
     size_t offsets[PLY_SLOT_COUNT]; /* per slot: the offset of the number in a row; PLY_NOWHERE: absent */
@@ -69,7 +69,7 @@ void ffd_ply_document_walk(const ply_document *document, const ply_element *elem
 /* Refuses an index that is not the number of a vertex. what, row: "face" or "strip" and its number; word: the
    index, of this type. */
 ffd_status ffd_ply_refuse_vertex(const ply_document *document, const ply_walk *walk, const char *what,
-                                 uint64_t row, ply_type type, text_word word, ffd_error *error);
+                                 uint64_t row, number_type type, text_word word, ffd_error *error);
 
 /* Finds the meanings of the elements and properties. */
 ffd_status ffd_ply_find_roles(ply_document *document, ffd_error *error);

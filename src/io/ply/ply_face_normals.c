@@ -99,8 +99,8 @@ static void write_normal(face_writer *w)
     if (!renew(w, old, normal))
         return;
     for (size_t i = 0; i < 3; i++) {
-        const ply_type type = d->face_normals[w->axes[i]]->type;
-        const double value = ply_round(type, normal[w->axes[i]]);
+        const number_type type = d->face_normals[w->axes[i]]->type;
+        const double value = number_round(type, normal[w->axes[i]]);
         char bytes[FFD_NUMBER_CAPACITY];
         if (value != old[w->axes[i]])
             ffd_splice_replace(w->splice, w->words[i], bytes, ffd_ply_store(encoding, type, value, bytes));

@@ -8,7 +8,7 @@ static ffd_status check(const mesh_document *document, ffd_error *error)
 {
     const ply_document *d = ffd_ply_of(document);
     for (int a = 0; a < PLY_NORMAL_SLOT; a++)
-        if (ply_is_whole(d->types[a]))
+        if (!number_is_real(d->types[a]))
             return ffd_fail_line(error, FFD_E_UNSUPPORTED, d->file.name, d->vertex->line,
                                  "%c of the vertices is of type %s: only float and double can be deformed",
                                  "xyz"[a], ffd_ply_type_name(d->types[a]));

@@ -165,7 +165,7 @@ static ffd_status add_property(header_reader *r, const ply_property *property)
     return FFD_OK;
 }
 
-static ffd_status read_type(const header_reader *r, text_word word, ply_type *type)
+static ffd_status read_type(const header_reader *r, text_word word, number_type *type)
 {
     if (ffd_ply_type_of(word, type))
         return FFD_OK;
@@ -188,7 +188,7 @@ static ffd_status read_property(header_reader *r, const header_line *line)
     property.name = line->words[type + 1];
     if (property.is_list)
         TRY(read_type(r, line->words[2], &property.count_type));
-    if (property.is_list && !ply_is_whole(property.count_type))
+    if (property.is_list && number_is_real(property.count_type))
         return FAIL(r, r->line, "the count of list %.*s is a %s: it must be a whole number",
                     ffd_text_display_size(property.name), property.name.first,
                     ffd_ply_type_name(property.count_type));
@@ -243,8 +243,7 @@ static void measure_row(const ply_header *h, ply_element *element)
 {
     for (size_t i = 0; i < element->property_count; i++) {
         const ply_property *p = &element->properties[i];
-        element->least +=
-            h->encoding == PLY_ASCII ? 2 : ffd_ply_type_size(p->is_list ? p->count_type : p->type);
+        element->least += h->encoding == PLY_ASCII ? 2 : ffd_type_size(p->is_list ? p->count_type : p->type);
     }
 }
 

@@ -29,8 +29,8 @@ typedef struct ply_property {
     text_word name;
     size_t line;
     bool is_list;
-    ply_type count_type; /* type of a list's count */
-    ply_type type;       /* of the value, or of a list's items */
+    number_type count_type; /* type of a list's count */
+    number_type type;       /* of the value, or of a list's items */
     unsigned char slot;
 } ply_property;
 

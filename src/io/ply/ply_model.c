@@ -85,15 +85,15 @@ static ffd_status make_values(const extractor *e)
 }
 
 /* Returns the value of an integer type that stands for 1: the largest. */
-static double scale_of(ply_type type)
+static double scale_of(number_type type)
 {
-    return type == PLY_UCHAR ? 255 : type == PLY_USHORT ? 65535 : 1;
+    return type == NUMBER_UINT8 ? 255 : type == NUMBER_UINT16 ? 65535 : 1;
 }
 
 static ffd_status set_value(extractor *e, const ply_walk *walk, size_t vertex, int role, text_word word)
 {
     const ply_document *d = e->document;
-    const ply_type type = e->roles[role]->type;
+    const number_type type = e->roles[role]->type;
     double value;
     if (!ffd_ply_load(d->header.encoding, type, word, &value))
         return ffd_fail_line(e->error, FFD_E_INVALID, d->file.name, walk->line,
@@ -174,7 +174,7 @@ static size_t colour_of(const extractor *e, const ply_property *property)
 
 static void take_face_colour(extractor *e, ply_walk *walk, size_t c)
 {
-    const ply_type type = e->face_colours[c]->type;
+    const number_type type = e->face_colours[c]->type;
     text_word word;
     double value;
     if (ffd_ply_walk_value(walk, type, &word) &&

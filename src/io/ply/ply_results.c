@@ -18,9 +18,9 @@ void ffd_ply_write(mesh_document *document, size_t part, mesh_stream stream, siz
 {
     const ply_document *d = ffd_ply_of(document);
     double *const results = stream == MESH_POSITIONS ? d->file.new_positions : d->file.new_directions;
-    const ply_type *const types = d->types + (stream == MESH_POSITIONS ? 0 : PLY_NORMAL_SLOT);
+    const number_type *const types = d->types + (stream == MESH_POSITIONS ? 0 : PLY_NORMAL_SLOT);
     (void)part;
     for (size_t i = 0; results && i < count; i++)
         for (size_t a = 0; a < 3 && changed[i]; a++)
-            results[3 * (first + i) + a] = ply_round(types[a], xyz[3 * i + a]);
+            results[3 * (first + i) + a] = number_round(types[a], xyz[3 * i + a]);
 }

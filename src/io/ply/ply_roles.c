@@ -38,7 +38,7 @@ static void find_normals(ply_document *d)
     for (size_t i = 0; i < 3; i++) {
         properties[i] = fill_slot(d, PLY_NORMAL_SLOT + i);
         there = there && properties[i];
-        whole = whole || (properties[i] && ply_is_whole(properties[i]->type));
+        whole = whole || (properties[i] && !number_is_real(properties[i]->type));
     }
     d->has_normals = there && !whole;
     d->has_whole_normals = there && whole;
@@ -77,7 +77,7 @@ static void find_face_normals(ply_document *d)
     for (size_t a = 0; a < 3 && there; a++) {
         found[a] = ffd_ply_find_property(d->face, slot_names[PLY_NORMAL_SLOT + a]);
         there = found[a] && !found[a]->is_list;
-        whole = whole || (there && ply_is_whole(found[a]->type));
+        whole = whole || (there && !number_is_real(found[a]->type));
     }
     d->has_whole_face_normals = there && whole;
     for (size_t a = 0; a < 3; a++)
@@ -95,7 +95,7 @@ static void find_offsets(ply_document *d)
         const ply_property *const property = &d->vertex->properties[i];
         if (property->slot != PLY_NO_SLOT)
             d->offsets[property->slot] = offset;
-        offset += ffd_ply_type_size(property->type);
+        offset += ffd_type_size(property->type);
     }
 }
 
@@ -105,7 +105,7 @@ static bool are_plain(const ply_document *d)
     const size_t count = HARMONICS_CHANNELS * (size_t)harmonics_count(d->file.part.form.degree);
     bool all = d->has_fixed_rows && d->header.encoding == PLY_LITTLE_ENDIAN;
     for (size_t i = 0; i < count && all; i++)
-        all = d->types[PLY_REST_SLOT + i] == PLY_FLOAT &&
+        all = d->types[PLY_REST_SLOT + i] == NUMBER_FLOAT &&
               d->offsets[PLY_REST_SLOT + i] == d->offsets[PLY_REST_SLOT] + i * sizeof(float);
     return all;
 }

@@ -248,7 +248,7 @@ static bool change_rests(const ply_document *d, size_t index, row_change *row)
         const bool fits = ffd_ply_rests_fit(d, after[k], k);
         for (int m = 0; m < functions && fits; m++) {
             const size_t slot = ply_rest_slot(d, k, m);
-            row->values[slot] = ply_round(d->types[slot], after[k][m]);
+            row->values[slot] = number_round(d->types[slot], after[k][m]);
             row->changed[slot] = differ(&before[k][m], &row->values[slot]);
         }
         all = all && fits;

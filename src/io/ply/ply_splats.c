@@ -33,7 +33,7 @@ static bool have_fractions(const ply_document *d, size_t first, size_t last)
 {
     for (size_t slot = first; slot < last; slot++) {
         const ply_property *const property = find(d, slot);
-        if (!property || property->is_list || ply_is_whole(property->type))
+        if (!property || property->is_list || !number_is_real(property->type))
             return false;
     }
     return true;
@@ -163,7 +163,7 @@ static bool are_floats(const ply_document *d)
     const size_t last = d->file.part.form.is_flat ? PLY_REST_SLOT - 1 : PLY_REST_SLOT;
     bool all = true;
     for (size_t slot = PLY_ROTATION_SLOT; slot < last; slot++)
-        all = all && d->types[slot] == PLY_FLOAT;
+        all = all && d->types[slot] == NUMBER_FLOAT;
     return all;
 }
 
@@ -229,7 +229,7 @@ static void keep_result(const ply_document *d, size_t vertex, const splat_ellips
             d->float_splats[PLY_ELLIPSOID * vertex + i] = (float)numbers[i];
         else
             d->double_splats[PLY_ELLIPSOID * vertex + i] =
-                ply_round(d->types[PLY_ROTATION_SLOT + i], numbers[i]);
+                number_round(d->types[PLY_ROTATION_SLOT + i], numbers[i]);
     if (d->new_turns)
         memcpy(d->new_turns[vertex], turn->quaternion, sizeof *d->new_turns);
 }
@@ -272,7 +272,7 @@ static ALWAYS_INLINE bool are_within(const double *c, int count, double most)
 
 bool ffd_ply_rests_fit(const ply_document *d, const double c[HARMONICS_MOST], int channel)
 {
-    const ply_type *const types = d->types + ply_rest_slot(d, channel, 0);
+    const number_type *const types = d->types + ply_rest_slot(d, channel, 0);
     const int count = harmonics_count(d->file.part.form.degree);
     bool all = true;
     if (d->has_plain_rests && count == HARMONICS_MOST)
@@ -280,6 +280,6 @@ bool ffd_ply_rests_fit(const ply_document *d, const double c[HARMONICS_MOST], in
     if (d->has_plain_rests)
         return are_within(c, count, FLT_MAX);
     for (int m = 0; m < count; m++)
-        all &= fabs(c[m]) <= (types[m] == PLY_FLOAT ? FLT_MAX : DBL_MAX);
+        all &= fabs(c[m]) <= (types[m] == NUMBER_FLOAT ? FLT_MAX : DBL_MAX);
     return all;
 }

@@ -35,9 +35,9 @@ bool ffd_ply_walk_row(ply_walk *walk)
     }
 }
 
-static bool take_bytes(ply_walk *walk, ply_type type, text_word *word)
+static bool take_bytes(ply_walk *walk, number_type type, text_word *word)
 {
-    const size_t size = ffd_ply_type_size(type);
+    const size_t size = ffd_type_size(type);
     const bool there = (size_t)(walk->last - walk->at) >= size;
     word->first = walk->at;
     walk->at += there ? size : 0;
@@ -45,7 +45,7 @@ static bool take_bytes(ply_walk *walk, ply_type type, text_word *word)
     return there;
 }
 
-bool ffd_ply_walk_value(ply_walk *walk, ply_type type, text_word *word)
+bool ffd_ply_walk_value(ply_walk *walk, number_type type, text_word *word)
 {
     if (walk->header->encoding != PLY_ASCII)
         return take_bytes(walk, type, word);
@@ -59,11 +59,11 @@ bool ffd_ply_walk_value(ply_walk *walk, ply_type type, text_word *word)
     return word->first < word->last;
 }
 
-bool ffd_ply_walk_count(ply_walk *walk, ply_type type, text_word *word, size_t *count)
+bool ffd_ply_walk_count(ply_walk *walk, number_type type, text_word *word, size_t *count)
 {
     text_scan scan = {.at = walk->at, .last = walk->last};
     uint64_t whole;
-    if (walk->header->encoding == PLY_ASCII && ply_is_whole(type) &&
+    if (walk->header->encoding == PLY_ASCII && !number_is_real(type) &&
         ffd_text_short_whole(&scan, word, &whole)) {
         *count = (size_t)whole;
         walk->at = scan.at;
@@ -76,7 +76,7 @@ bool ffd_ply_walk_count(ply_walk *walk, ply_type type, text_word *word, size_t *
 bool ffd_ply_walk_list(ply_walk *walk, const ply_property *list, text_word *word, size_t *count)
 {
     if (ffd_ply_walk_count(walk, list->count_type, word, count)) {
-        const size_t least = walk->header->encoding == PLY_ASCII ? 1 : ffd_ply_type_size(list->type);
+        const size_t least = walk->header->encoding == PLY_ASCII ? 1 : ffd_type_size(list->type);
         if (*count <= (size_t)(walk->last - walk->at) / least)
             return true;
     }
@@ -85,11 +85,11 @@ bool ffd_ply_walk_list(ply_walk *walk, const ply_property *list, text_word *word
 }
 
 /* Moves past `count` values. */
-static bool skip_values(ply_walk *walk, ply_type type, size_t count)
+static bool skip_values(ply_walk *walk, number_type type, size_t count)
 {
     text_word word;
     if (walk->header->encoding != PLY_ASCII) {
-        const size_t size = ffd_ply_type_size(type);
+        const size_t size = ffd_type_size(type);
         if (count > (size_t)(walk->last - walk->at) / size)
             return false;
         walk->at += count * size;
@@ -169,7 +169,7 @@ static ffd_status check_row(row_checker *c)
         TRY(check_property(c, &c->element->properties[i]));
     if (c->walk.header->encoding != PLY_ASCII)
         return FFD_OK;
-    return ffd_ply_walk_value(&c->walk, PLY_INT, &word)
+    return ffd_ply_walk_value(&c->walk, NUMBER_INT32, &word)
                ? refuse(c, "the line goes on after its last value", NULL, word)
                : FFD_OK;
 }

@@ -20,10 +20,10 @@ typedef struct ply_walk {
 bool ffd_ply_walk_row(ply_walk *walk);
 /* Takes the next value: a scalar, a list's count or an item of a list. Returns false, with an empty *word, if
    there is none. */
-bool ffd_ply_walk_value(ply_walk *walk, ply_type type, text_word *word);
+bool ffd_ply_walk_value(ply_walk *walk, number_type type, text_word *word);
 /* Takes the next value as a list's count or an index. Returns false if it is not one; *word is then the
    value. */
-bool ffd_ply_walk_count(ply_walk *walk, ply_type type, text_word *word, size_t *count);
+bool ffd_ply_walk_count(ply_walk *walk, number_type type, text_word *word, size_t *count);
 /* Takes the count of a list. Returns false, with a count of 0, if there is none, or if the rest of the file
    cannot hold as many items: another program has changed it. *word is the value. */
 bool ffd_ply_walk_list(ply_walk *walk, const ply_property *list, text_word *word, size_t *count);

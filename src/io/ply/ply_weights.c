@@ -8,15 +8,15 @@ static const char *const colours[][4] = {{"red", "green", "blue", "alpha"},
                                          {"diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"}};
 
 /* Returns the value of a type that stands for 1; 0: its numbers are not weights. */
-static double unit_of(ply_type type)
+static double unit_of(number_type type)
 {
     switch (type) {
-    case PLY_FLOAT:
-    case PLY_DOUBLE:
+    case NUMBER_FLOAT:
+    case NUMBER_DOUBLE:
         return 1;
-    case PLY_UCHAR:
+    case NUMBER_UINT8:
         return 255;
-    case PLY_USHORT:
+    case NUMBER_UINT16:
         return 65535;
     default:
         return 0;
@@ -51,7 +51,7 @@ static void read_rows(const ply_document *d, const ply_property *property, doubl
     const double scale = unit_of(property->type);
     size_t offset = 0;
     for (const ply_property *p = d->vertex->properties; p != property; p++)
-        offset += ffd_ply_type_size(p->type);
+        offset += ffd_type_size(p->type);
     for (size_t v = 0; v < d->file.part.vertex_count; v++)
         weights[v] = ply_load_binary(d->header.encoding, property->type, ply_row(d, v) + offset) / scale;
 }

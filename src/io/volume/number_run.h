@@ -4,8 +4,8 @@
 #define FFD_IO_VOLUME_NUMBER_RUN_H
 
 #include "base/fail.h"
+#include "base/text/number_type.h"
 #include "io/text/splice.h"
-#include "io/volume/number_type.h"
 
 /* The most numbers of a tuple. */
 #define RUN_WIDTH_MAX 16

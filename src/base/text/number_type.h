@@ -1,7 +1,7 @@
-/* number_type.h - the types of the numbers in files of volume meshes: in text, or in binary of either byte
+/* number_type.h - the types of the numbers in files of several formats: in text, or in binary of either byte
    order. */
-#ifndef FFD_IO_VOLUME_NUMBER_TYPE_H
-#define FFD_IO_VOLUME_NUMBER_TYPE_H
+#ifndef FFD_BASE_TEXT_NUMBER_TYPE_H
+#define FFD_BASE_TEXT_NUMBER_TYPE_H
 
 #include "base/text/number.h"
 #include "base/text/text_scan.h"

@@ -1,4 +1,4 @@
-#include "io/volume/number_type.h"
+#include "base/text/number_type.h"
 #include "base/little_endian.h"
 
 static const struct {
