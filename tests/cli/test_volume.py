@@ -224,11 +224,12 @@ def points_of_gmsh_get_the_bits_of_an_obj(run):
                 equal(found, expected, f"{make.__name__} {options}")
                 equal(rest, volume.msh_points(before, order, word)[1], "every other byte")
                 equal(after, make(expected, **options))
-    for is_binary in (False, True):
-        before = volume.msh4(is_binary=is_binary, parameters=True)
-        after = deformed(run, "m.msh", before,
-                         err="m.msh: the nodes have parameters on curves and surfaces, which stay as they are")
-        equal(after, volume.msh4(expected, is_binary, parameters=True))
+    for make in (volume.msh2, volume.msh4):
+        for is_binary, order in ((False, "<"), (True, "<"), (True, ">")):
+            before = make(is_binary=is_binary, order=order, parameters=True)
+            after = deformed(run, "m.msh", before,
+                             err="m.msh: the nodes have parameters on curves and surfaces, which stay as they are")
+            equal(after, make(expected, is_binary, order, parameters=True))
 
 
 @case
@@ -524,11 +525,15 @@ def elements(line, count=1):
 
 
 NEW = "$Nodes\n1 1 1 1\n0 1 0 1\n1\n0 0 0\n$EndNodes\n"
+# The first node is on an entity of nine dimensions.
+PARAMETRIC = re.sub(rb"(?s)(?<=\$ParametricNodes\n10\n)(.{28}).{4}", lambda found: found[1] + struct.pack("<i", 9),
+                    volume.msh2(is_binary=True, parameters=True), count=1)
 BROKEN_MSH = [
     ("", INVALID, "has no $Nodes"),
     ("OFF\n", INVALID, ':1: "OFF" is in the place of the beginning of a section, such as $Nodes; it seems to be an OFF file'),
     ("$Nodes\n", INVALID, ":1: the first section is not $MeshFormat"),
     ("$MeshFormat\n", INVALID, "the file ends where a version is expected"),
+    (PARAMETRIC, INVALID, "the dimension of an entity is 9"),
     (msh(head="1 0 8"), UNSUPPORTED, 'the version "1" is not supported: only 2.2 and 4.1 are'),
     (msh(head="4 0 8"), UNSUPPORTED, 'the version "4" is not supported'),
     (msh(head="2.2 0 2"), UNSUPPORTED, "numbers of 2 bytes are not supported"),

@@ -395,13 +395,18 @@ class Msh:
         return self
 
 
-def msh2(points=None, is_binary=False, order="<", tags=None):
+DIMENSIONS = [0, 1, 1, 2, 2, 2, 3, 3, 1, 0]  # of the entities that parametric nodes are on
+
+
+def msh2(points=None, is_binary=False, order="<", tags=None, parameters=False):
     points = POINTS if points is None else points
     tags = tags or [3 * i + 2 for i in range(len(points))]
-    made = Msh("2.2", is_binary, order).text(NAMES + f"$Nodes\n{len(points)}\n")
-    for tag, point in zip(tags, points):
-        made.put("i3d", tag, *point)
-    made.text(("\n" if is_binary else "") + f"$EndNodes\n$Elements\n{len(CELLS)}\n")
+    section = "ParametricNodes" if parameters else "Nodes"
+    made = Msh("2.2", is_binary, order).text(NAMES + f"${section}\n{len(points)}\n")
+    for tag, point, dimension in zip(tags, points, DIMENSIONS):
+        extra = [0.25] * (dimension % 3)
+        made.put(*(("i3d2i" + "d" * len(extra), tag, *point, dimension, 7, *extra) if parameters else ("i3d", tag, *point)))
+    made.text(("\n" if is_binary else "") + f"$End{section}\n$Elements\n{len(CELLS)}\n")
     for i, (kind, cell) in enumerate(CELLS):
         nodes = [tags[p] for p in cell]
         if is_binary:

@@ -366,6 +366,7 @@ def of_volumes():
         yield "vts", name, volume.vts(encoding=encoding, size=(3, 2, 2))
     for kind, is_binary in (("text", False), ("bytes", True)):
         yield "msh", "old-" + kind, volume.msh2(is_binary=is_binary)
+        yield "msh", "old-parameters-" + kind, volume.msh2(is_binary=is_binary, parameters=True)
         yield "msh", "new-" + kind, volume.msh4(is_binary=is_binary, parameters=True)
     yield "msh", "tags", volume.msh2(tags=list(range(100, 0, -10)))
     yield "vtu", "polyhedra", volume.vtu_polyhedra(False)

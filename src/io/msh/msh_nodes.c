@@ -45,13 +45,56 @@ static ffd_status add_piece(msh_reader *r, size_t vertex, uint64_t count, size_t
     return FFD_OK;
 }
 
+/* Takes the number of a node in binary, its coordinates, the dimension and tag of its entity, and its
+   parameters there: one on a curve, two on a surface. */
+static ffd_status take_parametric(msh_reader *r, size_t *parameters)
+{
+    uint64_t tag;
+    int64_t dimension, entity;
+    TRY(ffd_msh_size(r, "the number of a node", &tag));
+    TRY(ffd_msh_skip(r, 3));
+    TRY(ffd_msh_int(r, "the dimension of an entity", &dimension));
+    TRY(ffd_msh_int(r, "the tag of an entity", &entity));
+    if (dimension < 0 || dimension > 3)
+        return MSH_REFUSE(r, "the dimension of an entity is %" PRId64, dimension);
+    *parameters = dimension == 3 ? 0 : (size_t)dimension;
+    add_tag(r, tag);
+    return ffd_msh_skip(r, *parameters);
+}
+
+/* Reads the coordinates of nodes that begin at a place, and comes back. */
+static ffd_status add_parametric(msh_reader *r, const text_scan *begin, size_t vertex, uint64_t count,
+                                 size_t parameters)
+{
+    const text_scan here = r->scan;
+    r->scan = *begin;
+    TRY(add_piece(r, vertex, count, 4 + parameters, 4)); /* dimension and tag are as long as a number */
+    r->scan = here;
+    return FFD_OK;
+}
+
+/* Takes parametric nodes in binary. Nodes that follow each other and have as many parameters are a piece. */
+static ffd_status take_all_parametric(msh_reader *r, uint64_t count)
+{
+    text_scan begin = r->scan;
+    size_t vertex = 0, parameters = 0, found = 0;
+    for (size_t i = 0; i < count; i++, parameters = found) {
+        const text_scan before = r->scan;
+        TRY(ffd_deadline_check_at(i, r->error));
+        TRY(take_parametric(r, &found));
+        if (i == vertex || found == parameters)
+            continue;
+        TRY(add_parametric(r, &begin, vertex, i - vertex, parameters));
+        begin = before;
+        vertex = i;
+    }
+    return count ? add_parametric(r, &begin, vertex, count - vertex, parameters) : FFD_OK;
+}
+
 /* number x y z, in text behind it what else a line has */
 static ffd_status take_old(msh_reader *r, bool is_parametric)
 {
     uint64_t count, tag;
-    if (r->is_binary && is_parametric)
-        return ffd_fail_file(r->error, FFD_E_UNSUPPORTED, r->d->file.name,
-                             "has parametric nodes of version 2 in binary, which are not supported");
     /* In binary, too, this number is text. */
     const bool is_binary = r->is_binary;
     r->is_binary = false;
@@ -62,6 +105,8 @@ static ffd_status take_old(msh_reader *r, bool is_parametric)
     r->is_binary = is_binary;
     TRY(status);
     TRY(make_nodes(r, count));
+    if (is_binary && is_parametric)
+        return take_all_parametric(r, count);
     const text_scan first = r->scan;
     const char *at = r->scan.at;
     TRY(add_piece(r, 0, count, 3, is_binary ? 4 : 1));
