@@ -4,6 +4,7 @@ in an OBJ, and all else is as it was. Run by test_others.py, with the program in
 import itertools
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -123,8 +124,10 @@ class Volumes(unittest.TestCase):
         done = subprocess.run([FFD, "deform", source, target, "-l", "l.json", "--force"], cwd=self.folder.name, capture_output=True, text=True,
                               stdin=subprocess.DEVNULL, check=False)
         self.assertEqual(done.returncode, 0, (source, done.stderr))
-        self.assertEqual(done.stderr.count("\n"), 1 if says else 0, (source, done.stderr))
-        self.assertRegex(done.stderr, says or "^$")
+        # The cells join random points, so that any number of them, and of their faces, may turn over.
+        said = [line for line in done.stderr.splitlines() if not re.search(r"faces are turned over$|\(see --fail-on inverted\)$", line)]
+        self.assertEqual(len(said), 1 if says else 0, (source, done.stderr))
+        self.assertRegex("".join(said), says or "^$")
 
     def moved(self, points):
         """Where an OBJ of the same points has them after."""
