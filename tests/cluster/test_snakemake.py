@@ -34,8 +34,9 @@ for line in sys.stdin:
 
 
 def only_behind(said):
-    """What is said of the data's meshes: that pivots of animations, joints and sockets are off the deformed mesh."""
-    check(all("off the deformed mesh" in line and line.endswith(": see --rig") for line in said), said)
+    """What is said of the data's meshes: that pivots of animations, joints and sockets are off the deformed mesh, and what turns wobbles."""
+    check(all("off the deformed mesh" in line and line.endswith(": see --rig") or "will wobble" in line and line.endswith(": see --rigid")
+              for line in said), said)
 
 
 @case
