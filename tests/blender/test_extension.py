@@ -36,7 +36,7 @@ def find_wheel(folder):
     beside = os.path.join(folder, "build")  # the folder of what is compiled is beside it, not that of the suite python
     os.makedirs(beside)
     os.symlink(os.path.join(os.path.abspath(build), "meson-info"), os.path.join(beside, "meson-info"))
-    wheel, _ = package.build_wheel(python, source, beside, os.path.join(folder, "dist"), compilers)
+    wheel, _ = package.build_wheel(python, source, beside, os.path.join(folder, "dist"), compilers, "wheel")
     named = re.sub(r"-(many)?linux\w*_x86_64\.whl$", "-manylinux_2_28_x86_64.whl", wheel)
     if named != wheel:
         os.rename(wheel, named)
