@@ -108,14 +108,17 @@ typedef struct ffd_barrier {
 
 /* A smooth measure of folding, for optimizers: from the Bernstein coefficients c of det J_Q in each span
    cell, (3 degree)^3 of them, divided by the mean of det J_P over the domain (src/maths.md 10.7). They bound
-   the determinant from both sides: an edit with value 0 does not fold in these cells if floor > 0. deformed
-   3 numbers for each control point, u fastest, in place of the lattice's own; or NULL uvw       count places
-   in the range of the knots, 3 numbers each: only the cells that hold one of them count. NaN: none. NULL: all
-   cells count gradient  receives the derivatives of the value by the deformed control points, 3 for each, u
-   fastest; or NULL threads: >= 1, or 0 for all cores; does not affect the result. Thread-safe. Errors:
-   FFD_E_ARGUMENT (the lattice has no control points yet, floor or a control point is not finite, struct_size,
-   threads), FFD_E_UNSUPPORTED (a lattice with weights), FFD_E_INVALID (the rest volume is 0), FFD_E_MEMORY.
- */
+   the determinant from both sides: an edit with value 0 does not fold in these cells, if floor is well above
+   rounding (1e-9 or more).
+   - deformed: 3 numbers for each control point, u fastest, in place of the lattice's own; or NULL;
+   - uvw: count places in the range of the knots, 3 numbers each: only the cells that hold one of them count.
+     NaN: none. NULL: all cells count;
+   - gradient: receives the derivatives of the value by the deformed control points, 3 for each, u fastest; or
+     NULL;
+   - threads: >= 1, or 0 for all cores; does not affect the result.
+   Thread-safe. Errors: FFD_E_ARGUMENT (the lattice has no control points yet, floor or a control point is not
+   finite, struct_size, threads), FFD_E_UNSUPPORTED (a lattice with weights), FFD_E_INVALID (the rest volume
+   is 0), FFD_E_MEMORY. */
 FFD_API ffd_status ffd_folds_barrier(const ffd_lattice *lattice, const double *deformed, double floor,
                                      const double *uvw, size_t count, int threads, ffd_barrier *barrier,
                                      double *gradient, ffd_error *error);

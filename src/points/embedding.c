@@ -138,8 +138,7 @@ ffd_status ffd_embedding_desc_check(ffd_embedding_desc *desc, ffd_error *error)
     if (!(desc->falloff >= 0 && isfinite(desc->falloff)))
         return ffd_fail(error, FFD_E_ARGUMENT, "falloff %g is not 0 or more", desc->falloff);
     if (desc->falloff > 0 && desc->outside != FFD_OUTSIDE_EXTEND)
-        return ffd_fail(error, FFD_E_ARGUMENT, "falloff %g needs outside \"extend\" (FFD_OUTSIDE_EXTEND)",
-                        desc->falloff);
+        return ffd_fail(error, FFD_E_ARGUMENT, "falloff %g needs outside \"extend\"", desc->falloff);
     if (!(desc->snap >= 0 && isfinite(desc->snap)))
         return ffd_fail(error, FFD_E_ARGUMENT, "snap %g is not 0 or more", desc->snap);
     if (desc->points.count > UINT32_MAX)

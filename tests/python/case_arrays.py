@@ -56,7 +56,7 @@ class Layouts(unittest.TestCase):
         self.assertEqual(wanted.dtype, points.dtype)
         view = laid_out(points, there)
         embedding = LATTICE.embed(view)
-        self.assertIs(embedding.points, view)
+        self.assertEqual(embedding.points.__array_interface__["data"][0], view.__array_interface__["data"][0])
         self.assertEqual(embedding.uvw.tobytes(), plain.uvw.tobytes())
         out = laid_out(np.zeros_like(points), back)
         self.assertIs(LATTICE.deform(embedding, Q, out=out), out)
@@ -184,6 +184,45 @@ class Refusals(unittest.TestCase):
         for bad in (good.astype(bool), good.astype(complex), good.astype(object), good.astype("M8[s]"), "xyz", None):
             self.refused(TypeError, "points must hold real numbers", LATTICE.embed, bad)
         self.refused(TypeError, "mask", LATTICE.embed, np.ma.masked_array(good))
+
+    def test_an_embedding_keeps_its_points(self):
+        """Whatever is done to the array that was embedded, or tried with the embedding's own."""
+        points = RANDOM.uniform(0, 1, (40, 3))
+        for lattice in (LATTICE, ffd.Chain([LATTICE])):
+            embedding = lattice.embed(points)
+            points.shape = (-1,)
+            self.assertEqual((len(embedding), embedding.points.shape, len(embedding.status)), (40, (40, 3), 40))
+            points.shape = (40, 3)
+            with self.assertRaises(AttributeError):
+                embedding.points = points[:1]
+            self.assertFalse(embedding.points.flags.writeable)
+        plane = ffd.Lattice.plane((0, 0), (1, 1))
+        flat = plane.embed(points[:, :2])
+        self.refused(ValueError, "read-only", plane.deform, flat, plane.rest, out=flat.points)
+
+    def test_results_over_what_they_are_made_of(self):
+        points, moved = RANDOM.uniform(0, 1, (40, 3)), LATTICE.moved(Q)
+        for lattice, given in ((moved, {}), (LATTICE, {"Q": Q}), (LATTICE, {"Q": Q[None]}), (ffd.Chain([moved]), {})):
+            embedding = lattice.embed(points)
+            buffer = np.zeros(120)
+            weight, out = buffer[:40], buffer.reshape(40, 3)
+            weight[:] = 0.5
+            right = lattice.deform(embedding, weight=weight.copy(), **given)
+            out = out if right.ndim == 2 else out[None]
+            self.assertTrue(np.array_equal(lattice.deform(embedding, weight=weight, out=out, **given), right))
+        normals = RANDOM.normal(size=(40, 3))
+        embedding = LATTICE.embed(points)
+        right = LATTICE.deform(embedding, Q, normals=normals.copy())
+        self.assertTrue(np.array_equal(LATTICE.deform(embedding, Q, normals=normals, out=normals).normals, right.normals))
+
+    def test_a_barrier_is_of_its_own_embedding(self):
+        points = RANDOM.uniform(0, 1, (40, 3))
+        foreign = ffd.Lattice.box((-1, -1, -1), (2, 2, 2), size=5).embed(points)
+        self.refused(ffd.InvalidError, "another lattice", LATTICE.fold_barrier, Q, embedding=foreign)
+        self.refused(TypeError, "what embed returns", LATTICE.fold_barrier, Q, embedding="x")
+        plane = ffd.Lattice.plane((0, 0), (1, 1), size=5)
+        other = ffd.Lattice.plane((-1, -1), (1, 1), size=5).embed(points[:, :2])
+        self.refused(ffd.InvalidError, "another lattice", plane.fold_barrier, embedding=other)
 
     def test_out(self):
         embedding = LATTICE.embed(RANDOM.uniform(0, 1, (5, 3)))

@@ -42,6 +42,22 @@ def by_program(points, lattice, *options):
 
 
 class Parameters(unittest.TestCase):
+    def test_values_are_those_of_the_call(self):
+        """Later changes of the list or array that was given change nothing."""
+        move = {"scale": {"factor": {"$": "S"}}}
+        text = {"format": "ffd-lattice", "version": 1, "size": [4, 4, 4], "rest": {"box": {"min": [0, 0, 0], "max": [1, 1, 1]}},
+                "parameters": {"S": {"default": [1, 1, 1]}}, "moves": [move, move]}
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "l.json")
+            with open(path, "w", encoding="utf-8") as file:
+                json.dump(text, file)
+            for given in ([1.1, 1, 1], np.array([1.1, 1, 1])):
+                lattice = ffd.Lattice.load(path, {"S": given})
+                embedding = lattice.embed(np.full((1, 3), 0.3))
+                before = lattice.parameters_jacobian(embedding)
+                given[0] = 3
+                self.assertTrue(np.array_equal(lattice.parameters_jacobian(embedding), before))
+
     def test_the_matrix_is_that_of_the_program(self):
         for kind in (np.float32, np.float64):
             points = RANDOM.uniform(-0.2, 1.2, (300, 3)).astype(kind)

@@ -61,6 +61,15 @@ class Arrays(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "Scene"):
             ffd.deform_mesh(trimesh.Scene(mesh), self.lattice, self.Q)
 
+    def test_a_plane_deforms_meshes_at_z_0(self):
+        plane = ffd.Lattice.plane((0, 0), (1, 1), size=4)
+        Q = plane.rest + 0.1 * plane.rest[..., ::-1]
+        flat = self.points * (1, 1, 0)
+        found = ffd.deform_mesh(trimesh.Trimesh(flat, self.faces, process=False), plane, Q)
+        self.assertTrue(np.array_equal(found.vertices[:, :2], plane.deform(plane.embed(flat[:, :2]), Q)) and not found.vertices[:, 2].any())
+        with self.assertRaisesRegex(TypeError, "lattice must be a Lattice, not Chain"):
+            ffd.deform_mesh(found, ffd.Chain([self.lattice]))
+
     def test_what_trimesh_holds(self):
         mesh = trimesh.creation.icosphere(radius=0.5)
         mesh.face_attributes["Normals"], mesh.vertex_attributes["normals"] = np.array(mesh.face_normals), np.array(mesh.vertex_normals)

@@ -110,6 +110,18 @@ def readable(array: np.ndarray) -> np.ndarray:
     return array.copy() if _repeats(array) else array
 
 
+def kept(array: np.ndarray) -> np.ndarray:
+    """A read-only view of an array, whose shape stays though that of the array is changed in place."""
+    view = array.view()
+    view.flags.writeable = False
+    return view
+
+
+def apart(value: Any, out: np.ndarray | None) -> Any:
+    """Returns value, or a copy if out, which is written first, shares its memory."""
+    return value.copy() if out is not None and isinstance(value, np.ndarray) and overlap(value, out) else value
+
+
 def source_and_out(embedded: np.ndarray, points: Any, out: Any, vertices: Any) -> tuple[np.ndarray, np.ndarray]:
     """Returns the points at rest, and the array for the results, after checks. embedded: the points of the embedding."""
     count = len(embedded)

@@ -31,8 +31,8 @@ class ChainEmbedding:
     others. Can be pickled: the points are then embedded again, which gives the same bits.
     """
 
-    chain: Chain | Blocks
-    points: Floats
+    _chain: Chain | Blocks
+    _points: Floats
     _options: dict[str, Any]
     _owned: Owned
 
@@ -42,11 +42,21 @@ class ChainEmbedding:
     @classmethod
     def _of(cls, owned: Owned, chain: Any, points: np.ndarray, options: dict[str, Any]) -> ChainEmbedding:
         self = cls.__new__(cls)
-        self._owned, self.chain, self.points, self._options = owned, chain, points, options
+        self._owned, self._chain, self._points, self._options = owned, chain, arrays.kept(points), options
         return self
 
     def __len__(self) -> int:
-        return len(self.points)
+        return len(self._points)
+
+    @property
+    def chain(self) -> Chain | Blocks:
+        """The lattices in which the points are."""
+        return self._chain
+
+    @property
+    def points(self) -> Floats:
+        """The points, (N, 3): a read-only view of the array that was embedded, or of its copy where one was made."""
+        return self._points
 
     @property
     def uvw(self) -> Doubles:
@@ -214,7 +224,8 @@ class _Several:
             raise ValueError("normals, tangents and gradients need all vertices")
         count = len(source)
         found = np.empty((count, 3, 3)) if wanted else None
-        kept = weighted(run, source, weight, triangles, wanted, normals is not None or tangents is not None)
+        kept = weighted(run, source, arrays.apart(weight, out), triangles, wanted, normals is not None or tangents is not None)
+        normals, tangents = arrays.apart(normals, out), arrays.apart(tangents, out)
         listed = None if vertices is None else vertices_of(vertices, count)
         pointers = (ctypes.c_void_p * len(moved))(*(None if lattice is known else lattice._pointer.value
                                                     for lattice, known in zip(moved, embedding.chain.lattices)))

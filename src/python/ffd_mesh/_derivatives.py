@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import ctypes
 from typing import TYPE_CHECKING, Any, Mapping, NamedTuple
 
@@ -28,7 +29,7 @@ class Source(NamedTuple):
 
 def source_of(data: bytes, name: str, values: Mapping[str, Any] | None = None) -> Source | None:
     """What derivatives by placeholders need; None: the text has none."""
-    return Source(data, name, dict(values or {})) if b'"$"' in data or b"\\u0024" in data else None
+    return Source(data, name, copy.deepcopy(dict(values or {}))) if b'"$"' in data or b"\\u0024" in data else None
 
 
 class _Variables(NamedTuple):

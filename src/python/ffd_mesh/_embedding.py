@@ -39,8 +39,8 @@ class EmbeddingOptions(NamedTuple):
 class Embedding:
     """u, v, w and statuses of N points, made by `Lattice.embed`. Immutable, so threads may share it. Can be pickled."""
 
-    lattice: Lattice
-    points: Floats
+    _lattice: Lattice
+    _points: Floats
     _owned: Owned
     _options: EmbeddingOptions | None  # None: not known
 
@@ -50,11 +50,21 @@ class Embedding:
     @classmethod
     def _of(cls, owned: Owned, lattice: Lattice, points: np.ndarray, options: EmbeddingOptions | None = None) -> Embedding:
         self = cls.__new__(cls)
-        self._owned, self.lattice, self.points, self._options = owned, lattice, points, options
+        self._owned, self._lattice, self._points, self._options = owned, lattice, arrays.kept(points), options
         return self
 
     def __len__(self) -> int:
-        return len(self.points)
+        return len(self._points)
+
+    @property
+    def lattice(self) -> Lattice:
+        """The lattice in which the points are."""
+        return self._lattice
+
+    @property
+    def points(self) -> Floats:
+        """The points, (N, 3): a read-only view of the array that was embedded, or of its copy where one was made."""
+        return self._points
 
     @property
     def uvw(self) -> Doubles:

@@ -491,7 +491,8 @@ class Lattice:
         found = np.empty((count, 3, 3)) if wanted else None
         where = arrays.address(found) if found is not None and count else None
         arguments: tuple[Any, ...] = (arrays.span(source), arrays.span(out), where)
-        kept = weighted(run, source, weight, triangles, wanted, normals is not None or tangents is not None)
+        kept = weighted(run, source, arrays.apart(weight, out), triangles, wanted, normals is not None or tangents is not None)
+        normals, tangents = arrays.apart(normals, out), arrays.apart(tangents, out)
         weights_of_points = () if kept.weights is None else kept.addresses
         listed = None if vertices is None else vertices_of(vertices, count)
         if listed is None:
@@ -627,7 +628,8 @@ class Lattice:
     def fold_barrier(self, Q: ControlPoints | None = None, *, floor: float = 0.1, embedding: Embedding | None = None, threads: int = 0) -> FoldBarrier:
         """A smooth measure of folding with its gradient, for optimizers: sum max(0, floor - c)^2 over the Bernstein coefficients c of det J of
         the deformed volume, 3 degree a direction in each span cell, relative to the mean of det J at rest (src/maths.md 10.7). Where
-        the value is 0 and floor > 0 the volume does not fold in these cells; it may be above 0 where nothing folds.
+        the value is 0 and floor is well above rounding (1e-9 or more) the volume does not fold in these cells; it may be above 0 where
+        nothing folds.
 
         Q: the deformed control points (nu, nv, nw, 3); None: those of the lattice
         embedding: only the cells that hold its points count. threads: 0: all cores; never changes a bit
@@ -635,6 +637,8 @@ class Lattice:
         """
         self._fitted
         points = None if Q is None else arrays.to_library(arrays.doubles(Q, "Q", self.size + (3,)))
+        if embedding is not None:
+            self._check_same(embedding)
         uvw = None if embedding is None else np.ascontiguousarray(embedding.uvw, dtype=np.float64)
         found, gradient = library.empty("ffd_barrier"), np.empty((self.size[2], self.size[1], self.size[0], 3))
         call(lib.ffd_folds_barrier, self._pointer, None if points is None else arrays.address(points), library.real(floor, "floor"),

@@ -15,33 +15,35 @@ from ._directions import turned_normals
 from ._lattice import Lattice
 from ._library import Progress, Run, lib
 from ._mesh_parts import Part, copied
+from ._plane import PlaneLattice
 from ._result import Result, finish, run
 from ._stored import Stored, are_normals, lengths_of, stale, triples, turned_cell_normals, vectors_of
-from ._types import ControlPoints, Grid, PointOptions, names
+from ._types import ControlPoints, Grid, PointOptions, Rows, names
 
 _OWN = ("offsets", "weights", "normals", "with_result", "progress")
 
 
 @overload
-def deform_mesh(mesh: Any, lattice: Lattice, Q: ControlPoints | None = None, *, offsets: ControlPoints | None = None,
-                weights: Grid | None = None, normals: bool = True, with_result: Literal[False] = False, progress: Progress | None = None,
+def deform_mesh(mesh: Any, lattice: Lattice | PlaneLattice, Q: ControlPoints | Grid | None = None, *,
+                offsets: ControlPoints | Grid | None = None, weights: Grid | Rows | None = None, normals: bool = True, with_result: Literal[False] = False, progress: Progress | None = None,
                 **embed: Unpack[PointOptions]) -> Any: ...
 
 
 @overload
-def deform_mesh(mesh: Any, lattice: Lattice, Q: ControlPoints | None = None, *, offsets: ControlPoints | None = None,
-                weights: Grid | None = None, normals: bool = True, with_result: Literal[True], progress: Progress | None = None,
+def deform_mesh(mesh: Any, lattice: Lattice | PlaneLattice, Q: ControlPoints | Grid | None = None, *,
+                offsets: ControlPoints | Grid | None = None, weights: Grid | Rows | None = None, normals: bool = True, with_result: Literal[True], progress: Progress | None = None,
                 **embed: Unpack[PointOptions]) -> tuple[Any, Result]: ...
 
 
-def deform_mesh(mesh: Any, lattice: Lattice, Q: ControlPoints | None = None, *, offsets: ControlPoints | None = None,
-                weights: Grid | None = None, normals: bool = True, with_result: bool = False, progress: Progress | None = None,
+def deform_mesh(mesh: Any, lattice: Lattice | PlaneLattice, Q: ControlPoints | Grid | None = None, *,
+                offsets: ControlPoints | Grid | None = None, weights: Grid | Rows | None = None, normals: bool = True, with_result: bool = False, progress: Progress | None = None,
                 **embed: Unpack[PointOptions]) -> Any:
     """Returns a copy of a mesh with deformed points. Stored normals turn with it. The mesh is not changed.
 
     mesh: trimesh.Trimesh or PointCloud, meshio.Mesh with points (N, 3), a data set of pyvista. An ImageData or RectilinearGrid comes
       back as a StructuredGrid. A MultiBlock is deformed block by block, as one mesh
-    Q, offsets, weights: as in `Lattice.moved`; without them the lattice's own deformed control points are used. A lattice whose box is
+    lattice: that of a plane is for meshes at z = 0
+    Q, offsets, weights: as in `moved` of the lattice; without them its own deformed control points are used. A lattice whose box is
       "mesh" goes round the points
     normals: False: stored normals stay as they were, with a warning (trimesh computes its own anew)
     with_result: True: return (mesh, result), with a `Result` that has moved, counts["outside"], tear.edges, flipped_faces, warnings
@@ -56,6 +58,10 @@ def deform_mesh(mesh: Any, lattice: Lattice, Q: ControlPoints | None = None, *, 
     Warnings are in the log "ffd_mesh" and in result.warnings: what the program would warn of, and that nothing moved.
     Raises TypeError for other kinds of meshes, ValueError for points of another shape, and `Error`. Threads may call it at the same time.
     """
+    if isinstance(lattice, PlaneLattice):
+        lattice, Q, offsets, weights = lattice.moved(Q, offsets=offsets, weights=weights).solid, None, None, None
+    if not isinstance(lattice, Lattice):
+        raise TypeError(f"lattice must be a Lattice, not {type(lattice).__name__}")
     if "snap" in embed:
         embed["snap"] = library.real(embed["snap"], "snap")
     copy, parts = copied(mesh)

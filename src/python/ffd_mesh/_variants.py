@@ -60,7 +60,7 @@ def deform_one(lattice: Lattice, run: Run, embedding: Embedding, Q: Any, offsets
     made, numbers = _described(lattice, Q, offsets, None)
     source, out = lattice._source_and_out(embedding, points, out, None)
     lattice._check_same(embedding)
-    kept = _weigh(lattice, made, weights, weight, len(source))
+    kept = _weigh(lattice, made, arrays.apart(weights, out), arrays.apart(weight, out), len(source))
     if arrays.overlap(out, numbers):
         numbers = numbers.copy()
         made.values = arrays.address(numbers)
@@ -79,7 +79,7 @@ def deform(lattice: Lattice, run: Run, embedding: Embedding, Q: Any, offsets: An
     made, numbers = _described(lattice, Q, offsets, len(Q if Q is not None else offsets))
     source, _ = lattice._source_and_out(embedding, points, None, None)
     lattice._check_same(embedding)
-    kept = _weigh(lattice, made, weights, weight, len(source))
+    kept = _weigh(lattice, made, arrays.apart(weights, out), arrays.apart(weight, out), len(source))
     shape = (made.count, len(source), 3)
     given = np.empty(shape, source.dtype) if out is None else arrays.outputs(out, "out", shape)
     if out is not None and (arrays.overlap(given, source) or arrays.overlap(given, embedding.points)):
