@@ -127,6 +127,8 @@ static ffd_status add_grid_cell(volume_cells *cells, uint64_t origin, const uint
 ffd_status ffd_cells_grid(volume_cells *cells, uint64_t first, const uint64_t size[3], ffd_error *error)
 {
     uint64_t at[3], cell_size[3];
+    if (size[0] == 0 || size[1] == 0 || size[2] == 0)
+        return FFD_OK; /* the other sizes may be any */
     for (int a = 0; a < 3; a++)
         cell_size[a] = size[a] > 1 ? size[a] - 1 : size[a];
     for (at[2] = 0; at[2] < cell_size[2]; at[2]++)
