@@ -30,7 +30,9 @@ static ffd_status count_points(vtkxml_document *d, ffd_error *error)
     return ffd_volume_make_points(&d->volume, count, 0, error);
 }
 
-static ffd_status check_points(const vtkxml_document *d, const vtkxml_piece *piece, ffd_error *error)
+/* first: the first piece with points. */
+static ffd_status check_points(const vtkxml_document *d, const vtkxml_piece *first, const vtkxml_piece *piece,
+                               ffd_error *error)
 {
     const vtkxml_array *const array = &piece->points_array;
     const char *const name = d->volume.file.name;
@@ -40,7 +42,7 @@ static ffd_status check_points(const vtkxml_document *d, const vtkxml_piece *pie
     if (array->width != 3)
         return ffd_fail_line(error, FFD_E_INVALID, name, array->line, "the points have %zu components, not 3",
                              array->width);
-    if (array->type != d->pieces[0].points_array.type)
+    if (array->type != first->points_array.type)
         return ffd_fail_line(error, FFD_E_UNSUPPORTED, name, array->line,
                              "the pieces have points of different types");
     return FFD_OK;
@@ -63,6 +65,7 @@ static ffd_status read_vectors(vtkxml_document *d, const vtkxml_piece *piece, co
 static ffd_status read_points(vtkxml_document *d, ffd_error *error)
 {
     volume_document *const v = &d->volume;
+    const vtkxml_piece *first = NULL;
     TRY(count_points(d, error));
     if (d->turns) {
         v->file.directions = ffd_alloc(v->file.part.vertex_count, 3 * sizeof *v->file.directions);
@@ -73,7 +76,8 @@ static ffd_status read_points(vtkxml_document *d, ffd_error *error)
         const vtkxml_piece *const piece = &d->pieces[p];
         if (piece->points == 0)
             continue;
-        TRY(check_points(d, piece, error));
+        first = first ? first : piece;
+        TRY(check_points(d, first, piece, error));
         TRY(read_vectors(d, piece, &piece->points_array, "point", v->file.positions, error));
         v->point_type = piece->points_array.type;
         if (!d->turns)

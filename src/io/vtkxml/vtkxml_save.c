@@ -142,6 +142,19 @@ static ffd_status edit_offsets(edit_list *edits)
     return FFD_OK;
 }
 
+/* Whether several arrays have the data that an edit replaces. */
+static bool is_shared(const edit_list *edits, const edit *e)
+{
+    const vtkxml_document *const d = edits->d;
+    size_t arrays = 0;
+    for (size_t i = 0; i < d->placed_count && d->appended.first && e->first >= d->appended.first; i++) {
+        const uint64_t offset = d->placed[i].offset;
+        arrays += offset >= (uint64_t)(e->first - d->appended.first) &&
+                  offset < (uint64_t)(e->last - d->appended.first);
+    }
+    return arrays > 1;
+}
+
 static int compare_edits(const void *a, const void *b)
 {
     const edit *const x = a, *const y = b;
@@ -167,10 +180,10 @@ static ffd_status make_edits(edit_list *edits)
     TRY(edit_offsets(edits));
     if (edits->count > 1)
         qsort(edits->list, edits->count, sizeof *edits->list, compare_edits);
-    for (size_t i = 1; i < edits->count; i++)
-        if (edits->list[i].first < edits->list[i - 1].last)
+    for (size_t i = 0; i < edits->count; i++)
+        if (is_shared(edits, &edits->list[i]) || (i > 0 && edits->list[i].first < edits->list[i - 1].last))
             return ffd_fail_file(edits->error, FFD_E_UNSUPPORTED, file->name,
-                                 "two arrays that change share their data");
+                                 "several arrays share data that would change");
     return FFD_OK;
 }
 
