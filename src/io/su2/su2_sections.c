@@ -65,6 +65,17 @@ static ffd_status take_whole(finder *f, text_word key, uint64_t *number)
                         ffd_text_shown(word).text);
 }
 
+/* Moves past the line SEND_RECV= that a marker between two processors or periodic sides may have. */
+static void skip_send(finder *f)
+{
+    text_scan ahead = f->scan;
+    text_word key;
+    if (!ffd_su2_line(&ahead) || !take_key(&ahead, &key) || !ffd_text_is(key, "SEND_RECV"))
+        return;
+    ffd_text_next_line(&ahead);
+    f->scan = ahead;
+}
+
 /* Adds a section, whose lines follow, and moves past these. */
 static ffd_status add(finder *f, su2_kind kind, text_word key)
 {
@@ -73,6 +84,8 @@ static ffd_status add(finder *f, su2_kind kind, text_word key)
     uint64_t count;
     TRY(take_whole(f, key, &count));
     ffd_text_next_line(&f->scan);
+    if (kind == SU2_MARKER)
+        skip_send(f);
     if (!ffd_grow((void **)&s->list, &s->capacity, s->count + 1, sizeof *s->list))
         return ffd_fail_memory(f->error);
     s->list[s->count++] = (su2_section){kind, count, f->scan, f->tag, s->zones ? (size_t)s->zones - 1 : 0};
