@@ -2,6 +2,7 @@
 #ifndef FFD_CELLS_CELL_VIEW_H
 #define FFD_CELLS_CELL_VIEW_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -15,5 +16,10 @@ typedef struct cell_view {
     const uint32_t *words;
     size_t count; /* of words */
 } cell_view;
+
+static inline bool cell_is_polyhedron(const cell_view *cell)
+{
+    return cell->number == VTK_POLYHEDRON;
+}
 
 #endif

@@ -1,6 +1,7 @@
 #include "job/input/rigid_components.h"
 #include "base/memory/memory.h"
 #include "base/system/deadline.h"
+#include "mesh/cell_list.h"
 #include "mesh/model.h"
 #include "mesh/places.h"
 #include "mesh/twins.h"
@@ -109,6 +110,23 @@ end:
     return status;
 }
 
+/* Joins the points of each volume, those between corners too. */
+static ffd_status join_cells(const component_search *s, ffd_error *error)
+{
+    const mesh_cell_calls *const calls = s->document->format->cells;
+    const uint64_t count = calls ? calls->count(s->document) : 0;
+    for (uint64_t c = 0; c < count; c++) {
+        const cell_view cell = calls->get(s->document, c);
+        TRY(ffd_deadline_check_at((size_t)c, error));
+        if (cell.words && !cell_is_polyhedron(&cell))
+            join_all(s, cell.words, cell.count);
+        for (size_t at = 1; cell.words && cell_is_polyhedron(&cell) && at < cell.count;
+             at += 1 + (size_t)cell.words[at])
+            join_all(s, cell.words + at + 1, cell.words[at]);
+    }
+    return FFD_OK;
+}
+
 /* Numbers the components from *end on. */
 static ffd_status number(const component_search *s, uint32_t *end, ffd_error *error)
 {
@@ -136,6 +154,7 @@ static ffd_status search(const component_search *s, mesh_state state, int thread
     TRY_END(join_twins(s, faces.positions, threads, error));
     for (size_t f = 0; f < faces.face_count; f++)
         join_all(s, faces.corners + faces.start[f], faces.start[f + 1] - faces.start[f]);
+    TRY_END(join_cells(s, error));
     if (faces.lines > 0)
         TRY_END(join_lines(s, state, &budget, error));
     status = number(s, end, error);
