@@ -103,7 +103,7 @@ def commands_see_the_outer_faces(run):
             near(list(report[mesh][member].values()), list(report["m.obj"][member].values()), 1e-12, name)
     run.ffd("lattice", "new", mesh, "-o", "n.json")
     run.ffd("jacobian", mesh, "-l", "l.json", "-o", "j.npz")
-    run.ffd("fit", mesh, mesh, "-o", "f.json", lines=2)
+    run.ffd("fit", mesh, mesh, "-o", "f.json", lines=1)
     for page in ("v.png", "v.html"):
         run.ffd("view", mesh, "-l", "l.json", "-o", page, data=True)
     run.ffd("edit", mesh, "-o", "e.html", data=True)

@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "job/author/fit_input.h"
+#include "mesh/cell_list.h"
 #include "mesh/positions.h"
 
 /* The area of a face: of its projection to the plane that is nearest, which is right for one that is flat. */
@@ -57,6 +58,8 @@ ffd_status ffd_fit_area_weights(mesh_document *document, double *weights, bool *
     *are_there = false;
     for (size_t v = 0; v < count; v++)
         weights[v] = 0;
+    if (ffd_mesh_volumes(document) > 0)
+        return FFD_OK; /* most vertices are on no outer face */
     TRY_END(document->format->faces(document, MESH_STORED, &faces, error));
     for (size_t f = 0; f < faces.face_count; f++) {
         const double part = area_of(&faces, f) / 3;
