@@ -18,6 +18,7 @@ struct mesh_cell_calls {
     mesh_count_cells_function *volumes; /* of those of three dimensions */
     mesh_get_cell_function *get;
     mesh_cell_positions_function *positions;
+    mesh_faces_function *sides; /* of all cells, inside the mesh, too */
 };
 
 /* Returns how many volume cells a document has. */

@@ -2,10 +2,12 @@
 """Volume meshes: VTK's legacy files and those in XML, SU2, Gmsh, with readers of their own here: what deform changes in them, what the other
 commands say of them, and what is refused."""
 import base64
+import json
 import re
 import struct
 
 import volume_files as volume
+from messages import anything
 from harness import (INVALID, LIMIT, NO, UNSUPPORTED, USAGE, carried, case, check, equal, float32, lattice, main, near)
 
 BUMP = [{"at": [[1, 2], [1, 2], [1, 2]], "by": [0.5, 0.25, -0.125]}]
@@ -296,7 +298,7 @@ def commands_see_the_outer_faces(run):
         run.ffd("lattice", "new", name, "-o", name + ".json")
         run.ffd("view", name, "-l", "l.json", "-o", name + ".png", data=True)
         run.ffd("view", name, "-l", "l.json", "-o", name + ".html", data=True)
-    run.ffd("fit", "m.su2", "m.su2", "-o", "f.json", lines=2)
+    run.ffd("fit", "m.su2", "m.su2", "-o", "f.json", lines=1)
 
 
 def line_of(report, member):
@@ -577,6 +579,69 @@ BROKEN_SU2 = [
     ("NDIME= 3\nNPOIN= 1\n0 0 0\nNPOIN= 1\n0 0 0\n", INVALID, ":5: there are points twice in a zone"),
     ("NDIME= 3\nNDIME= 2\n", UNSUPPORTED, ":2: zones of two and of three dimensions"),
 ]
+
+
+def box_of(n):
+    """A VTK grid of n points a direction, at whole numbers."""
+    points = [[float(x), float(y), float(z)] for z in range(n) for y in range(n) for x in range(n)]
+    return volume.vtk_grid(points, kind="double", size=(n, n, n))
+
+
+@case
+def edges_inside_are_torn_and_held(run):
+    """A lattice round the eight innermost of 6^3 points cuts 24 edges, none of which is on an outer face."""
+    run.write("m.vtk", box_of(6))
+    run.write("l.json", lattice(size=(8, 8, 8), low=(1.5, 1.5, 1.5), high=(3.5, 3.5, 3.5), moves=[{"by": [0.3, 0, 0]}]))
+    for name in ("check", "deform"):
+        out = ["o.vtk"] if name == "deform" else []
+        run.ffd(name, "m.vtk", *out, "-l", "l.json", "--fail-on", "tear", "--report", "r.json", "--force", code=NO, err=re.compile("208 vertices stay"))
+        equal([json.loads(run.read("r.json"))["jobs"][0]["tear"][key] for key in ("edges", "largest")], [24, 0.3])
+    run.ffd("deform", "m.vtk", "o.vtk", "-l", "l.json", "--seam", "C1", "--fail-on", "tear", "--force",
+            err=lambda said: check("the mesh cuts 6 faces, held at C1: u- u+ v- v+ w- w+" in said[0], said))
+
+
+@case
+def cells_join_the_points_of_a_component(run):
+    """Those inside, and those between the corners of quadratic cells."""
+    run.write("l.json", lattice(low=(-1, -1, -1), high=(6, 6, 6), moves=[{"bend": {"axis": "x", "toward": "y", "degrees": 40}}]))
+    run.write("m.vtk", box_of(5))
+    tetra = [[0, 0, 0], [2, 0, 0], [0, 2, 0], [0, 0, 2], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]]
+    run.write("q.vtk", "# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 10 double\n" + volume.rows(tetra)
+              + "CELLS 1 11\n10 0 1 2 3 4 5 6 7 8 9\nCELL_TYPES 1\n24\n")
+    for name, data in (("p.vtk", volume.vtk_polyhedra()), ("m.vtk", None), ("q.vtk", None)):
+        if data:
+            run.write(name, data)
+        run.ffd("deform", name, "o.vtk", "-l", "l.json", "--rigid", "component", "--report", "r.json", "--force", "-q")
+        equal([part["pieces"] for part in json.loads(run.read("r.json"))["jobs"][0]["rigid"]], [1], name)
+
+
+@case
+def fits_count_the_points_inside(run):
+    run.write("m.vtk", box_of(6))
+    run.write("l.json", lattice(size=(8, 8, 8), low=(1.5, 1.5, 1.5), high=(3.5, 3.5, 3.5), moves=[{"by": [0.3, 0, 0]}]))
+    run.ffd("deform", "m.vtk", "n.vtk", "-l", "l.json", "-q")
+    run.ffd("fit", "m.vtk", "n.vtk", "--size", "4,4,4", "--within", "0.01", "-o", "f.json", code=NO, err=re.compile("no smoothing brings all pairs within 0.01"))
+
+
+@case
+def what_other_programs_write(run):
+    """A first piece without points and of another type; a marker between processors; a grid of nothing with large numbers."""
+    run.write("l.json", lattice(moves=BUMP))
+    made = volume.vtu(code="d").decode()
+    empty = ('<Piece NumberOfPoints="0" NumberOfCells="0"><Points><DataArray type="Float32" NumberOfComponents="3" format="ascii"/></Points>'
+             "</Piece>\n<Piece")
+    deformed(run, "m.vtu", made.replace("<Piece", empty, 1).encode(), err=anything)
+    after = deformed(run, "m.su2", volume.su2().replace(b"MARKER_ELEMS= 1\n", b"MARKER_ELEMS= 1\nSEND_RECV= 1\n", 1))
+    equal(volume.su2_points(after, 3), carried(run, volume.POINTS, "l.json"))
+    run.write("m.vts", '<VTKFile type="StructuredGrid" byte_order="LittleEndian"><StructuredGrid WholeExtent="0 -1 0 99999999 0 99999999">'
+                       '<Piece Extent="0 -1 0 99999999 0 99999999"><Points><DataArray type="Float32" NumberOfComponents="3" format="ascii"/>'
+                       "</Points></Piece></StructuredGrid></VTKFile>")
+    equal(run.ffd("info", "m.vts", "--json").json["contents"]["cells"], 0)
+    shared = 'type="Float32" NumberOfComponents="3" format="appended" offset="0"'
+    run.write("s.vtu", '<VTKFile type="UnstructuredGrid" byte_order="LittleEndian"><UnstructuredGrid><Piece NumberOfPoints="1" NumberOfCells="0">'
+                       f'<PointData><DataArray Name="same" {shared}/></PointData><Points><DataArray {shared}/></Points></Piece></UnstructuredGrid>'
+                       '<AppendedData encoding="base64">_' + base64.b64encode(struct.pack("<I3f", 12, 0.5, 0.5, 0.5)).decode() + "</AppendedData></VTKFile>")
+    run.ffd("deform", "s.vtu", "o.vtu", "-l", "l.json", code=UNSUPPORTED, err="s.vtu: several arrays share data that would change")
 
 
 @case

@@ -121,7 +121,7 @@ mesh_close_function ffd_volume_close;
 mesh_begin_results_function ffd_volume_begin_results;
 mesh_write_function ffd_volume_write;
 mesh_save_function ffd_volume_save;
-mesh_faces_function ffd_volume_faces;
+mesh_faces_function ffd_volume_faces, ffd_volume_sides;
 mesh_mixed_faces_function ffd_volume_mixed_faces;
 mesh_mark_used_function ffd_volume_mark_used;
 mesh_model_function ffd_volume_model;

@@ -25,6 +25,17 @@ static ffd_status visit_faces(const volume_document *d, surface_visitor *visit, 
                         : ffd_surface_visit(&d->cells, &d->file.base.budget, visit, context, error);
 }
 
+/* The edges of these join vertices inside, too. */
+static ffd_status visit_sides(const volume_document *d, surface_visitor *visit, void *context,
+                              ffd_error *error)
+{
+    return d->cells.volumes ? ffd_sides_visit(&d->cells, visit, context, error)
+                            : visit_faces(d, visit, context, error);
+}
+
+typedef ffd_status face_source(const volume_document *d, surface_visitor *visit, void *context,
+                               ffd_error *error);
+
 /* Numbers of cells of no and one dimension. */
 static void count_cells(const volume_document *d, mesh_faces *faces)
 {
@@ -76,8 +87,8 @@ static void fill_face(void *context, const uint32_t *corners, size_t count)
         ffd_filler_corner(filler, corners[c]);
 }
 
-static ffd_status fill_faces(const volume_document *d, face_counter *counter, mesh_faces *faces,
-                             ffd_error *error)
+static ffd_status fill_faces(const volume_document *d, face_source *source, face_counter *counter,
+                             mesh_faces *faces, ffd_error *error)
 {
     const mesh_document *const document = &d->file.base;
     *faces = (mesh_faces){.vertex_count = d->file.part.vertex_count, .face_count = counter->faces};
@@ -88,7 +99,7 @@ static ffd_status fill_faces(const volume_document *d, face_counter *counter, me
     TRY(ffd_mesh_faces_make(document, faces, counter->corners, error));
     ffd_vectors_read(d->file.positions, 0, faces->vertex_count, faces->positions);
     face_filler filler = {.faces = faces, .corners = counter->corners};
-    const ffd_status status = visit_faces(d, fill_face, &filler, error);
+    const ffd_status status = source(d, fill_face, &filler, error);
     if (status) {
         ffd_mesh_faces_free(faces);
         return status;
@@ -96,20 +107,32 @@ static ffd_status fill_faces(const volume_document *d, face_counter *counter, me
     return ffd_filler_end(&filler, d->file.name, error);
 }
 
-ffd_status ffd_volume_faces(const mesh_document *document, mesh_state state, mesh_faces *faces,
-                            ffd_error *error)
+static ffd_status make_faces(const volume_document *d, face_source *source, mesh_faces *faces,
+                             ffd_error *error)
 {
-    const volume_document *const d = ffd_volume_of(document);
     face_counter counter = {.marks = ffd_alloc_zero(d->file.part.vertex_count, 1)};
     ffd_status status;
-    (void)state;
     if (!counter.marks)
         return ffd_fail_memory(error);
-    TRY_END(visit_faces(d, count_face, &counter, error));
-    TRY_END(fill_faces(d, &counter, faces, error));
+    TRY_END(source(d, count_face, &counter, error));
+    TRY_END(fill_faces(d, source, &counter, faces, error));
 end:
     ffd_free(counter.marks);
     return status;
+}
+
+ffd_status ffd_volume_faces(const mesh_document *document, mesh_state state, mesh_faces *faces,
+                            ffd_error *error)
+{
+    (void)state;
+    return make_faces(ffd_volume_of(document), visit_faces, faces, error);
+}
+
+ffd_status ffd_volume_sides(const mesh_document *document, mesh_state state, mesh_faces *faces,
+                            ffd_error *error)
+{
+    (void)state;
+    return make_faces(ffd_volume_of(document), visit_sides, faces, error);
 }
 
 typedef struct mixed_list {
@@ -133,7 +156,7 @@ ffd_status ffd_volume_mixed_faces(const mesh_document *document, mesh_state stat
     ffd_status status;
     (void)state;
     *faces = (mesh_faces){.vertex_count = marks->vertices};
-    TRY_END(visit_faces(d, add_mixed, &mixed, error));
+    TRY_END(visit_sides(d, add_mixed, &mixed, error));
     TRY_END(ffd_face_lists_narrow(document, &mixed.list, 1, faces, error));
     ffd_file_document_fill_positions(&d->file, faces);
 end:

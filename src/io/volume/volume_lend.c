@@ -28,4 +28,4 @@ static const double *positions(const mesh_document *document, bool results)
     return results && file->new_positions ? file->new_positions : file->positions;
 }
 
-const mesh_cell_calls ffd_volume_cell_calls = {count, count_volumes, get, positions};
+const mesh_cell_calls ffd_volume_cell_calls = {count, count_volumes, get, positions, ffd_volume_sides};

@@ -227,3 +227,18 @@ end:
     ffd_free(s.slots);
     return status;
 }
+
+ffd_status ffd_sides_visit(const volume_cells *cells, surface_visitor *visit, void *context, ffd_error *error)
+{
+    for (size_t c = 0; c < cells->count; c++) {
+        size_t count;
+        const uint32_t *const words = ffd_cell_words(cells, c, &count);
+        const uint8_t dimension = ffd_cell_kind(cells->kinds[c])->dimension;
+        TRY(ffd_deadline_check_at(c, error));
+        if (dimension == 3)
+            visit_volume(cells->kinds[c], words, count, visit, context);
+        else if (dimension == 2)
+            visit_flat(cells->kinds[c], words, count, visit, context);
+    }
+    return FFD_OK;
+}

@@ -13,4 +13,9 @@ typedef void surface_visitor(void *context, const uint32_t *corners, size_t coun
 ffd_status ffd_surface_visit(const volume_cells *cells, const memory_budget *budget, surface_visitor *visit,
                              void *context, ffd_error *error);
 
+/* Visits the sides of all volumes, those between two of them from both, and all faces that are cells. Errors:
+   FFD_E_CANCELLED. */
+ffd_status ffd_sides_visit(const volume_cells *cells, surface_visitor *visit, void *context,
+                           ffd_error *error);
+
 #endif

@@ -8,6 +8,7 @@
 #include "job/measure/tears.h"
 #include "job/measure/weight_tears.h"
 #include "lattice/lattice.h"
+#include "mesh/cell_list.h"
 #include "mesh/mixed_faces.h"
 #include "mesh/selector.h"
 #include <inttypes.h>
@@ -272,7 +273,9 @@ static ffd_status read_and_count(deform_job *job, size_t planes, const figure_ar
     const mesh_format *const format = job->document->format;
     const vertex_marks marks = marks_of(job, planes);
     const bool all = some_may_not_move(job) || (is_asked_for(job) && job->chain.count > 1);
-    TRY(all ? format->faces(job->document, ffd_job_judged(job), &faces, error)
+    mesh_faces_function *const every =
+        ffd_mesh_volumes(job->document) > 0 ? format->cells->sides : format->faces;
+    TRY(all ? every(job->document, ffd_job_judged(job), &faces, error)
             : format->mixed_faces(job->document, ffd_job_judged(job), &marks, &faces, error));
     ffd_status status;
     TRY_END(ffd_mesh_faces_take(&faces, faces.start[faces.face_count], &budget, error));
@@ -299,9 +302,11 @@ static ffd_status find_torn(deform_job *job, figure_arrays *arrays, ffd_job_resu
         return FFD_OK;
     }
     mark_left(job);
-    if (arrays->has_faces && is_asked_for(job))
+    /* The faces of volumes are the outer ones: edges inside may be torn, too. */
+    const bool has_edges = arrays->has_faces && ffd_mesh_volumes(job->document) == 0;
+    if (has_edges && is_asked_for(job))
         return count_torn(job, &arrays->faces, planes, arrays, &arrays->budget, result, error);
-    if (arrays->has_faces)
+    if (has_edges)
         status = count_torn(job, &arrays->faces, planes, arrays, &arrays->budget, result, &own);
     else if (!is_asked_for(job) && count_vertices(job) > UNASKED_VERTICES)
         status =
