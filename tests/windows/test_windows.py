@@ -7,6 +7,7 @@ FFD is the program of this system, and LIBRARY is library.c for it, whose files 
 without wine, these tests are skipped. wine is not Windows: it keeps Linux's permissions, and lets mapped files be replaced.
 """
 
+import fcntl
 import json
 import os
 import pty
@@ -466,7 +467,10 @@ def main():
     os.environ.setdefault("WINEPREFIX", os.path.join(BUILD, "wine"))
     os.environ["WINEDEBUG"] = "-all"
     os.environ.pop("DISPLAY", None)
-    run("--version")
+    # The first one makes wine's folder, of which another that starts meanwhile finds half.
+    with open(os.path.join(BUILD, "wine.lock"), "w", encoding="ascii") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        run("--version")
     # While one program runs, wine need not begin anew for each.
     with tempfile.TemporaryDirectory() as folder, start("open", os.path.join(BUILD, "wine", "kept"), exe=HOLD):
         globals()["test_" + sys.argv[3]](folder)
