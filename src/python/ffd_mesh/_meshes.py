@@ -58,20 +58,20 @@ def deform_mesh(mesh: Any, lattice: Lattice | PlaneLattice, Q: ControlPoints | G
     Warnings are in the log "ffd_mesh" and in result.warnings: what the program would warn of, and that nothing moved.
     Raises TypeError for other kinds of meshes, ValueError for points of another shape, and `Error`. Threads may call it at the same time.
     """
-    if isinstance(lattice, PlaneLattice):
-        lattice, Q, offsets, weights = lattice.moved(Q, offsets=offsets, weights=weights).solid, None, None, None
-    if not isinstance(lattice, Lattice):
+    if not isinstance(lattice, (Lattice, PlaneLattice)):
         raise TypeError(f"lattice must be a Lattice, not {type(lattice).__name__}")
     if "snap" in embed:
         embed["snap"] = library.real(embed["snap"], "snap")
     copy, parts = copied(mesh)
     points = [arrays.vectors(part.points, "points") for part in parts]
     whole = np.concatenate(points) if len(points) > 1 else points[0] if points else np.empty((0, 3))
-    if lattice.needs_points:
+    if isinstance(lattice, Lattice) and lattice.needs_points:
         lattice = lattice.fit(whole)
-    lattice = lattice.moved(Q, offsets=offsets, weights=weights)
-    found, result = _deformed(lattice, whole, parts, with_result, progress, embed)
-    _carry(lattice, parts, points, found, normals, result, embed)
+    move: Any = lattice.moved  # of either: what it takes depends on the lattice
+    moved = move(Q, offsets=offsets, weights=weights)
+    solid: Lattice = moved.solid if isinstance(moved, PlaneLattice) else moved
+    found, result = _deformed(solid, whole, parts, with_result, progress, embed)
+    _carry(solid, parts, points, found, normals, result, embed)
     return (copy, result) if with_result else copy
 
 
