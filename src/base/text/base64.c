@@ -1,5 +1,6 @@
 #include "base/text/base64.h"
 #include <stdint.h>
+#include <string.h>
 
 #define NONE 64
 
@@ -72,4 +73,26 @@ void ffd_base64_encode(const unsigned char *bytes, size_t count, char *text)
         *text++ = left > 1 ? digits[bits >> 6 & 63] : '=';
         *text++ = left > 2 ? digits[bits & 63] : '=';
     }
+}
+
+size_t ffd_base64_take(const char **at, const char *last, unsigned char *bytes, size_t count)
+{
+    char four[4];
+    unsigned char three[6];
+    size_t done = 0, filled = 0, made;
+    while (done < count && *at < last && **at != '<') {
+        const char c = *(*at)++;
+        if (c == ' ' || c == '\n' || c == '\r' || c == '\t')
+            continue;
+        four[filled++] = c;
+        if (filled < 4)
+            continue;
+        filled = 0;
+        if (!ffd_base64_decode(four, 4, three, &made) || made == 0)
+            return done;
+        const size_t taken = made < count - done ? made : count - done;
+        memcpy(bytes + done, three, taken);
+        done += taken;
+    }
+    return done;
 }

@@ -16,6 +16,11 @@ static inline size_t ffd_base64_capacity(size_t size)
    within a byte. */
 bool ffd_base64_decode(const char *text, size_t size, unsigned char *bytes, size_t *count);
 
+/* Decodes up to count bytes of a text, moves *at behind what it has read, and returns their number. White
+   space is skipped. Each group of four characters may be the last one of a text, as where one follows
+   another. Stops before '<', at last, and at what is not base64. */
+size_t ffd_base64_take(const char **at, const char *last, unsigned char *bytes, size_t count);
+
 /* Returns the number of characters that encode count bytes, with padding. */
 static inline size_t ffd_base64_length(size_t count)
 {

@@ -18,37 +18,10 @@ typedef struct byte_source {
     const char *at, *last;
 } byte_source;
 
-/* Decodes up to count bytes of base64 and moves behind them; white space is skipped. Returns their number.
-   Each group of four characters may be the last one of a text. */
-static size_t decode(byte_source *from, unsigned char *bytes, size_t count)
-{
-    char four[4];
-    unsigned char three[6];
-    size_t done = 0, filled = 0, made;
-    while (done < count && from->at < from->last) {
-        const char c = *from->at;
-        if (c == '<')
-            return done;
-        from->at++;
-        if (c == ' ' || c == '\n' || c == '\r' || c == '\t')
-            continue;
-        four[filled++] = c;
-        if (filled < 4)
-            continue;
-        filled = 0;
-        if (!ffd_base64_decode(four, 4, three, &made) || made == 0)
-            return done;
-        const size_t taken = made < count - done ? made : count - done;
-        memcpy(bytes + done, three, taken);
-        done += taken;
-    }
-    return done;
-}
-
 static bool take(byte_source *from, unsigned char *bytes, size_t count)
 {
     if (!from->is_raw)
-        return decode(from, bytes, count) == count;
+        return ffd_base64_take(&from->at, from->last, bytes, count) == count;
     if ((size_t)(from->last - from->at) < count)
         return false;
     memcpy(bytes, from->at, count);

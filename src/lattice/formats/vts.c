@@ -259,30 +259,6 @@ typedef struct vts_bytes {
     text_word base64;
 } vts_bytes;
 
-/* Decodes up to count bytes of base64. Returns their number. text: is moved behind what was read; white space
-   is skipped. */
-static size_t decode(text_word *text, unsigned char *bytes, size_t count)
-{
-    char four[4];
-    unsigned char three[6];
-    size_t done = 0, filled = 0, made;
-    while (done < count && text->first < text->last) {
-        const char c = *text->first++;
-        if (c == ' ' || c == '\n' || c == '\r' || c == '\t')
-            continue;
-        four[filled++] = c;
-        if (filled < 4)
-            continue;
-        filled = 0;
-        if (!ffd_base64_decode(four, 4, three, &made) || made == 0)
-            return done;
-        const size_t taken = made < count - done ? made : count - done;
-        memcpy(bytes + done, three, taken);
-        done += taken;
-    }
-    return done;
-}
-
 /* Takes the next bytes. */
 static ffd_status take_bytes(const vts_reader *r, vts_bytes *from, unsigned char *bytes, size_t count)
 {
@@ -292,7 +268,7 @@ static ffd_status take_bytes(const vts_reader *r, vts_bytes *from, unsigned char
         from->raw += taken;
         from->size -= taken;
     } else
-        taken = decode(&from->base64, bytes, count);
+        taken = ffd_base64_take(&from->base64.first, from->base64.last, bytes, count);
     return taken == count ? FFD_OK : REFUSE(r, "ends within an array");
 }
 
