@@ -1,7 +1,6 @@
 #include "io/foam/foam_format.h"
 #include "base/memory/memory.h"
 #include "io/foam/foam_mesh.h"
-#include <float.h>
 #include <string.h>
 
 /* "(0 0 0)" */
@@ -136,22 +135,11 @@ static const mesh_sidecar_calls sidecars = {.list = ffd_foam_list_files, .list_i
 const mesh_format ffd_foam_format = {
     .format = FFD_FORMAT_FOAM,
     .name = "OpenFOAM",
-    .largest_coordinate = DBL_MAX,
-    .keeps_format = true,
     .open = open_foam,
     .close = ffd_volume_close,
-    .describe = ffd_volume_describe,
-    .compare = ffd_volume_compare,
-    .read = ffd_file_document_read,
-    .faces = ffd_volume_faces,
-    .mixed_faces = ffd_volume_mixed_faces,
-    .model = ffd_volume_model,
-    .begin_results = ffd_volume_begin_results,
-    .write = ffd_volume_write,
     .save = save,
-    .mark_used = ffd_volume_mark_used,
     .selectors = &ffd_volume_selectors,
-    .cells = &ffd_volume_cell_calls,
     .resources = &resources,
     .sidecars = &sidecars,
+    VOLUME_CALLS,
 };

@@ -1,7 +1,6 @@
 #include "io/msh/msh_format.h"
 #include "base/memory/memory.h"
 #include "io/msh/msh_reader.h"
-#include <float.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -143,20 +142,9 @@ static ffd_status open_msh(file_input *input, const ffd_source *source, mesh_doc
 const mesh_format ffd_msh_format = {
     .format = FFD_FORMAT_MSH,
     .name = "Gmsh",
-    .largest_coordinate = DBL_MAX,
-    .keeps_format = true,
     .open = open_msh,
     .close = ffd_volume_close,
-    .describe = ffd_volume_describe,
-    .compare = ffd_volume_compare,
-    .read = ffd_file_document_read,
-    .faces = ffd_volume_faces,
-    .mixed_faces = ffd_volume_mixed_faces,
-    .model = ffd_volume_model,
-    .begin_results = ffd_volume_begin_results,
-    .write = ffd_volume_write,
     .save = ffd_volume_save,
-    .mark_used = ffd_volume_mark_used,
     .selectors = &ffd_volume_selectors,
-    .cells = &ffd_volume_cell_calls,
+    VOLUME_CALLS,
 };

@@ -3,7 +3,6 @@
 #include "base/system/deadline.h"
 #include "io/su2/su2_sections.h"
 #include "io/volume/volume_document.h"
-#include <float.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -188,20 +187,9 @@ end:
 const mesh_format ffd_su2_format = {
     .format = FFD_FORMAT_SU2,
     .name = "SU2",
-    .largest_coordinate = DBL_MAX,
-    .keeps_format = true,
     .open = open_su2,
     .close = ffd_volume_close,
-    .describe = ffd_volume_describe,
-    .compare = ffd_volume_compare,
-    .read = ffd_file_document_read,
-    .faces = ffd_volume_faces,
-    .mixed_faces = ffd_volume_mixed_faces,
-    .model = ffd_volume_model,
-    .begin_results = ffd_volume_begin_results,
-    .write = ffd_volume_write,
     .save = ffd_volume_save,
-    .mark_used = ffd_volume_mark_used,
     .selectors = &ffd_volume_selectors,
-    .cells = &ffd_volume_cell_calls,
+    VOLUME_CALLS,
 };

@@ -13,6 +13,7 @@
 #include "io/volume/volume_cells.h"
 #include "mesh/selector.h"
 #include "mesh/weights.h"
+#include <float.h>
 #include <stdatomic.h>
 
 /* The most vertices: corners are 32-bit numbers. */
@@ -130,6 +131,14 @@ mesh_compare_function ffd_volume_compare;
 extern const mesh_selector_calls ffd_volume_selectors;
 extern const mesh_weight_calls ffd_volume_weights;
 extern const mesh_cell_calls ffd_volume_cell_calls;
+
+/* What the tables of all volume formats have alike. */
+#define VOLUME_CALLS                                                                                         \
+    .largest_coordinate = DBL_MAX, .keeps_format = true, .describe = ffd_volume_describe,                    \
+    .compare = ffd_volume_compare, .read = ffd_file_document_read, .faces = ffd_volume_faces,                \
+    .mixed_faces = ffd_volume_mixed_faces, .model = ffd_volume_model,                                        \
+    .begin_results = ffd_volume_begin_results, .write = ffd_volume_write, .mark_used = ffd_volume_mark_used, \
+    .cells = &ffd_volume_cell_calls
 
 /* Warns of what stays as it is although points have moved: arrays of vectors, and what `kept` names. */
 void ffd_volume_warn_kept(const volume_document *document, const mesh_log *log);

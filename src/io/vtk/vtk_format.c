@@ -1,6 +1,5 @@
 #include "io/vtk/vtk_format.h"
 #include "io/vtk/vtk_reader.h"
-#include <float.h>
 #include <inttypes.h>
 #include <stdio.h>
 
@@ -126,20 +125,9 @@ end:
 const mesh_format ffd_vtk_format = {
     .format = FFD_FORMAT_VTK,
     .name = "VTK",
-    .largest_coordinate = DBL_MAX,
-    .keeps_format = true,
     .open = open_vtk,
     .close = ffd_volume_close,
-    .describe = ffd_volume_describe,
-    .compare = ffd_volume_compare,
-    .read = ffd_file_document_read,
-    .faces = ffd_volume_faces,
-    .mixed_faces = ffd_volume_mixed_faces,
-    .model = ffd_volume_model,
-    .begin_results = ffd_volume_begin_results,
-    .write = ffd_volume_write,
     .save = ffd_volume_save,
-    .mark_used = ffd_volume_mark_used,
     .weights = &ffd_volume_weights,
-    .cells = &ffd_volume_cell_calls,
+    VOLUME_CALLS,
 };

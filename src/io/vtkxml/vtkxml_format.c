@@ -1,7 +1,6 @@
 #include "io/vtkxml/vtkxml_format.h"
 #include "base/memory/memory.h"
 #include "io/vtkxml/vtkxml_data.h"
-#include <float.h>
 #include <inttypes.h>
 
 /* A file is at least the thousandth part of what it holds: more cannot be compressed. */
@@ -152,11 +151,7 @@ static void close_grid(mesh_document *document)
 }
 
 #define CALLS                                                                                                \
-    .largest_coordinate = DBL_MAX, .is_xml = true, .keeps_format = true, .close = close_grid,                \
-    .describe = ffd_volume_describe, .compare = ffd_volume_compare, .read = ffd_file_document_read,          \
-    .faces = ffd_volume_faces, .mixed_faces = ffd_volume_mixed_faces, .model = ffd_volume_model,             \
-    .begin_results = ffd_volume_begin_results, .write = ffd_volume_write, .save = ffd_vtkxml_save,           \
-    .mark_used = ffd_volume_mark_used, .weights = &ffd_vtkxml_weights, .cells = &ffd_volume_cell_calls
+    VOLUME_CALLS, .is_xml = true, .close = close_grid, .save = ffd_vtkxml_save, .weights = &ffd_vtkxml_weights
 
 const mesh_format ffd_vtu_format = {.format = FFD_FORMAT_VTU, .name = "VTU", .open = open_vtu, CALLS};
 const mesh_format ffd_vtp_format = {.format = FFD_FORMAT_VTP, .name = "VTP", .open = open_vtp, CALLS};
